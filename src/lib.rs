@@ -1,0 +1,16 @@
+//! Real-time shadows for any wgpu engine.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub use {glam, wgpu};
+
+pub mod error;
+pub mod light;
+pub mod mesh;
+#[cfg(feature = "reference")]
+pub mod reference;
+pub mod view;
+
+pub use light::{HomogeneousLight, PointLight};
+pub use mesh::{Caster, CasterMesh, HostPositions};
+pub use view::{DepthConvention, View};

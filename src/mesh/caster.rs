@@ -1,0 +1,336 @@
+//! The GPU side of a mesh that casts shadows, and a caster: such a mesh somewhere in the world.
+
+use std::sync::Arc;
+
+use glam::{Affine3A, DAffine3, Vec3};
+use wgpu::util::DeviceExt as _;
+
+use super::{Adjacency, Bounds, MeshKind};
+use crate::error::{CasterError, CasterMeshError};
+
+/// Bytes of one position: three `f32`.
+const POSITION_SIZE: u64 = 12;
+
+/// A mesh that casts shadows, on the GPU. Cheap to clone: clones share the buffers.
+#[derive(Clone, Debug)]
+pub struct CasterMesh(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    device: wgpu::Device,
+    positions: wgpu::Buffer,
+    stride: u64,
+    offset: u64,
+    vertex_count: u32,
+    triangles: wgpu::Buffer,
+    triangle_count: u32,
+    edges: wgpu::Buffer,
+    edge_count: u32,
+    edge_uses: Option<wgpu::Buffer>,
+    edge_use_count: u32,
+    kind: MeshKind,
+    bounds: Bounds,
+}
+
+/// Positions that already lie in a vertex buffer of the host, read in place every frame.
+#[derive(Clone, Debug)]
+pub struct HostPositions<'a> {
+    /// The buffer; its usages must include `VERTEX` and `STORAGE`.
+    pub buffer: &'a wgpu::Buffer,
+    /// Bytes from one position to the next: a multiple of 4, at least 12.
+    pub stride: u64,
+    /// Bytes before the first position: a multiple of 4.
+    pub offset: u64,
+    /// A box in the mesh's space that encloses every position the mesh will ever have.
+    ///
+    /// What leaves it may be culled.
+    pub bounds: Bounds,
+}
+
+impl CasterMesh {
+    /// Uploads a mesh. `positions` are those the adjacency was built from.
+    ///
+    /// GPU memory: 12 bytes a vertex, 12 a triangle, 16 an edge, and for
+    /// [`MeshKind::General`] 4 for each use of an edge.
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if the counts differ, a position is not finite or a buffer would be
+    /// larger than the device's limits allow.
+    pub fn new<P: Copy + Into<[f32; 3]>>(
+        device: &wgpu::Device,
+        positions: &[P],
+        adjacency: &Adjacency,
+    ) -> Result<Self, CasterMeshError> {
+        if positions.len() as u64 != u64::from(adjacency.vertex_count()) {
+            return Err(CasterMeshError::PositionCount {
+                positions: positions.len(),
+                vertices: adjacency.vertex_count(),
+            });
+        }
+        let packed: Vec<[f32; 3]> = positions.iter().map(|&p| p.into()).collect();
+        if let Some(bad) = packed.iter().find(|p| !Vec3::from(**p).is_finite()) {
+            return Err(CasterMeshError::NotFinite {
+                what: "position",
+                value: *bad,
+            });
+        }
+        let bounds = Bounds::of_points(packed.iter().map(|&p| p.into())).unwrap_or(Bounds {
+            min: Vec3::ZERO,
+            max: Vec3::ZERO,
+        });
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let buffer = upload(device, "positions", &packed, usage)?;
+        Self::assemble(device, buffer, POSITION_SIZE, 0, bounds, adjacency)
+    }
+
+    /// Shares the host's own position buffer, so that a mesh that the host deforms there casts the
+    /// shadow of its present form. Vertices that were welded are read at the first of them: the
+    /// host must keep them together.
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if stride, offset, size, usages or bounds do not fit.
+    pub fn from_host_positions(
+        device: &wgpu::Device,
+        positions: &HostPositions<'_>,
+        adjacency: &Adjacency,
+    ) -> Result<Self, CasterMeshError> {
+        let HostPositions {
+            buffer,
+            stride,
+            offset,
+            bounds,
+        } = *positions;
+        if stride % 4 != 0 || offset % 4 != 0 || stride < POSITION_SIZE {
+            return Err(CasterMeshError::Layout { stride, offset });
+        }
+        let vertices = adjacency.vertex_count();
+        let span = u64::from(vertices.saturating_sub(1))
+            .checked_mul(stride)
+            .and_then(|span| span.checked_add(offset))
+            .and_then(|span| span.checked_add(POSITION_SIZE));
+        let needed = span.unwrap_or(u64::MAX);
+        if vertices > 0 && buffer.size() < needed {
+            return Err(CasterMeshError::BufferTooSmall {
+                size: buffer.size(),
+                needed,
+                vertices,
+            });
+        }
+        let usages = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let missing = usages - buffer.usage();
+        if !missing.is_empty() {
+            return Err(CasterMeshError::BufferUsage { missing });
+        }
+        check_size(device, "positions", buffer.size())?;
+        for corner in [bounds.min, bounds.max] {
+            if !corner.is_finite() {
+                return Err(CasterMeshError::NotFinite {
+                    what: "bounds",
+                    value: corner.to_array(),
+                });
+            }
+        }
+        Self::assemble(device, buffer.clone(), stride, offset, bounds, adjacency)
+    }
+
+    fn assemble(
+        device: &wgpu::Device,
+        positions: wgpu::Buffer,
+        stride: u64,
+        offset: u64,
+        bounds: Bounds,
+        adjacency: &Adjacency,
+    ) -> Result<Self, CasterMeshError> {
+        let storage = wgpu::BufferUsages::STORAGE;
+        let triangles = upload(
+            device,
+            "triangles",
+            adjacency.triangles(),
+            storage | wgpu::BufferUsages::INDEX,
+        )?;
+        let kind = adjacency.kind();
+        let uses = adjacency.edge_uses();
+        let records: Vec<[u32; 4]> = adjacency
+            .edges()
+            .iter()
+            .map(|edge| {
+                let [a, b] = edge.vertices;
+                match kind {
+                    MeshKind::Closed => {
+                        let first = edge.first_use as usize;
+                        [a, b, uses[first].triangle(), uses[first + 1].triangle()]
+                    }
+                    MeshKind::General => [a, b, edge.first_use, edge.use_count],
+                }
+            })
+            .collect();
+        let edges = upload(device, "edges", &records, storage)?;
+        let edge_uses = match kind {
+            MeshKind::Closed => None,
+            MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
+        };
+        Ok(Self(Arc::new(Inner {
+            device: device.clone(),
+            positions,
+            stride,
+            offset,
+            vertex_count: adjacency.vertex_count(),
+            triangles,
+            triangle_count: adjacency.triangles().len() as u32,
+            edges,
+            edge_count: records.len() as u32,
+            edge_uses,
+            edge_use_count: uses.len() as u32,
+            kind,
+            bounds,
+        })))
+    }
+
+    /// The rule its shadow volume follows.
+    pub fn kind(&self) -> MeshKind {
+        self.0.kind
+    }
+
+    /// Number of triangles that cast (those that collapsed in the weld do not).
+    pub fn triangle_count(&self) -> u32 {
+        self.0.triangle_count
+    }
+
+    /// Bounds in the mesh's own space.
+    pub fn bounds(&self) -> Bounds {
+        self.0.bounds
+    }
+
+    /// Number of vertices in the position buffer.
+    pub fn vertex_count(&self) -> u32 {
+        self.0.vertex_count
+    }
+
+    pub(crate) fn device(&self) -> &wgpu::Device {
+        &self.0.device
+    }
+
+    pub(crate) fn positions(&self) -> &wgpu::Buffer {
+        &self.0.positions
+    }
+
+    /// Stride and offset of the positions, in bytes.
+    pub(crate) fn layout(&self) -> (u64, u64) {
+        (self.0.stride, self.0.offset)
+    }
+
+    /// Three welded vertices a triangle, `u32`: index buffer and storage buffer.
+    pub(crate) fn triangles(&self) -> &wgpu::Buffer {
+        &self.0.triangles
+    }
+
+    /// Four `u32` an edge: two vertices, then for a closed mesh the triangle that runs from the
+    /// first to the second and the one that runs back; for a general mesh the first of its uses
+    /// and their number.
+    pub(crate) fn edges(&self) -> &wgpu::Buffer {
+        &self.0.edges
+    }
+
+    pub(crate) fn edge_count(&self) -> u32 {
+        self.0.edge_count
+    }
+
+    /// One `u32` a use, `triangle << 1 | reversed`; only for general meshes.
+    pub(crate) fn edge_uses(&self) -> Option<&wgpu::Buffer> {
+        self.0.edge_uses.as_ref()
+    }
+
+    pub(crate) fn edge_use_count(&self) -> u32 {
+        self.0.edge_use_count
+    }
+
+    /// A key that is equal for clones of one mesh and for no others.
+    pub(crate) fn key(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
+}
+
+fn upload<T: bytemuck::NoUninit>(
+    device: &wgpu::Device,
+    what: &'static str,
+    data: &[T],
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, CasterMeshError> {
+    check_size(device, what, size_of_val(data) as u64)?;
+    // A binding may not be empty, so an empty mesh still gets one zeroed element.
+    let empty = [0u8; 16];
+    let contents = if data.is_empty() {
+        &empty[..]
+    } else {
+        bytemuck::cast_slice(data)
+    };
+    Ok(
+        device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(&format!("shadows caster {what}")),
+            contents,
+            usage,
+        }),
+    )
+}
+
+fn check_size(device: &wgpu::Device, what: &'static str, size: u64) -> Result<(), CasterMeshError> {
+    let limits = device.limits();
+    for (limit_name, limit) in [
+        ("max_buffer_size", limits.max_buffer_size),
+        (
+            "max_storage_buffer_binding_size",
+            limits.max_storage_buffer_binding_size,
+        ),
+    ] {
+        if size > limit {
+            return Err(CasterMeshError::TooLarge {
+                what,
+                size,
+                limit_name,
+                limit,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A mesh somewhere in the world. Many casters may share one mesh.
+#[derive(Clone, Debug)]
+pub struct Caster {
+    /// The mesh.
+    pub mesh: CasterMesh,
+    /// Any affine map from the mesh's space to world space: scale, shear and mirror included.
+    pub world_from_object: Affine3A,
+}
+
+impl Caster {
+    /// A mesh under a transform.
+    pub fn new(mesh: CasterMesh, world_from_object: Affine3A) -> Self {
+        Self {
+            mesh,
+            world_from_object,
+        }
+    }
+
+    /// The transform in f64 (bit for bit the same numbers).
+    pub(crate) fn transform(&self) -> DAffine3 {
+        let m = self.world_from_object;
+        DAffine3::from_cols(
+            m.matrix3.x_axis.as_dvec3(),
+            m.matrix3.y_axis.as_dvec3(),
+            m.matrix3.z_axis.as_dvec3(),
+            m.translation.as_dvec3(),
+        )
+    }
+
+    /// Checks what every pass needs of a caster.
+    pub(crate) fn validate(&self, index: usize, device: &wgpu::Device) -> Result<(), CasterError> {
+        if self.mesh.device() != device {
+            return Err(CasterError::Device { index });
+        }
+        if !self.world_from_object.is_finite() {
+            return Err(CasterError::NotFinite { index });
+        }
+        Ok(())
+    }
+}

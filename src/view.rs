@@ -1,0 +1,239 @@
+//! The host's camera, as far as shadows need it: one matrix and its depth convention.
+
+use glam::{DMat4, DVec3, DVec4, Mat4, Vec4Swizzles};
+
+use crate::error::ViewError;
+
+/// How the host's projection maps distance to depth.
+///
+/// WebGPU's clip space is `0 <= z <= w`, y up. Right-handed or left-handed view spaces both work:
+/// only the product `clip_from_world` counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DepthConvention {
+    /// 1 at the near plane, 0 at infinity: clip z is `near` for every point. The convention to
+    /// choose where there is a choice (Lengyel, "Projection Matrix Tricks", 2007; Upchurch and
+    /// Desbrun, 2012): a vertex at infinity lands at exactly z = 0 and nothing is clipped far.
+    #[default]
+    InfiniteReverse,
+    /// 1 at the near plane, 0 at a finite far plane. Shadow volumes then need the device feature
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL).
+    FiniteReverse,
+    /// 0 at the near plane, 1 at the far plane. Shadow volumes then need the device feature
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL).
+    Standard,
+}
+
+impl DepthConvention {
+    /// The comparison by which a fragment strictly nearer than the stored depth passes.
+    pub fn nearer(self) -> wgpu::CompareFunction {
+        match self {
+            Self::Standard => wgpu::CompareFunction::Less,
+            Self::InfiniteReverse | Self::FiniteReverse => wgpu::CompareFunction::Greater,
+        }
+    }
+
+    /// The comparison by which a fragment as near as the stored depth, or nearer, passes.
+    pub fn nearer_or_equal(self) -> wgpu::CompareFunction {
+        match self {
+            Self::Standard => wgpu::CompareFunction::LessEqual,
+            Self::InfiniteReverse | Self::FiniteReverse => wgpu::CompareFunction::GreaterEqual,
+        }
+    }
+
+    /// The depth that means "nothing drawn here", to clear a depth buffer with.
+    pub fn clear_depth(self) -> f32 {
+        match self {
+            Self::Standard => 1.0,
+            Self::InfiniteReverse | Self::FiniteReverse => 0.0,
+        }
+    }
+
+    /// Whether what lies beyond the far plane would be clipped without
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL).
+    pub fn clips_far(self) -> bool {
+        self != Self::InfiniteReverse
+    }
+
+    /// +1 if a larger depth is farther away, -1 if it is nearer.
+    pub(crate) fn away(self) -> i32 {
+        match self {
+            Self::Standard => 1,
+            Self::InfiniteReverse | Self::FiniteReverse => -1,
+        }
+    }
+}
+
+/// The host's camera for one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    clip_from_world: Mat4,
+    depth: DepthConvention,
+    eye: DVec4,
+    near_corners: [DVec3; 4],
+}
+
+impl View {
+    /// A view from the product of the host's projection and view matrices (column vectors:
+    /// `clip = clip_from_world * world`), perspective or orthographic, off-centre or not.
+    ///
+    /// # Errors
+    /// [`ViewError`] if an entry is not finite, if the matrix is singular, or if its z row is not
+    /// that of `depth`.
+    pub fn new(clip_from_world: Mat4, depth: DepthConvention) -> Result<Self, ViewError> {
+        if !clip_from_world.is_finite() {
+            return Err(ViewError::NotFinite(clip_from_world.to_cols_array()));
+        }
+        let matrix = clip_from_world.as_dmat4();
+        let (x, y, z, w) = (matrix.row(0), matrix.row(1), matrix.row(2), matrix.row(3));
+        if !maps_depth(z, w, depth) {
+            return Err(ViewError::Depth(depth));
+        }
+        let eye = null_vector(x, y, w);
+        if !eye.is_finite() || eye == DVec4::ZERO {
+            return Err(ViewError::Singular);
+        }
+        let near_corners = near_corners(matrix, depth).ok_or(ViewError::Singular)?;
+        Ok(Self {
+            clip_from_world,
+            depth,
+            eye,
+            near_corners,
+        })
+    }
+
+    /// The matrix the view was made from.
+    pub fn clip_from_world(&self) -> Mat4 {
+        self.clip_from_world
+    }
+
+    /// The depth convention the view was made with.
+    pub fn depth(&self) -> DepthConvention {
+        self.depth
+    }
+
+    /// The eye in homogeneous world coordinates, up to a factor: `w = 0` for an orthographic view.
+    pub fn eye(&self) -> DVec4 {
+        self.eye
+    }
+
+    /// The corners of the near rectangle in world space: x, y of clip space (-1,-1), (1,-1),
+    /// (1,1), (-1,1).
+    pub fn near_corners(&self) -> [DVec3; 4] {
+        self.near_corners
+    }
+
+    /// A sphere around the near rectangle: centre and radius in world space.
+    ///
+    /// Every ray along which the host sees something starts inside it.
+    pub fn near_sphere(&self) -> (DVec3, f64) {
+        let centre = self.near_corners.iter().sum::<DVec3>() / 4.0;
+        let radius = self
+            .near_corners
+            .iter()
+            .map(|corner| corner.distance(centre))
+            .fold(0.0, f64::max);
+        (centre, radius)
+    }
+}
+
+/// Whether the z row belongs to the convention, judged from how depth changes along the view.
+///
+/// For a perspective matrix z = a w + b with b < 0 where depth grows with distance and b > 0 where
+/// it shrinks; a = 0 exactly where the far plane is at infinity and depth is reversed.
+fn maps_depth(z: DVec4, w: DVec4, depth: DepthConvention) -> bool {
+    if w.xyz() == DVec3::ZERO {
+        // Orthographic: the sign of the z row depends on handedness, which nobody told us.
+        return depth != DepthConvention::InfiniteReverse;
+    }
+    let a = z.xyz().dot(w.xyz()) / w.xyz().length_squared();
+    let b = z.w - a * w.w;
+    match depth {
+        DepthConvention::InfiniteReverse => z.xyz() == DVec3::ZERO && b > 0.0,
+        DepthConvention::FiniteReverse => b > 0.0,
+        DepthConvention::Standard => b < 0.0,
+    }
+}
+
+/// The vector orthogonal to three others in four dimensions (their generalised cross product).
+fn null_vector(a: DVec4, b: DVec4, c: DVec4) -> DVec4 {
+    let minor = |p: fn(DVec4) -> DVec3| p(a).dot(p(b).cross(p(c)));
+    DVec4::new(
+        minor(|v| v.yzw()),
+        -minor(|v| v.xzw()),
+        minor(|v| v.xyw()),
+        -minor(|v| v.xyz()),
+    )
+}
+
+fn near_corners(clip_from_world: DMat4, depth: DepthConvention) -> Option<[DVec3; 4]> {
+    let world_from_clip = clip_from_world.inverse();
+    let near = f64::from(1.0 - depth.clear_depth());
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, y)| world_from_clip * DVec4::new(x, y, near, 1.0))
+        .map(|corner| corner.xyz() / corner.w);
+    corners.iter().all(|c| c.is_finite()).then_some(corners)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    fn look_at() -> Mat4 {
+        Mat4::look_at_rh(Vec3::new(0.0, 9.0, 16.0), Vec3::new(0.0, 0.5, 0.0), Vec3::Y)
+    }
+
+    #[test]
+    fn the_eye_is_found_in_the_matrix() {
+        let projection = Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1);
+        let view = View::new(projection * look_at(), DepthConvention::InfiniteReverse).unwrap();
+        let eye = view.eye().xyz() / view.eye().w;
+        assert!(eye.distance(DVec3::new(0.0, 9.0, 16.0)) < 1e-5, "{eye}");
+        let (centre, radius) = view.near_sphere();
+        assert!((centre.distance(eye) - 0.1).abs() < 1e-5);
+        let half_height = 0.1 * (0.4_f64).tan();
+        assert!((radius - half_height * (1.0_f64 + 1.5 * 1.5).sqrt()).abs() < 1e-5);
+    }
+
+    #[test]
+    fn an_orthographic_eye_is_at_infinity() {
+        let projection = Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+        let view = View::new(projection * look_at(), DepthConvention::Standard).unwrap();
+        assert!(view.eye().w.abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wrong_convention_is_named() {
+        let infinite = Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1) * look_at();
+        let standard = Mat4::perspective_rh(0.8, 1.5, 0.1, 100.0) * look_at();
+        let reverse = Mat4::perspective_rh(0.8, 1.5, 100.0, 0.1) * look_at();
+        use DepthConvention as D;
+        assert!(View::new(standard, D::Standard).is_ok());
+        assert!(View::new(reverse, D::FiniteReverse).is_ok());
+        for (matrix, wrong) in [
+            (infinite, D::Standard),
+            (standard, D::InfiniteReverse),
+            (standard, D::FiniteReverse),
+            (reverse, D::Standard),
+            (reverse, D::InfiniteReverse),
+        ] {
+            assert_eq!(View::new(matrix, wrong), Err(ViewError::Depth(wrong)));
+        }
+    }
+
+    #[test]
+    fn a_bad_matrix_is_refused() {
+        let mut matrix = Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1);
+        matrix.x_axis.x = 0.0;
+        assert_eq!(
+            View::new(matrix, DepthConvention::InfiniteReverse),
+            Err(ViewError::Singular)
+        );
+        matrix.x_axis.x = f32::NAN;
+        assert!(matches!(
+            View::new(matrix, DepthConvention::InfiniteReverse),
+            Err(ViewError::NotFinite(_))
+        ));
+    }
+}
