@@ -9,8 +9,10 @@ pub mod light;
 pub mod mesh;
 #[cfg(feature = "reference")]
 pub mod reference;
+pub mod support;
 pub mod view;
 
 pub use light::{HomogeneousLight, PointLight};
 pub use mesh::{Caster, CasterMesh, HostPositions};
+pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

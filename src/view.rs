@@ -177,16 +177,17 @@ fn near_corners(clip_from_world: DMat4, depth: DepthConvention) -> Option<[DVec3
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
+    use glam::camera::rh::{proj::directx as proj, view};
 
     use super::*;
 
     fn look_at() -> Mat4 {
-        Mat4::look_at_rh(Vec3::new(0.0, 9.0, 16.0), Vec3::new(0.0, 0.5, 0.0), Vec3::Y)
+        view::look_at_mat4(Vec3::new(0.0, 9.0, 16.0), Vec3::new(0.0, 0.5, 0.0), Vec3::Y)
     }
 
     #[test]
     fn the_eye_is_found_in_the_matrix() {
-        let projection = Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1);
+        let projection = proj::perspective_infinite_reverse(0.8, 1.5, 0.1);
         let view = View::new(projection * look_at(), DepthConvention::InfiniteReverse).unwrap();
         let eye = view.eye().xyz() / view.eye().w;
         assert!(eye.distance(DVec3::new(0.0, 9.0, 16.0)) < 1e-5, "{eye}");
@@ -198,16 +199,16 @@ mod tests {
 
     #[test]
     fn an_orthographic_eye_is_at_infinity() {
-        let projection = Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+        let projection = proj::orthographic(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
         let view = View::new(projection * look_at(), DepthConvention::Standard).unwrap();
         assert!(view.eye().w.abs() < 1e-12);
     }
 
     #[test]
     fn a_wrong_convention_is_named() {
-        let infinite = Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1) * look_at();
-        let standard = Mat4::perspective_rh(0.8, 1.5, 0.1, 100.0) * look_at();
-        let reverse = Mat4::perspective_rh(0.8, 1.5, 100.0, 0.1) * look_at();
+        let infinite = proj::perspective_infinite_reverse(0.8, 1.5, 0.1) * look_at();
+        let standard = proj::perspective(0.8, 1.5, 0.1, 100.0) * look_at();
+        let reverse = proj::perspective(0.8, 1.5, 100.0, 0.1) * look_at();
         use DepthConvention as D;
         assert!(View::new(standard, D::Standard).is_ok());
         assert!(View::new(reverse, D::FiniteReverse).is_ok());
@@ -224,7 +225,7 @@ mod tests {
 
     #[test]
     fn a_bad_matrix_is_refused() {
-        let mut matrix = Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1);
+        let mut matrix = proj::perspective_infinite_reverse(0.8, 1.5, 0.1);
         matrix.x_axis.x = 0.0;
         assert_eq!(
             View::new(matrix, DepthConvention::InfiniteReverse),

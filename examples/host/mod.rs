@@ -1,0 +1,4 @@
+//! A small host: what the examples, the tests and the benches share. Not part of the library.
+#![allow(dead_code)] // each of them uses its own part
+
+pub mod gpu;

@@ -1,0 +1,193 @@
+//! What an adapter offers, what of it is worth asking for, and what is used where it is missing.
+
+use std::fmt;
+
+use wgpu::{DownlevelFlags, Features, Limits};
+
+/// The abilities of an adapter that matter to shadows.
+///
+/// Everything in this crate runs at WebGPU's default limits without any feature; each field that
+/// is `false` costs what its [`Fallback`] says.
+///
+/// ```
+/// # fn host(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+/// # use shadows::wgpu;
+/// let support = shadows::Support::of_adapter(adapter);
+/// wgpu::DeviceDescriptor {
+///     required_features: support.features(),
+///     required_limits: support.limits(),
+///     ..Default::default()
+/// }
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Support {
+    /// Cube array textures: the maps of several point lights in one binding.
+    pub cube_arrays: bool,
+    /// Depth clip control: shadow volumes under projections with a finite far plane.
+    pub depth_clip_control: bool,
+    /// `Depth32FloatStencil8`: stencil beside float depth.
+    pub depth32float_stencil8: bool,
+    /// Multiview with any mask of six views: all cube faces in one pass.
+    pub multiview: bool,
+    /// Blending in `R32Float`: counters that never wrap.
+    pub float32_blending: bool,
+    /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
+    pub vertex_storage: bool,
+    /// Compute shaders with indirect draws: silhouettes found on the GPU.
+    pub compute: bool,
+    limits: Limits,
+}
+
+/// What is missing from an adapter and what is done instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fallback {
+    /// The missing ability.
+    pub missing: &'static str,
+    /// What is used in its place.
+    pub instead: &'static str,
+}
+
+impl fmt::Display for Fallback {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no {}: {}", self.missing, self.instead)
+    }
+}
+
+/// The features that make sense together for six views at once.
+const MULTIVIEW: Features = Features::MULTIVIEW.union(Features::SELECTIVE_MULTIVIEW);
+
+/// Compute is of use only together with indirect draws.
+const COMPUTE: DownlevelFlags =
+    DownlevelFlags::COMPUTE_SHADERS.union(DownlevelFlags::INDIRECT_EXECUTION);
+
+impl Support {
+    /// Asks an adapter, before the host creates its device.
+    pub fn of_adapter(adapter: &wgpu::Adapter) -> Self {
+        Self::new(
+            adapter.features(),
+            adapter.limits(),
+            adapter.get_downlevel_capabilities().flags,
+        )
+    }
+
+    fn new(features: Features, limits: Limits, downlevel: DownlevelFlags) -> Self {
+        Self {
+            cube_arrays: downlevel.contains(DownlevelFlags::CUBE_ARRAY_TEXTURES),
+            depth_clip_control: features.contains(Features::DEPTH_CLIP_CONTROL),
+            depth32float_stencil8: features.contains(Features::DEPTH32FLOAT_STENCIL8),
+            multiview: features.contains(MULTIVIEW) && limits.max_multiview_view_count >= 6,
+            float32_blending: features.contains(Features::FLOAT32_BLENDABLE),
+            vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
+                && limits.max_storage_buffers_per_shader_stage >= 4,
+            compute: downlevel.contains(COMPUTE),
+            limits,
+        }
+    }
+
+    /// The features to ask for; never more than the adapter has.
+    pub fn features(&self) -> Features {
+        [
+            (self.depth_clip_control, Features::DEPTH_CLIP_CONTROL),
+            (self.depth32float_stencil8, Features::DEPTH32FLOAT_STENCIL8),
+            (self.multiview, MULTIVIEW),
+            (self.float32_blending, Features::FLOAT32_BLENDABLE),
+        ]
+        .into_iter()
+        .filter(|(offered, _)| *offered)
+        .fold(Features::empty(), |all, (_, feature)| all | feature)
+    }
+
+    /// The limits to ask for: WebGPU's defaults (less where the adapter has less), with room for
+    /// large meshes and for six views at once where the adapter has it.
+    pub fn limits(&self) -> Limits {
+        let offered = &self.limits;
+        let views = if self.multiview { 6 } else { 0 };
+        Limits {
+            max_buffer_size: offered.max_buffer_size,
+            max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+            max_texture_dimension_2d: offered.max_texture_dimension_2d,
+            max_multiview_view_count: views,
+            ..Limits::defaults().or_worse_values_from(offered)
+        }
+    }
+
+    /// What is missing, and what is done instead. Empty where everything is there.
+    pub fn fallbacks(&self) -> Vec<Fallback> {
+        [
+            (
+                self.cube_arrays,
+                "cube array textures",
+                "one cube texture and one bind group for each light",
+            ),
+            (
+                self.depth_clip_control,
+                "DEPTH_CLIP_CONTROL",
+                "shadow volumes need an infinite reverse-Z projection; others are refused",
+            ),
+            (
+                self.depth32float_stencil8,
+                "Depth32FloatStencil8",
+                "Depth24PlusStencil8 for the host's depth-stencil buffer",
+            ),
+            (
+                self.multiview,
+                "MULTIVIEW with SELECTIVE_MULTIVIEW",
+                "one pass for each cube face",
+            ),
+            (
+                self.float32_blending,
+                "FLOAT32_BLENDABLE",
+                "the 8-bit stencil counts volumes modulo 256",
+            ),
+            (
+                self.vertex_storage,
+                "storage buffers in vertex shaders",
+                "cube shadow maps only; ShadowVolumeRenderer::new is refused",
+            ),
+            (
+                self.compute,
+                "compute shaders with indirect draws",
+                "cube shadow maps only; ShadowVolumeRenderer::new is refused",
+            ),
+        ]
+        .into_iter()
+        .filter(|(offered, ..)| !offered)
+        .map(|(_, missing, instead)| Fallback { missing, instead })
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bare_adapter_asks_for_nothing_and_says_what_it_does_instead() {
+        let limits = Limits::downlevel_webgl2_defaults();
+        let support = Support::new(Features::empty(), limits, DownlevelFlags::empty());
+        assert_eq!(support.features(), Features::empty());
+        assert_eq!(support.fallbacks().len(), 7);
+        assert!(support.limits().max_storage_buffers_per_shader_stage == 0);
+    }
+
+    #[test]
+    fn a_full_adapter_lacks_nothing() {
+        let limits = Limits {
+            max_multiview_view_count: 32,
+            ..Limits::defaults()
+        };
+        let support = Support::new(Features::all(), limits, DownlevelFlags::all());
+        assert!(support.fallbacks().is_empty());
+        assert_eq!(support.limits().max_multiview_view_count, 6);
+        assert!(support.features().contains(Features::MULTIVIEW));
+        assert!(!support.features().contains(Features::TIMESTAMP_QUERY));
+    }
+
+    #[test]
+    fn multiview_needs_six_views() {
+        let support = Support::new(Features::all(), Limits::defaults(), DownlevelFlags::all());
+        assert!(!support.multiview);
+        assert!(!support.features().contains(Features::MULTIVIEW));
+    }
+}
