@@ -2,13 +2,14 @@
 # one on Debian and Ubuntu only if none is, and elsewhere says what to install.
 
 have_driver() {
-    # A loadable libvulkan and at least one driver manifest whose library exists.
+    # A loader, and the manifest of at least one driver.
     ldconfig -p 2>/dev/null | grep -q 'libvulkan\.so\.1' || return 1
     [ -n "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] && return 0
-    ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json \
-        /usr/local/share/vulkan/icd.d/*.json >/dev/null 2>&1 ||
-        [ -n "$(find /usr/share/vulkan/icd.d /etc/vulkan/icd.d /usr/local/share/vulkan/icd.d \
-            -name '*.json' 2>/dev/null)" ]
+    for manifest in /usr/share/vulkan/icd.d/*.json /usr/local/share/vulkan/icd.d/*.json \
+        /etc/vulkan/icd.d/*.json; do
+        [ -e "$manifest" ] && return 0
+    done
+    return 1
 }
 
 need_driver() {
