@@ -193,3 +193,46 @@ pub enum CasterError {
         index: usize,
     },
 }
+
+/// A field of [`Bias`](crate::Bias) that is out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("bias {field} = {value}; pass a finite number of texels, at least 0")]
+pub struct BiasError {
+    /// The field.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f32,
+}
+
+/// What can be wrong with a [`CubeShadowMap`](crate::CubeShadowMap).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CubeShadowMapError {
+    /// The size of a face is 0 or over the device's limit.
+    #[error("a face of {size} texels is out of range; 1 to {limit} (max_texture_dimension_2d)")]
+    Size {
+        /// Texels along a face.
+        size: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The light is out of range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// More casters than one buffer of the device can hold.
+    #[error("{instances} casters on faces need {size} bytes, max_buffer_size is {limit}")]
+    TooManyCasters {
+        /// Casters, each counted once for every face it touches.
+        instances: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
+    },
+}
