@@ -253,7 +253,7 @@ impl Shadow {
             Means::Volume { renderer, .. } => {
                 let statistics = renderer.statistics();
                 Cost {
-                    bytes: statistics.bytes,
+                    bytes: statistics.gpu_bytes,
                     draws: statistics.draws.into(),
                     triangles: statistics.triangles,
                 }
