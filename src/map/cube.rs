@@ -76,6 +76,7 @@ pub struct CubeShadowMap {
     size: u32,
     bias: Bias,
     label: String,
+    texture: wgpu::Texture,
     cube: wgpu::TextureView,
     faces: [wgpu::TextureView; 6],
     shader: wgpu::ShaderModule,
@@ -146,6 +147,7 @@ impl CubeShadowMap {
             bias,
             cube: resources::cube_view(&texture, &label),
             faces: CubeFace::ALL.map(|face| resources::face_view(&texture, &label, face)),
+            texture,
             shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(&label),
                 source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CASTER.into()),
@@ -192,7 +194,8 @@ impl CubeShadowMap {
             });
         }
         if size > self.instances.size() {
-            self.instances = resources::instances(device, &self.label, count.next_power_of_two());
+            let room = (count.next_power_of_two() as u64).min(limit / INSTANCE_SIZE);
+            self.instances = resources::instances(device, &self.label, room);
         }
         self.make_pipelines(device, &groups);
         self.record_draws(queue, groups);
@@ -266,6 +269,11 @@ impl CubeShadowMap {
     pub fn clip_from_world(&self, face: CubeFace) -> Option<Mat4> {
         let light = self.light?;
         Some(face.clip_from_light(light.near) * Mat4::from_translation(-light.position))
+    }
+
+    /// The texture: `Depth32Float`, six layers in the order of [`CubeFace::ALL`].
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.texture
     }
 
     /// The map as a cube texture, for hosts that sample it themselves.

@@ -55,11 +55,11 @@ pub(super) fn light_uniform(device: &wgpu::Device, label: &str) -> wgpu::Buffer 
     )
 }
 
-pub(super) fn instances(device: &wgpu::Device, label: &str, count: usize) -> wgpu::Buffer {
+pub(super) fn instances(device: &wgpu::Device, label: &str, count: u64) -> wgpu::Buffer {
     buffer(
         device,
         &format!("{label} instances"),
-        count as u64 * INSTANCE_SIZE,
+        count * INSTANCE_SIZE,
         wgpu::BufferUsages::VERTEX,
     )
 }

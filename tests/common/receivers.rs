@@ -1,0 +1,106 @@
+//! Visibility of given points, read by a compute shader through the crate's own WGSL: no camera,
+//! no rasteriser between the point that is asked for and the answer.
+
+use shadows::glam::Vec3;
+use shadows::{CubeShadowMap, Kernel, PcfDescriptor, PcfSampler, wgpu};
+use wgpu::util::DeviceExt as _;
+
+use crate::host::gpu::Gpu;
+
+const SHADER: &str = "
+@group(0) @binding(0) var<storage, read> points: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> visibility: array<f32>;
+@compute @workgroup_size(64)
+fn ask(@builtin(global_invocation_id) id: vec3u) {
+    if id.x < arrayLength(&visibility) {
+        visibility[id.x] =
+            shadows_visibility_flat(points[2 * id.x].xyz, points[2 * id.x + 1].xyz);
+    }
+}
+";
+
+/// Visibility of points with geometric normals.
+pub fn visibility(
+    gpu: &Gpu,
+    map: &CubeShadowMap,
+    kernel: Kernel,
+    points: &[(Vec3, Vec3)],
+) -> Vec<f32> {
+    let device = &gpu.device;
+    let sampler = PcfSampler::new(
+        device,
+        &PcfDescriptor {
+            label: None,
+            kernel,
+        },
+    );
+    let data: Vec<[f32; 8]> = points
+        .iter()
+        .map(|(p, n)| [p.x, p.y, p.z, 0.0, n.x, n.y, n.z, 0.0])
+        .collect();
+    let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: None,
+        contents: bytemuck::cast_slice(&data),
+        usage: wgpu::BufferUsages::STORAGE,
+    });
+    let output = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 4 * points.len() as u64,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    });
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl((sampler.wgsl_module(1) + SHADER).into()),
+    });
+    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &[entry(0, true), entry(1, false)],
+    });
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &[Some(&layout), Some(sampler.bind_group_layout())],
+        immediate_size: 0,
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: Some(&pipeline_layout),
+        module: &module,
+        entry_point: Some("ask"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry {
+                binding: 0,
+                resource: input.as_entire_binding(),
+            },
+            wgpu::BindGroupEntry {
+                binding: 1,
+                resource: output.as_entire_binding(),
+            },
+        ],
+    });
+    let map_group = sampler.bind_group(device, map);
+    gpu.run(|encoder| {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.set_bind_group(1, &map_group, &[]);
+        pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
+    });
+    bytemuck::pod_collect_to_vec(&gpu.read_buffer(&output))
+}

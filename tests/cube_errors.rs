@@ -1,0 +1,147 @@
+//! Bad input to `CubeShadowMap`: a typed error that names it, and the map usable afterwards.
+
+mod common;
+
+use common::shapes::cuboid;
+use common::{noop, noop_with};
+use glam::{Affine3A, Vec3};
+use shadows::error::{CasterError, CubeShadowMapError, LightError};
+use shadows::{
+    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, glam, wgpu,
+};
+
+fn descriptor(size: u32) -> CubeShadowMapDescriptor<'static> {
+    CubeShadowMapDescriptor {
+        size,
+        ..Default::default()
+    }
+}
+
+#[test]
+fn sizes_out_of_range_are_refused() {
+    let (device, _) = noop();
+    for size in [0, 8193, u32::MAX] {
+        let error = CubeShadowMap::new(&device, &descriptor(size)).unwrap_err();
+        assert_eq!(error, CubeShadowMapError::Size { size, limit: 8192 });
+    }
+    CubeShadowMap::new(&device, &descriptor(1)).unwrap();
+    CubeShadowMap::new(&device, &descriptor(8192)).unwrap();
+}
+
+#[test]
+fn a_bad_bias_is_refused() {
+    let (device, _) = noop();
+    let bias = Bias {
+        constant: f32::INFINITY,
+        ..Bias::default()
+    };
+    let error = CubeShadowMap::new(
+        &device,
+        &CubeShadowMapDescriptor {
+            bias,
+            ..Default::default()
+        },
+    )
+    .unwrap_err();
+    assert!(matches!(error, CubeShadowMapError::Bias(b) if b.field == "constant"));
+}
+
+#[test]
+fn bad_frames_are_refused_and_the_map_goes_on() {
+    let (device, queue) = noop();
+    let mut map = CubeShadowMap::new(&device, &descriptor(64)).unwrap();
+    let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
+    let good = [cuboid(Vec3::ONE).caster(&device, Affine3A::from_translation(Vec3::X * 4.0))];
+    let frame = CubeFrame {
+        light: &light,
+        casters: &good,
+    };
+    map.prepare(&device, &queue, &frame).unwrap();
+    let before = map.statistics();
+
+    let bad_light = PointLight {
+        range: f32::NAN,
+        ..light
+    };
+    let error = map
+        .prepare(
+            &device,
+            &queue,
+            &CubeFrame {
+                light: &bad_light,
+                ..frame
+            },
+        )
+        .unwrap_err();
+    assert!(matches!(
+        error,
+        CubeShadowMapError::Light(LightError::Range(_))
+    ));
+
+    let bent = Caster::new(
+        good[0].mesh.clone(),
+        Affine3A::from_translation(Vec3::splat(f32::NAN)),
+    );
+    let (other_device, _) = noop();
+    let foreign = cuboid(Vec3::ONE).caster(&other_device, Affine3A::IDENTITY);
+    for (caster, expected) in [
+        (bent, CasterError::NotFinite { index: 1 }),
+        (foreign, CasterError::Device { index: 1 }),
+    ] {
+        let casters = [good[0].clone(), caster];
+        let error = map
+            .prepare(
+                &device,
+                &queue,
+                &CubeFrame {
+                    light: &light,
+                    casters: &casters,
+                },
+            )
+            .unwrap_err();
+        assert_eq!(error, CubeShadowMapError::Caster(expected));
+    }
+    assert_eq!(map.statistics(), before, "a refused frame changes nothing");
+    map.prepare(&device, &queue, &frame).unwrap();
+    let mut encoder = device.create_command_encoder(&Default::default());
+    map.encode(&mut encoder);
+    queue.submit([encoder.finish()]);
+}
+
+#[test]
+fn more_casters_than_a_buffer_holds_are_refused() {
+    let limits = wgpu::Limits {
+        max_buffer_size: 4096,
+        max_storage_buffer_binding_size: 4096,
+        max_uniform_buffer_binding_size: 4096,
+        ..wgpu::Limits::defaults()
+    };
+    let (device, queue) = noop_with(wgpu::Features::empty(), limits);
+    let mut map = CubeShadowMap::new(&device, &descriptor(64)).unwrap();
+    let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
+    let one = cuboid(Vec3::splat(0.1)).caster(&device, Affine3A::from_translation(Vec3::X * 4.0));
+    let casters = vec![one; 86];
+    let error = map
+        .prepare(
+            &device,
+            &queue,
+            &CubeFrame {
+                light: &light,
+                casters: &casters,
+            },
+        )
+        .unwrap_err();
+    assert_eq!(
+        error,
+        CubeShadowMapError::TooManyCasters {
+            instances: 86,
+            size: 86 * 48,
+            limit: 4096
+        }
+    );
+    let frame = CubeFrame {
+        light: &light,
+        casters: &casters[..85],
+    };
+    map.prepare(&device, &queue, &frame).unwrap();
+}

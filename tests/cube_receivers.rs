@@ -1,0 +1,270 @@
+//! What receivers see: no acne, no gap at a contact, no seam, whatever the size and scale.
+
+mod common;
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[path = "common/receivers.rs"]
+mod receivers;
+
+use common::rays::Triangles;
+use common::shapes::{Random, cuboid, square};
+use glam::{Affine3A, DVec3, Vec3};
+use host::gpu::Gpu;
+use receivers::visibility;
+use shadows::{
+    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, PointLight, glam,
+};
+
+fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster]) -> CubeShadowMap {
+    let descriptor = CubeShadowMapDescriptor {
+        label: None,
+        size,
+        bias,
+    };
+    gpu.checked(|| {
+        let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
+        let frame = CubeFrame { light, casters };
+        map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+        gpu.run(|encoder| map.encode(encoder));
+        map
+    })
+}
+
+/// Points of a plane through the origin that casts its own shadow map, seen at cosines from 1 down
+/// to 0.01, the plane turned against the faces of the cube.
+struct Plane {
+    light: PointLight,
+    caster: Caster,
+    points: Vec<(Vec3, Vec3)>,
+}
+
+fn plane(gpu: &Gpu, scale: f32, turn: f32) -> Plane {
+    let rotation = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), turn);
+    let world = Affine3A::from_scale(Vec3::splat(scale)) * rotation;
+    let normal = rotation.transform_vector3(Vec3::Y);
+    let mut random = Random::new(11);
+    let points = (0..4000)
+        .map(|_| {
+            // Cosine 1 / sqrt(1 + r^2) from 1 down to 0.01, evenly in its logarithm.
+            let cosine = 10.0_f32.powf(-1.0 - random.next());
+            let radius = (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt();
+            let (sine, cosine) = (random.next() * 3.15).sin_cos();
+            let point = Vec3::new(radius * cosine, 0.0, radius * sine);
+            (world.transform_point3(point), normal)
+        })
+        .collect();
+    Plane {
+        light: PointLight::new(
+            world.transform_point3(Vec3::Y),
+            0.002 * scale,
+            200.0 * scale,
+        ),
+        caster: square(150.0).caster(&gpu.device, world),
+        points,
+    }
+}
+
+fn shadowed(gpu: &Gpu, plane: &Plane, size: u32, bias: Bias, kernel: Kernel) -> usize {
+    let casters = [plane.caster.clone()];
+    let map = map(gpu, size, bias, &plane.light, &casters);
+    visibility(gpu, &map, kernel, &plane.points)
+        .iter()
+        .filter(|&&v| v < 1.0)
+        .count()
+}
+
+#[test]
+fn a_flat_receiver_has_no_acne_at_any_angle_size_and_scale() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut without_bias = 0;
+    for (scale, turn) in [(1.0, 0.0), (1.0, 0.4), (1e-4, 1.1), (1e5, 2.3)] {
+        let plane = plane(&gpu, scale, turn);
+        for size in [64, 256, 1024, 4096] {
+            for kernel in Kernel::ALL {
+                let acne = shadowed(&gpu, &plane, size, Bias::default(), kernel);
+                assert_eq!(
+                    acne, 0,
+                    "scale {scale}, turn {turn}, size {size}, {kernel:?}"
+                );
+            }
+            without_bias += shadowed(&gpu, &plane, size, Bias::NONE, Kernel::Bilinear);
+        }
+    }
+    // The broken twin: without bias, rounding alone puts receivers in their own shadow.
+    assert!(without_bias > 1000, "{without_bias}");
+}
+
+#[test]
+fn a_box_on_the_floor_lets_no_light_in_at_the_contact() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let light = PointLight::new(Vec3::new(-3.0, 2.0, 0.1), 0.05, 30.0);
+    let floor = square(10.0).caster(&gpu.device, Affine3A::IDENTITY);
+    let cube = cuboid(Vec3::splat(0.5)).caster(
+        &gpu.device,
+        Affine3A::from_translation(Vec3::new(0.0, 0.5, 0.0)),
+    );
+    let casters = [floor, cube];
+    for size in [256, 1024] {
+        // On the floor behind the box, as near to its far side as two texels and as far as two
+        // texels from where the shadow ends sideways.
+        let texel = 2.0 / size as f32 * 3.5;
+        let points: Vec<_> = (0..400)
+            .map(|i| {
+                let t = i as f32 / 400.0;
+                let x = 0.5 + 2.0 * texel * (1.0 + t);
+                (Vec3::new(x, 0.0, 0.6 * (t * 97.0).fract() - 0.3), Vec3::Y)
+            })
+            .collect();
+        for kernel in Kernel::ALL {
+            let map = map(&gpu, size, Bias::default(), &light, &casters);
+            let lit = visibility(&gpu, &map, kernel, &points);
+            assert!(lit.iter().all(|&v| v == 0.0), "{size} {kernel:?}");
+        }
+        // The broken twin: an absolute bias as textbooks have it, here 0.15 at a distance of 3.5.
+        let bias = Bias {
+            constant: 0.15 * size as f32 / 2.0,
+            ..Bias::NONE
+        };
+        let map = map(&gpu, size, bias, &light, &casters);
+        let lit = visibility(&gpu, &map, Kernel::Bilinear, &points);
+        assert!(lit.iter().any(|&v| v > 0.5));
+    }
+}
+
+/// Receivers on a sphere around the light, some behind small casters.
+struct Shell {
+    light: PointLight,
+    casters: Vec<Caster>,
+    truth: Triangles,
+}
+
+const SHELL: f32 = 10.0;
+
+fn shell(gpu: &Gpu, seed: u64) -> Shell {
+    let mut random = Random::new(seed);
+    let light = PointLight::new(random.vec3(), 0.1, 30.0);
+    let shape = cuboid(Vec3::new(1.0, 0.6, 0.8));
+    let mesh = shape.mesh(&gpu.device);
+    let mut truth = Triangles::default();
+    let casters = (0..120)
+        .map(|_| {
+            let direction = random.vec3().normalize();
+            let transform = Affine3A::from_translation(light.position + direction * 5.0)
+                * Affine3A::from_axis_angle(random.vec3().normalize(), 3.0 * random.next());
+            truth.add(&shape.positions, &shape.indices, transform);
+            Caster::new(mesh.clone(), transform)
+        })
+        .collect();
+    Shell {
+        light,
+        casters,
+        truth,
+    }
+}
+
+/// Wrong and asked-for points among those on the shell whose surroundings all see the same.
+fn errors(
+    gpu: &Gpu,
+    shell: &Shell,
+    map: &CubeShadowMap,
+    kernel: Kernel,
+    directions: &[Vec3],
+) -> (usize, usize) {
+    let origin = shell.light.position.as_dvec3();
+    let blocked = |direction: DVec3| shell.truth.nearest(origin, direction).is_some();
+    // The same answer within 1.5 texels and the kernel's radius: an interior point.
+    let reach = f64::from(1.5 + kernel.radius()) * 2.0 / f64::from(map.size());
+    let interior: Vec<(Vec3, bool)> = directions
+        .iter()
+        .filter_map(|&direction| {
+            let d = direction.as_dvec3() / f64::from(direction.abs().max_element());
+            let truth = blocked(d);
+            let (a, b) = d.normalize().any_orthonormal_pair();
+            let alike = (0..48).all(|i| {
+                let (sine, cosine) = (f64::from(i) * 0.3927).sin_cos();
+                let radius = reach * f64::from(1 + i / 16) / 3.0 * 3.0_f64.sqrt();
+                blocked(d + radius * (a * cosine + b * sine)) == truth
+            });
+            alike.then_some((direction, truth))
+        })
+        .collect();
+    let points: Vec<(Vec3, Vec3)> = interior
+        .iter()
+        .map(|(direction, _)| (shell.light.position + *direction * SHELL, *direction))
+        .collect();
+    let seen = visibility(gpu, map, kernel, &points);
+    let wrong = interior
+        .iter()
+        .zip(seen)
+        .filter(|((_, blocked), seen)| *seen != if *blocked { 0.0 } else { 1.0 })
+        .count();
+    (wrong, interior.len())
+}
+
+/// Directions around all 12 edges and 8 corners of the cube, within some texels.
+fn near_seams(size: u32) -> Vec<Vec3> {
+    let mut random = Random::new(3);
+    let width = 8.0 / size as f32;
+    (0..6000)
+        .map(|i| {
+            let sign = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
+            let off = 1.0 + width * random.next();
+            let along = if i & 64 == 0 {
+                random.next()
+            } else {
+                sign(4) * (1.0 + width * random.next())
+            };
+            let edge = Vec3::new(sign(1), sign(2) * off, along);
+            match i % 3 {
+                0 => edge,
+                1 => Vec3::new(edge.z, edge.x, edge.y),
+                _ => Vec3::new(edge.y, edge.z, edge.x),
+            }
+            .normalize()
+        })
+        .collect()
+}
+
+#[test]
+fn edges_and_corners_of_the_cube_show_no_seam() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let size = 512;
+    for seed in [1, 2] {
+        let shell = shell(&gpu, seed);
+        let map = map(&gpu, size, Bias::default(), &shell.light, &shell.casters);
+        for kernel in Kernel::ALL {
+            let (wrong, asked) = errors(&gpu, &shell, &map, kernel, &near_seams(size));
+            assert!(asked > 3000, "{asked}");
+            assert_eq!(wrong, 0, "{kernel:?}, seed {seed}, of {asked}");
+        }
+        // The broken twin: the same map asked for a light that is a little elsewhere.
+        let moved = Shell {
+            light: PointLight {
+                position: shell.light.position + Vec3::splat(0.1),
+                ..shell.light
+            },
+            ..shell
+        };
+        let (wrong, _) = errors(&gpu, &moved, &map, Kernel::Bilinear, &near_seams(size));
+        assert!(wrong > 10, "{wrong}");
+    }
+}
+
+#[test]
+fn beyond_the_range_nothing_is_lit() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
+    let map = map(&gpu, 64, Bias::default(), &light, &[]);
+    let at = |distance: f32| (Vec3::X * distance, Vec3::X);
+    let points = [
+        at(10.0_f32.next_down()),
+        at(10.0),
+        at(10.0_f32.next_up()),
+        at(1e30),
+        at(0.0),
+    ];
+    for kernel in Kernel::ALL {
+        let seen = visibility(&gpu, &map, kernel, &points);
+        assert_eq!(seen, [1.0, 1.0, 0.0, 0.0, 1.0], "{kernel:?}");
+    }
+}
