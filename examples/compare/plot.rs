@@ -10,10 +10,10 @@ use crate::measure::Measured;
 const SIZE: (u32, u32) = (880, 560);
 const FONT: &str = "sans-serif";
 /// Pixels from a mark's middle to its label.
-const GAP: i32 = 15;
+const GAP: i32 = 13;
 const LINE_HEIGHT: i32 = 20;
 /// About that of the labels' font, to keep labels apart.
-const CHARACTER_WIDTH: i32 = 9;
+const CHARACTER_WIDTH: i32 = 8;
 const DIAMOND: [(i32, i32); 4] = [(0, -10), (10, 0), (0, 10), (-10, 0)];
 
 /// Colours that people with any common colour blindness tell apart (Okabe and Ito, "Color Universal
@@ -104,48 +104,78 @@ fn draw_marks(
     (left, right): (f64, f64),
     bottom: f64,
 ) -> std::result::Result<(), Failure> {
-    let mut labels: Vec<(i32, i32)> = Vec::new();
+    let places = marks.iter();
+    let points: Vec<(f64, f64)> = places
+        .map(|mark| (mark.time.clamp(left, right), mark.error.max(bottom)))
+        .collect();
+    let area = chart.plotting_area();
+    let (xs, _) = area.get_pixel_range();
+    let pixels: Vec<(i32, i32)> = points.iter().map(|p| area.map_coordinate(p)).collect();
+    let mut taken: Vec<Box2> = pixels.iter().map(|&p| Box2::around(p, GAP, GAP)).collect();
     for (place, mark) in marks.iter().enumerate() {
-        let point = (mark.time.clamp(left, right), mark.error.max(bottom));
-        draw_shape(chart, place, point)?;
+        draw_shape(chart, place, points[place])?;
         let text = mark.label();
-        // On the side with room, and not on top of another label.
-        let to_right = point.0 * point.0 < left * right;
-        let width = text.len() as i32 * CHARACTER_WIDTH;
-        let (x, y) = chart.plotting_area().map_coordinate(&point);
-        let start = if to_right { x + GAP } else { x - GAP - width };
-        let mut rise = 0;
-        while labels
-            .iter()
-            .any(|l| (l.0 - start).abs() < width && (l.1 - (y - rise)).abs() < LINE_HEIGHT)
-        {
-            rise += LINE_HEIGHT;
-        }
-        labels.push((start, y - rise));
-        draw_label(chart, point, text, to_right, rise)?;
+        let half = text.len() as i32 * CHARACTER_WIDTH / 2;
+        let offset = free_offset(pixels[place], half, &xs, &taken);
+        let middle = (pixels[place].0 + offset.0, pixels[place].1 + offset.1);
+        taken.push(Box2::around(middle, half, LINE_HEIGHT / 2));
+        let style = TextStyle::from((FONT, 17).into_font())
+            .color(&BLACK)
+            .pos(Pos::new(HPos::Center, VPos::Center));
+        chart.draw_series([EmptyElement::at(points[place]) + Text::new(text, offset, style)])?;
     }
     Ok(())
 }
 
-fn draw_label(
-    chart: &mut Plot<'_, '_>,
-    point: (f64, f64),
-    text: String,
-    to_right: bool,
-    rise: i32,
-) -> std::result::Result<(), Failure> {
-    let (side, offset) = if to_right {
-        (HPos::Left, GAP)
-    } else {
-        (HPos::Right, -GAP)
-    };
-    let style = TextStyle::from((FONT, 17).into_font())
-        .color(&BLACK)
-        .pos(Pos::new(side, VPos::Center));
-    chart.draw_series(std::iter::once(
-        EmptyElement::at(point) + Text::new(text, (offset, -rise), style),
-    ))?;
-    Ok(())
+/// A box of pixels.
+#[derive(Clone, Copy)]
+struct Box2 {
+    min: (i32, i32),
+    max: (i32, i32),
+}
+
+impl Box2 {
+    fn around((x, y): (i32, i32), half_width: i32, half_height: i32) -> Self {
+        Self {
+            min: (x - half_width, y - half_height),
+            max: (x + half_width, y + half_height),
+        }
+    }
+
+    fn overlaps(&self, other: &Self) -> bool {
+        let apart = self.max.0 <= other.min.0
+            || other.max.0 <= self.min.0
+            || self.max.1 <= other.min.1
+            || other.max.1 <= self.min.1;
+        !apart
+    }
+}
+
+/// Where a label goes, from its mark: right, left, above or below, whichever is free first, else
+/// ever farther above.
+fn free_offset(
+    mark: (i32, i32),
+    half: i32,
+    xs: &std::ops::Range<i32>,
+    taken: &[Box2],
+) -> (i32, i32) {
+    let aside = GAP + half;
+    let step = GAP + LINE_HEIGHT / 2;
+    let near = [(aside, 0), (-aside, 0), (0, -step), (0, step)];
+    let corners = [(aside, -step), (-aside, -step), (aside, step), (-aside, step)];
+    let above = (2..).map(|n| (0, -n * step));
+    let mut offsets = near.into_iter().chain(corners).chain(above);
+    let free = offsets.find(|offset| {
+        let label = Box2::around(
+            (mark.0 + offset.0, mark.1 + offset.1),
+            half,
+            LINE_HEIGHT / 2,
+        );
+        // Above a mark at the picture's edge nothing would ever fit.
+        let inside = label.min.0 >= xs.start && label.max.0 <= xs.end;
+        (inside || offset.1 < -step) && !taken.iter().any(|other| label.overlaps(other))
+    });
+    free.unwrap_or((aside, 0))
 }
 
 fn draw_shape(
@@ -154,13 +184,13 @@ fn draw_shape(
     point: (f64, f64),
 ) -> std::result::Result<(), Failure> {
     let style = COLORS[place % COLORS.len()].filled();
-    let shape = match place % 4 {
-        0 => Circle::new(point, 8, style).into_dyn(),
-        1 => TriangleMarker::new(point, 10, style).into_dyn(),
-        2 => (EmptyElement::at(point) + Rectangle::new([(-7, -7), (7, 7)], style)).into_dyn(),
-        _ => (EmptyElement::at(point) + Polygon::new(DIAMOND.to_vec(), style)).into_dyn(),
-    };
-    chart.draw_series(std::iter::once(shape))?;
+    let at = EmptyElement::at(point);
+    match place % 4 {
+        0 => drop(chart.draw_series([Circle::new(point, 8, style)])?),
+        1 => drop(chart.draw_series([TriangleMarker::new(point, 11, style)])?),
+        2 => drop(chart.draw_series([at + Rectangle::new([(-7, -7), (7, 7)], style)])?),
+        _ => drop(chart.draw_series([at + Polygon::new(DIAMOND, style)])?),
+    }
     Ok(())
 }
 
