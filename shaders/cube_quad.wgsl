@@ -2,6 +2,13 @@
 // its own direction, then weighted. (A hardware compare tap has one reference for all four, which
 // on a slope is wrong for three of them.) `corner` is the texel corner that the four share.
 
+// Exactly 1 where all four are 1, which weights that are rounded one by one do not give.
+fn shadows_blend(a: f32, b: f32, c: f32, d: f32, weight: vec2f) -> f32 {
+    let top = a + (b - a) * weight.x;
+    let bottom = c + (d - c) * weight.x;
+    return top + (bottom - top) * weight.y;
+}
+
 fn shadows_cube_quad(
     map: texture_cube<f32>,
     map_sampler: sampler,
@@ -10,7 +17,6 @@ fn shadows_cube_quad(
     corner: vec2f,
     weight: vec2f,
 ) -> f32 {
-    let low = 1.0 - weight;
     if all(corner >= vec2f(1.0)) && all(corner <= vec2f(size - 1.0)) {
         let step = 2.0 / size;
         let uv = corner * step - 1.0;
@@ -26,14 +32,12 @@ fn shadows_cube_quad(
             + vec4f(-across, across, across, -across)
             + vec4f(down, down, -down, -down);
         let lit = select(vec4f(0.0), vec4f(1.0), max(reference, vec4f(0.0)) >= stored);
-        let share = vec4f(low.x, weight.x, weight.x, low.x)
-            * vec4f(weight.y, weight.y, low.y, low.y);
-        return dot(lit, share);
+        return shadows_blend(lit.w, lit.z, lit.x, lit.y, weight);
     }
     let first = corner - 1.0;
     let a = shadows_cube_texel(map, map_sampler, receiver, size, first);
     let b = shadows_cube_texel(map, map_sampler, receiver, size, first + vec2f(1.0, 0.0));
     let c = shadows_cube_texel(map, map_sampler, receiver, size, first + vec2f(0.0, 1.0));
     let d = shadows_cube_texel(map, map_sampler, receiver, size, first + vec2f(1.0, 1.0));
-    return mix(mix(a, b, weight.x), mix(c, d, weight.x), weight.y);
+    return shadows_blend(a, b, c, d, weight);
 }

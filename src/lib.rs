@@ -1,4 +1,129 @@
-//! Real-time shadows for any wgpu engine.
+//! Real-time shadows for any engine on wgpu 30.
+//!
+//! The host owns the window, the device, the frame graph and the meshes. This crate takes its
+//! device, its meshes and its lights, and hands back bind groups, WGSL and render passes. It never
+//! creates a device, submits, polls or blocks, and it holds nothing but shadow textures, pipelines
+//! and scratch buffers.
+//!
+//! | | what it is | what it is for |
+//! |---|---|---|
+//! | [`CubeShadowMap`] | depth of the casters on six cube faces | point lights, soft edges, many receivers |
+//! | [`PcfSampler`] | the kernels by which receivers read a map | one tap to sixteen texels, no acne, no seams |
+//! | [`ShadowVolumeRenderer`] | stencil shadow volumes | exact to the pixel, point and directional lights |
+//! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes need to know of a mesh; any triangles will do |
+//! | `reference` (feature) | exact visibility by casting rays in f64 | the error of all of the above |
+//!
+//! Each type has the same three verbs: `new` for what never changes, `prepare` once a frame for
+//! what the CPU decides, `encode` (into the host's encoder) or `render` (into the host's pass) for
+//! the GPU.
+//!
+//! # A host, complete
+//!
+//! One triangle above a floor, its shadow both ways. This runs on wgpu's driverless device; a real
+//! host differs in how it comes by its device.
+//!
+//! ```
+//! use shadows::glam::{Affine3A, Mat4, Vec3, camera::rh};
+//! use shadows::mesh::Adjacency;
+//! use shadows::{wgpu, *};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let (device, queue) = wgpu::Device::noop(&Default::default());
+//! // Once a mesh: who is whose neighbour, then the GPU's copy.
+//! let positions = [[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
+//! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
+//! let mesh = CasterMesh::new(&device, &positions, &adjacency)?;
+//! let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
+//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 0.1, 30.0);
+//!
+//! // A shadow map, and how shaders read it.
+//! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
+//! let sampler = PcfSampler::new(&device, &PcfDescriptor::default());
+//! let group = sampler.bind_group(&device, &map);
+//! let lighting = sampler.wgsl_module(1)
+//!     + "@fragment fn light(@location(0) world: vec3f) -> @location(0) vec4f {
+//!            return vec4f(shadows_visibility(world)); // times the light's colour
+//!        }";
+//! let lighting = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+//!     label: None,
+//!     source: wgpu::ShaderSource::Wgsl(lighting.into()),
+//! });
+//!
+//! // Shadow volumes for a depth-stencil buffer that the host has filled with its scene.
+//! let mut volumes = ShadowVolumeRenderer::new(
+//!     &device,
+//!     &ShadowVolumeDescriptor {
+//!         depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+//!         ..Default::default()
+//!     },
+//! )?;
+//! let projection = rh::proj::directx::perspective_infinite_reverse(0.8, 16.0 / 9.0, 0.1);
+//! let camera = rh::view::look_at_mat4(Vec3::new(0.0, 3.0, 8.0), Vec3::ZERO, Vec3::Y);
+//! let view = View::new(projection * camera, DepthConvention::InfiniteReverse)?;
+//! # let depth = device
+//! #     .create_texture(&wgpu::TextureDescriptor {
+//! #         label: None,
+//! #         size: wgpu::Extent3d { width: 64, height: 36, depth_or_array_layers: 1 },
+//! #         mip_level_count: 1,
+//! #         sample_count: 1,
+//! #         dimension: wgpu::TextureDimension::D2,
+//! #         format: wgpu::TextureFormat::Depth24PlusStencil8,
+//! #         usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+//! #         view_formats: &[],
+//! #     })
+//! #     .create_view(&Default::default());
+//!
+//! // Every frame: decide, then record into the host's own encoder and pass.
+//! map.prepare(&device, &queue, &CubeFrame { light: &light, casters: &casters })?;
+//! volumes.prepare(
+//!     &device,
+//!     &queue,
+//!     &ShadowVolumeFrame {
+//!         view: &view,
+//!         light: light.homogeneous(),
+//!         range: Some(light.range),
+//!         casters: &casters,
+//!     },
+//! )?;
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! map.encode(&mut encoder);
+//! volumes.encode(&mut encoder);
+//! // ... the host draws its depth and ambient light here ...
+//! let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+//!     label: Some("shadow volumes"),
+//!     depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+//!         view: &depth,
+//!         depth_ops: None, // read only
+//!         stencil_ops: Some(wgpu::Operations {
+//!             load: wgpu::LoadOp::Clear(0),
+//!             store: wgpu::StoreOp::Store,
+//!         }),
+//!     }),
+//!     ..Default::default()
+//! });
+//! volumes.render(&mut pass);
+//! drop(pass);
+//! // ... and adds this light where the stencil is 0, with `light_pass_stencil` in its pipeline,
+//! // or everywhere, times `shadows_visibility`, with `group` bound as group 1 ...
+//! let stencil: wgpu::StencilState = ShadowVolumeRenderer::light_pass_stencil();
+//! queue.submit([encoder.finish()]);
+//! # let _ = (group, lighting, stencil, Mat4::IDENTITY);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Which one
+//!
+//! Shadow volumes are exact whatever the mesh: no resolution, no bias, no leak; their cost is the
+//! fill of what they draw on screen. Shadow maps cost what their texels cost, whatever the screen
+//! shows, and are as exact as their texels are small. `compare`, the example, measures both on your
+//! own scene: time beside error.
+//!
+//! # Features
+//!
+//! - `reference` (off): exact visibility in f64 for measuring error. Not for frames.
+//!
+//! wgpu's back ends are the host's choice: this crate switches on none but `webgpu` on the web.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -3,7 +3,7 @@
 mod common;
 
 use common::shapes::cuboid;
-use common::{noop, noop_with};
+use common::{noop, noop_with, two_noop_devices};
 use glam::{Affine3A, Vec3};
 use shadows::error::{CasterError, CubeShadowMapError, LightError};
 use shadows::{
@@ -48,7 +48,7 @@ fn a_bad_bias_is_refused() {
 
 #[test]
 fn bad_frames_are_refused_and_the_map_goes_on() {
-    let (device, queue) = noop();
+    let [(device, queue), (other_device, _)] = two_noop_devices();
     let mut map = CubeShadowMap::new(&device, &descriptor(64)).unwrap();
     let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
     let good = [cuboid(Vec3::ONE).caster(&device, Affine3A::from_translation(Vec3::X * 4.0))];
@@ -82,7 +82,6 @@ fn bad_frames_are_refused_and_the_map_goes_on() {
         good[0].mesh.clone(),
         Affine3A::from_translation(Vec3::splat(f32::NAN)),
     );
-    let (other_device, _) = noop();
     let foreign = cuboid(Vec3::ONE).caster(&other_device, Affine3A::IDENTITY);
     for (caster, expected) in [
         (bent, CasterError::NotFinite { index: 1 }),

@@ -102,26 +102,18 @@ fn clutter(gpu: &Gpu, count: usize) -> (Vec<Caster>, Triangles) {
 fn every_texel_holds_the_depth_of_the_nearest_caster() {
     let Some(gpu) = Gpu::for_test() else { return };
     let light = PointLight::new(Vec3::new(0.1, -0.2, 0.3), 0.05, 40.0);
-    let (casters, mut truth) = clutter(&gpu, 40);
+    let (casters, truth) = clutter(&gpu, 40);
     let mut map = map(&gpu, 96);
     draw(&gpu, &mut map, &light, &casters);
     // Texels on an outline may go either way: the rasteriser snaps vertices.
     let share = wrong_share(&gpu, &map, &light, &truth);
-    assert!(share < 0.004, "{share}");
+    assert!(share < 1e-4, "{share}");
     assert!(map.statistics().triangles > 0);
 
-    // The broken twin: one caster fewer than the truth knows.
-    truth.0.clear();
-    for (caster, _) in casters.iter().zip(1..) {
-        let shape = if caster.mesh.triangle_count() == 12 {
-            cuboid(Vec3::splat(0.5))
-        } else {
-            sphere(5, 7)
-        };
-        truth.add(&shape.positions, &shape.indices, caster.world_from_object);
-    }
-    draw(&gpu, &mut map, &light, &casters[1..]);
-    assert!(wrong_share(&gpu, &map, &light, &truth) > 0.004);
+    // The broken twin: ten casters fewer than the truth knows.
+    draw(&gpu, &mut map, &light, &casters[10..]);
+    let twin = wrong_share(&gpu, &map, &light, &truth);
+    assert!(twin > 1e-3, "{twin}");
 }
 
 #[test]

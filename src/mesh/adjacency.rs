@@ -236,11 +236,13 @@ struct Connected {
 impl Connected {
     /// Connects the triangles and fills their neighbours into the list of six.
     fn new(positions: &[[f32; 3]], representatives: &[u32], six: &mut [u32]) -> Self {
-        let mut topology = Topology::default();
-        topology.welded_vertices = (0u32..)
-            .zip(representatives)
-            .map(|(vertex, &representative)| u32::from(vertex != representative))
-            .sum();
+        let numbered = representatives.iter().zip(0u32..);
+        let mut topology = Topology {
+            welded_vertices: numbered
+                .map(|(own, vertex)| u32::from(*own != vertex))
+                .sum(),
+            ..Topology::default()
+        };
         let triangles = Triangles::welded(positions, six, representatives, &mut topology);
         let edges = edges::connect(&triangles, positions.len(), six, &mut topology);
         Self {

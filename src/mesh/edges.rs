@@ -44,7 +44,7 @@ pub(super) fn connect(
     };
     let mut parts = Parts::new(vertices);
     let mut begin = 0;
-    for (vertex, &end) in (0u32..).zip(&ends) {
+    for (&end, vertex) in ends.iter().zip(0u32..) {
         let bucket = &mut records[begin..end as usize];
         begin = end as usize;
         if bucket.is_empty() {

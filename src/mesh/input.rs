@@ -75,7 +75,7 @@ pub(super) fn pack<P: Copy + Into<[f32; 3]>>(positions: &[P]) -> Result<Vec<[f32
     if finite {
         return Ok(packed);
     }
-    for (vertex, &position) in (0u32..).zip(&packed) {
+    for (&position, vertex) in packed.iter().zip(0u32..) {
         if position.iter().any(|coordinate| !coordinate.is_finite()) {
             return Err(MeshError::Position { vertex, position });
         }

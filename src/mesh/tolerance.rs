@@ -38,8 +38,8 @@ pub(super) fn weld_near(positions: &[[f32; 3]], representatives: &mut [u32], tol
 }
 
 fn distinct(representatives: &[u32]) -> usize {
-    let own = (0u32..).zip(representatives);
-    own.filter(|(vertex, representative)| vertex == *representative)
+    let own = representatives.iter().zip(0u32..);
+    own.filter(|(representative, vertex)| *representative == vertex)
         .count()
 }
 

@@ -8,9 +8,11 @@
 /// The lowest-indexed vertex at the position of each vertex. The positions hold no NaN and no -0.
 pub(super) fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
     let mut table = Table::new();
-    (0u32..)
-        .zip(positions)
-        .map(|(vertex, position)| {
+    // The list comes first in the zip: a counter in front would pass the last u32.
+    positions
+        .iter()
+        .zip(0u32..)
+        .map(|(position, vertex)| {
             table.find_or_insert(hash(position.map(f32::to_bits)), vertex, |other| {
                 positions[other as usize] == *position
             })

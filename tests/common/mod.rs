@@ -24,6 +24,26 @@ pub fn noop_with(
     })
 }
 
+/// Two devices of one adapter without a driver. (wgpu tells devices apart only within an instance.)
+pub fn two_noop_devices() -> [(wgpu::Device, wgpu::Queue); 2] {
+    pollster::block_on(async {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::NOOP,
+            backend_options: wgpu::BackendOptions {
+                noop: wgpu::NoopBackendOptions::enabled(),
+                ..Default::default()
+            },
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        });
+        let adapter = instance.request_adapter(&Default::default()).await.unwrap();
+        let first = adapter.request_device(&Default::default()).await.unwrap();
+        [
+            first,
+            adapter.request_device(&Default::default()).await.unwrap(),
+        ]
+    })
+}
+
 /// Runs `work` and gives the validation error that it caused, if any.
 pub fn validation_error(device: &wgpu::Device, work: impl FnOnce()) -> Option<String> {
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
