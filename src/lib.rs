@@ -11,8 +11,13 @@ pub mod mesh;
 pub mod reference;
 pub mod support;
 pub mod view;
+pub mod volume;
+pub mod wgsl;
 
 pub use light::{HomogeneousLight, PointLight};
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
+pub use volume::{
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, VolumeStatistics,
+};
