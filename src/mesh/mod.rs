@@ -1,9 +1,19 @@
 //! Meshes that cast shadows: adjacency on the CPU, buffers on the GPU.
 
 mod adjacency;
+mod area;
 mod bounds;
 mod caster;
+mod edges;
+mod input;
+mod parts;
+mod raw;
+mod tolerance;
+mod topology;
+mod triangles;
+mod weld;
 
-pub use adjacency::{Adjacency, Edge, EdgeUse, MeshKind, Topology};
+pub use adjacency::{Adjacency, Edge, EdgeUse, MeshKind};
 pub use bounds::Bounds;
 pub use caster::{Caster, CasterMesh, HostPositions};
+pub use topology::Topology;
