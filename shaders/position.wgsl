@@ -1,6 +1,5 @@
-// Where a point of a mesh lands in clip space. A host that draws its casters with this very
-// function, into an `@invariant` position, gets the same depth bits as the shadow passes: floating
-// point is not associative, so (clip * world) * p would differ in the last places.
+// The order of multiplication that shadow volumes use. Another order rounds differently, and then
+// an "equal" depth test against the host's own surfaces fails here and there.
 fn shadows_clip_position(
     clip_from_world: mat4x4f,
     world_from_object: mat4x4f,

@@ -1,7 +1,12 @@
-//! The shaders that hosts may include.
+//! The shaders, as text.
+//!
+//! Everything a host may see is prefixed `shadows_` (functions) or `Shadows` (types), takes
+//! textures and samplers as parameters, and works pasted into a host's own shader.
 
-/// `shadows_clip_position(clip_from_world, world_from_object, position) -> vec4f`.
-///
-/// A host that draws its casters through this function, into an `@invariant` position, gets the
-/// same depth bits as the shadow passes.
+/// Vertex positions in the arithmetic that shadow volumes use, so that depths come out bit-equal:
+/// `shadows_clip_position(clip_from_world, world_from_object, position)`. Give the vertex
+/// output `@invariant @builtin(position)`.
 pub const POSITION: &str = include_str!("../shaders/position.wgsl");
+
+/// Depth of casters on the faces of a cube map.
+pub(crate) const CUBE_CASTER: &str = include_str!("../shaders/cube_caster.wgsl");

@@ -28,6 +28,16 @@ impl Bounds {
         })
     }
 
+    /// Radius of the smallest sphere around this box's centre that holds some points, rounded up.
+    pub(crate) fn radius_of(&self, points: impl IntoIterator<Item = Vec3>) -> f32 {
+        let centre = (self.min.as_dvec3() + self.max.as_dvec3()) * 0.5;
+        let squared = points
+            .into_iter()
+            .map(|point| point.as_dvec3().distance_squared(centre))
+            .fold(0.0, f64::max);
+        (squared.sqrt() as f32).next_up()
+    }
+
     /// The box around this box under an affine map, as centre and half extents in f64.
     ///
     /// Tight for the eight corners: half extents are |M| applied to the old ones.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{Affine3A, DAffine3, Vec3};
+use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
 
 use super::{Adjacency, Bounds, MeshKind};
@@ -30,6 +30,7 @@ struct Inner {
     edge_use_count: u32,
     kind: MeshKind,
     bounds: Bounds,
+    radius: f32,
 }
 
 /// Positions that already lie in a vertex buffer of the host, read in place every frame.
@@ -45,6 +46,15 @@ pub struct HostPositions<'a> {
     ///
     /// What leaves it may be culled.
     pub bounds: Bounds,
+}
+
+/// Where the positions are and what is known of them.
+struct Source {
+    buffer: wgpu::Buffer,
+    stride: u64,
+    offset: u64,
+    bounds: Bounds,
+    radius: f32,
 }
 
 impl CasterMesh {
@@ -79,8 +89,14 @@ impl CasterMesh {
             max: Vec3::ZERO,
         });
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
-        let buffer = upload(device, "positions", &packed, usage)?;
-        Self::assemble(device, buffer, POSITION_SIZE, 0, bounds, adjacency)
+        let source = Source {
+            buffer: upload(device, "positions", &packed, usage)?,
+            stride: POSITION_SIZE,
+            offset: 0,
+            bounds,
+            radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+        };
+        Self::assemble(device, source, adjacency)
     }
 
     /// Shares the host's own position buffer, so that a mesh that the host deforms there casts the
@@ -130,15 +146,19 @@ impl CasterMesh {
                 });
             }
         }
-        Self::assemble(device, buffer.clone(), stride, offset, bounds, adjacency)
+        let source = Source {
+            buffer: buffer.clone(),
+            stride,
+            offset,
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+        };
+        Self::assemble(device, source, adjacency)
     }
 
     fn assemble(
         device: &wgpu::Device,
-        positions: wgpu::Buffer,
-        stride: u64,
-        offset: u64,
-        bounds: Bounds,
+        source: Source,
         adjacency: &Adjacency,
     ) -> Result<Self, CasterMeshError> {
         let storage = wgpu::BufferUsages::STORAGE;
@@ -171,9 +191,9 @@ impl CasterMesh {
         };
         Ok(Self(Arc::new(Inner {
             device: device.clone(),
-            positions,
-            stride,
-            offset,
+            positions: source.buffer,
+            stride: source.stride,
+            offset: source.offset,
             vertex_count: adjacency.vertex_count(),
             triangles,
             triangle_count: adjacency.triangles().len() as u32,
@@ -182,7 +202,8 @@ impl CasterMesh {
             edge_uses,
             edge_use_count: uses.len() as u32,
             kind,
-            bounds,
+            bounds: source.bounds,
+            radius: source.radius,
         })))
     }
 
@@ -199,6 +220,17 @@ impl CasterMesh {
     /// Bounds in the mesh's own space.
     pub fn bounds(&self) -> Bounds {
         self.0.bounds
+    }
+
+    /// Radius of a sphere around the centre of [`bounds`](Self::bounds) that encloses the mesh
+    /// under a linear map.
+    ///
+    /// The largest stretch of the map is bounded by Gershgorin's circles on its Gram matrix: exact
+    /// where the columns are orthogonal (any scale, rotation, mirror), never too small.
+    pub(crate) fn radius_under(&self, linear: &DMat3) -> f64 {
+        let gram = linear.transpose() * *linear;
+        let row_sums = gram.x_axis.abs() + gram.y_axis.abs() + gram.z_axis.abs();
+        f64::from(self.0.radius) * row_sums.max_element().sqrt()
     }
 
     /// Number of vertices in the position buffer.
