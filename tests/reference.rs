@@ -167,7 +167,8 @@ fn lit_or(shadow: bool) -> Class {
     if shadow { Class::Shadowed } else { Class::Lit }
 }
 
-const EYE: Vec3 = Vec3::new(0.25, 8.0, 0.5);
+/// Exact in f32 also when 1e5 is added, and no pixel centre falls on an edge of the scenes below.
+const EYE: Vec3 = Vec3::new(0.2578125, 8.0, 0.5);
 
 fn from_above(objects: &[ReferenceObject<'_>], light: HomogeneousLight) -> ReferenceImage {
     let scene = ReferenceScene::new(objects).unwrap();
@@ -196,11 +197,11 @@ fn a_rectangle_casts_its_projection() {
     };
     for light in [
         HomogeneousLight::point(Vec3::new(0.3, 5.0, -0.7)),
-        HomogeneousLight::point(Vec3::new(-4.0, 2.5, 1.0)),
+        HomogeneousLight::point(Vec3::new(-3.0, 4.0, 1.0)),
         HomogeneousLight::directional(Vec3::new(0.5, 1.0, 0.25)),
     ] {
         let image = from_above(&[ground.object(false), roof.object(true)], light);
-        assert!(image.count(Class::Shadowed) > 500);
+        assert!(image.count(Class::Shadowed) > 100);
         let (wrong, said) = disagreements(&image, |x, y| expected(x, y, light));
         assert_eq!((wrong, said), (0, (SIDE * SIDE) as usize), "{light:?}");
         // The twin: a light a little aside.
@@ -343,7 +344,7 @@ fn a_resting_box_leaves_no_light_gap() {
         let high = DVec3::new(-1.0, 1.0, 0.5);
         let (wrong, said) = disagreements(&image, |x, y| expected(x, y, high));
         assert_eq!(wrong, 0);
-        assert!(said > 15_000 && image.count(Class::Shadowed) > 100);
+        assert!(said > 15_000 && image.count(Class::Shadowed) > 40);
         let lower = high.with_y(0.9);
         assert!(disagreements(&image, |x, y| expected(x, y, lower)).0 > 0);
     }
@@ -367,33 +368,33 @@ fn a_coplanar_copy_casts_nothing_and_a_lifted_one_everything() {
         image.count(Class::Shadowed)
     };
     assert_eq!(shadowed(0.0), 0);
-    // From above the upper one is seen; the twin is the lower copy seen through the near plane.
+    // The twin: a copy that the near plane hides from view but not from the light.
     let scene = ReferenceScene::new(&[ground.object(true), ground.at(turned(1.0), true)]).unwrap();
     let image = scene
         .render(&downward(EYE, 7.5), SIDE, SIDE, light, None)
         .unwrap();
     assert_eq!(image.count(Class::Shadowed), image.lit_facing());
-    let tiny = ReferenceScene::new(&[
-        ground.at(turned(-1e-9), false),
-        ground.at(turned(0.0), true),
-    ]);
-    let view = View::new(
-        Mat4::from_cols(
-            Vec4::new(1.0, 0.0, 0.0, 0.0),
-            Vec4::new(0.0, 0.0, 0.0, 1.0),
-            Vec4::new(0.0, -1.0, 0.0, 0.0),
-            Vec4::new(0.0, 0.0, 0.1, 8.0),
-        ),
-        DepthConvention::InfiniteReverse,
-    )
-    .unwrap();
-    // Seen from below, lit from below: the copy a nanometre above blocks nothing, one below all.
-    let under = HomogeneousLight::directional(Vec3::new(1.0, -0.01, 0.3));
-    let tiny = tiny
-        .unwrap()
-        .render(&view, SIDE, SIDE, under, None)
-        .unwrap();
-    assert_eq!(tiny.count(Class::Lit), (SIDE * SIDE) as usize);
+}
+
+#[test]
+fn a_sheet_a_ten_millionth_above_casts_its_shadow() {
+    let height = 1e-7_f32;
+    let sheet = rectangle(Vec2::new(0.0, -20.0), Vec2::new(20.0, 20.0), height);
+    let ground = ground();
+    let scene = ReferenceScene::new(&[ground.object(true), sheet.object(true)]).unwrap();
+    let light = HomogeneousLight::directional(Vec3::new(1.0, 0.125, 0.0));
+    let view = downward(EYE * 1e-6, 1e-7);
+    let image = scene.render(&view, SIDE, SIDE, light, None).unwrap();
+    let expected = |x, y, slope: f64| {
+        let hit = image.hit(x, y).filter(|hit| hit.object == 0)?;
+        Some(lit_or(
+            hit.position.x > -f64::from(height) / slope && hit.position.x < 0.0,
+        ))
+    };
+    let (wrong, said) = disagreements(&image, |x, y| expected(x, y, 0.125));
+    assert!(wrong == 0 && said > 5_000, "{wrong} of {said}");
+    assert!(image.count(Class::Shadowed) > 500);
+    assert!(disagreements(&image, |x, y| expected(x, y, 0.15)).0 > 0);
 }
 
 #[test]
@@ -501,11 +502,23 @@ fn all_projections_see_the_same_ground() {
         ),
     ]
     .map(|(matrix, depth)| render(matrix, depth));
-    for image in &perspective[1..] {
-        // The f32 matrices differ in their last digits; a pixel on an edge may fall either way.
-        let truth = perspective[0].visibility();
-        let error = image.compare(&truth, Interior::Screen).unwrap();
-        assert!(error.false_lit + error.false_shadow <= 2, "{error:?}");
+    // A left-handed camera shows world coordinates mirrored.
+    let mut mirrored = perspective[0].visibility();
+    mirrored.chunks_mut(SIDE as usize).for_each(<[u8]>::reverse);
+    let truth = perspective[0].visibility();
+    let errors = |image: &ReferenceImage, truth: &[u8]| {
+        let error = image.compare(truth, Interior::Screen).unwrap();
+        error.false_lit + error.false_shadow
+    };
+    // The f32 matrices differ in their last digits; a pixel on an edge may fall either way.
+    let [_, finite, standard, left] = &perspective;
+    for (image, truth, other) in [
+        (finite, &truth, &mirrored),
+        (standard, &truth, &mirrored),
+        (left, &mirrored, &truth),
+    ] {
+        assert!(errors(image, truth) <= 2);
+        assert!(errors(image, other) > 100);
     }
     let orthographic = rh::proj::directx::orthographic(-3.0, 3.0, -3.0, 3.0, 0.1, 30.0) * look;
     let image = render(orthographic, D::Standard);
@@ -531,10 +544,7 @@ fn all_projections_see_the_same_ground() {
     let (wrong, said) = disagreements(&image, |x, y| expected(x, y, Vec3::new(3.0, 4.0, 5.0)));
     assert!(wrong <= 2 && said > 10_000, "{wrong} of {said}");
     // The twin: the perspective picture is another one.
-    let other = image
-        .compare(&perspective[0].visibility(), Interior::Screen)
-        .unwrap();
-    assert!(other.false_lit + other.false_shadow > 100);
+    assert!(errors(&image, &truth) > 100);
 }
 
 #[test]
@@ -915,8 +925,8 @@ fn the_background_and_what_faces_away_bound_the_interior() {
     assert_eq!(image.hit(SIDE, 0), None);
 }
 
-/// The published scene: 64 spheres in a spiral over a ground, `height` above their usual place.
-fn spheres(height: f32) -> ReferenceImage {
+/// The published scene: 64 spheres in a spiral over a ground.
+fn spheres(light: Vec3) -> ReferenceImage {
     let ground = rectangle(Vec2::splat(-15.0), Vec2::splat(15.0), 0.0);
     let ball = sphere(Vec3::ZERO, 0.4, 24, 32);
     assert_eq!((ball.positions.len(), ball.indices.len()), (770, 3 * 1536));
@@ -924,7 +934,7 @@ fn spheres(height: f32) -> ReferenceImage {
     for i in 0..64 {
         let r = 2.0 + 7.0 * ((f64::from(i) + 0.5) / 64.0).sqrt();
         let theta = 2.399963229728653 * f64::from(i);
-        let y = 0.5 + 0.75 * f64::from(i % 4) + f64::from(height);
+        let y = 0.5 + 0.75 * f64::from(i % 4);
         let centre = DVec3::new(r * theta.cos(), y, r * theta.sin());
         objects.push(ball.at(DAffine3::from_translation(centre), true));
     }
@@ -933,13 +943,13 @@ fn spheres(height: f32) -> ReferenceImage {
     let projection =
         rh::proj::directx::perspective_infinite_reverse(45_f32.to_radians(), 1280.0 / 720.0, 0.1);
     let view = View::new(projection * look, DepthConvention::InfiniteReverse).unwrap();
-    let light = HomogeneousLight::point(Vec3::new(0.0, 4.0, 0.0));
+    let light = HomogeneousLight::point(light);
     scene.render(&view, 1280, 720, light, Some(30.0)).unwrap()
 }
 
 #[test]
 fn the_published_scene_has_the_published_number_of_pixels() {
-    let image = spheres(0.0);
+    let image = spheres(Vec3::Y * 4.0);
     let faces = image.lit_facing();
     println!("{faces} pixels face the light, {:.2} s", image.seconds());
     for class in [
@@ -951,11 +961,12 @@ fn the_published_scene_has_the_published_number_of_pixels() {
     ] {
         println!("{class:?} {}", image.count(class));
     }
-    assert!(faces.abs_diff(613_058) < 20, "{faces}");
+    assert!(faces.abs_diff(613_058) < 5, "{faces}");
     let error = measured(&image);
     assert_eq!(error.false_lit, image.count(Class::Shadowed));
     assert!(error.false_lit_interior < error.false_lit);
-    assert!(spheres(0.1).lit_facing().abs_diff(613_058) >= 20);
+    let moved = spheres(Vec3::Y * 4.1).lit_facing();
+    assert!(moved.abs_diff(613_058) >= 50, "{moved}");
 }
 
 fn measured(image: &ReferenceImage) -> Comparison {
