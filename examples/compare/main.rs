@@ -6,6 +6,7 @@
 //! ```
 
 mod args;
+mod date;
 #[path = "../host/mod.rs"]
 mod host;
 mod measure;

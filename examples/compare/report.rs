@@ -9,6 +9,7 @@ use shadows::mesh::MeshKind;
 use shadows::reference::ReferenceImage;
 use shadows::wgpu;
 
+use crate::date::date;
 use crate::host::gpu::{Gpu, describe};
 use crate::measure::{self, Measured};
 use crate::stage::Stage;
@@ -361,29 +362,4 @@ fn objects(stage: &Stage) -> Vec<Object> {
             casts: object.casts,
         })
         .collect()
-}
-
-/// The day of a Unix time, UTC (Richards, "Mapping Time", 1998, the Gregorian algorithm).
-fn date(unix_time: u64) -> String {
-    let julian_day = unix_time / 86_400 + 2_440_588;
-    let f = julian_day + 1401 + (4 * julian_day + 274_277) / 146_097 * 3 / 4 - 38;
-    let e = 4 * f + 3;
-    let h = 5 * (e % 1461 / 4) + 2;
-    let day = h % 153 / 5 + 1;
-    let month = (h / 153 + 2) % 12 + 1;
-    let year = e / 1461 - 4716 + (14 - month) / 12;
-    format!("{year}-{month:02}-{day:02}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::date;
-
-    #[test]
-    fn days_are_found_across_leap_years() {
-        assert_eq!(date(0), "1970-01-01");
-        assert_eq!(date(951_782_400), "2000-02-29");
-        assert_eq!(date(951_868_800), "2000-03-01");
-        assert_eq!(date(1_798_761_599), "2026-12-31");
-    }
 }
