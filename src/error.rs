@@ -312,3 +312,84 @@ pub enum ReferenceError {
         kernel_radius: f32,
     },
 }
+
+/// What can be wrong when a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) is made or
+/// prepared.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowVolumeError {
+    /// The depth-stencil format is none of the two that have what shadow volumes need.
+    #[error(
+        "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
+    )]
+    Format(wgpu::TextureFormat),
+    /// The sample count is neither 1 nor 4.
+    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    SampleCount(u32),
+    /// The device was created without a feature that the descriptor needs.
+    #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
+    MissingFeature {
+        /// What is missing.
+        feature: wgpu::Features,
+        /// What needs it, e.g. `"DepthConvention::Standard"`.
+        needed_by: String,
+    },
+    /// A limit of the device is too low for any shadow volume.
+    #[error(
+        "the device's {name} is {available}, shadow volumes need {needed}; ask for more when the device is created (see Support)"
+    )]
+    Limit {
+        /// The limit's name in [`wgpu::Limits`].
+        name: &'static str,
+        /// What is needed.
+        needed: u64,
+        /// What the device has.
+        available: u64,
+    },
+    /// A colour format that no colour target can have.
+    #[error("color_formats[{place}] is {format:?}, which is no colour format")]
+    ColorFormat {
+        /// Place in the list of colour formats.
+        place: usize,
+        /// The format found there.
+        format: wgpu::TextureFormat,
+    },
+    /// The view was made with another depth convention than the renderer.
+    #[error("the view's depth is {view:?}, this renderer was made for {renderer:?}")]
+    Depth {
+        /// The renderer's convention.
+        renderer: crate::DepthConvention,
+        /// The view's convention.
+        view: crate::DepthConvention,
+    },
+    /// The light or its range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// The volume of one caster does not fit the device's buffers.
+    #[error(
+        "caster {index}: its {what} need {size} bytes in one buffer, {limit} are possible; split the mesh or ask for higher buffer limits"
+    )]
+    TooLarge {
+        /// Place in the slice of casters.
+        index: usize,
+        /// `"facings"`, `"caps"` or `"sides"`.
+        what: &'static str,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes possible.
+        limit: u64,
+    },
+    /// More casters than the device's buffers can describe.
+    #[error(
+        "{count} casters are too many for one frame; this device's buffer limits allow {limit}"
+    )]
+    TooManyCasters {
+        /// Casters that would be drawn.
+        count: usize,
+        /// The largest count that works.
+        limit: usize,
+    },
+}
