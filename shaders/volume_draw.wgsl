@@ -1,4 +1,4 @@
-// The three kinds of faces of a shadow volume. Every vertex is pulled by its index, so that faces
+// The four kinds of faces of a shadow volume. Every vertex is pulled by its index, so that faces
 // that meet compute the same position from the same numbers.
 
 struct Caster {
@@ -6,6 +6,10 @@ struct Caster {
     world_from_object: mat4x4f,
     // World space, homogeneous.
     light: vec4f,
+    // xyz: far vertices lie where its product with the direction from the light is 1; 0: at infinity.
+    far_plane: vec4f,
+    // A point of that plane, or at infinity, homogeneous: where the fan's triangles meet.
+    apex: vec4f,
     // In words of 4 bytes.
     position_stride: u32,
     position_offset: u32,
@@ -31,7 +35,7 @@ fn near_vertex(vertex: u32) -> vec4f {
     );
 }
 
-// The point at infinity behind a vertex, seen from the light. A vertex at the very place of the
+// The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the very place of the
 // light has no such direction: it stays where it is, the same for every face that meets there, so
 // that the surface is still closed and no vertex is (0, 0, 0, 0).
 fn far_vertex(vertex: u32) -> vec4f {
@@ -40,7 +44,15 @@ fn far_vertex(vertex: u32) -> vec4f {
     if all(direction == vec3f(0.0)) {
         return near_vertex(vertex);
     }
-    return caster.clip_from_world * vec4f(direction, 0.0);
+    let w = dot(caster.far_plane.xyz, direction);
+    return caster.clip_from_world * vec4f(direction + w * caster.light.xyz, w);
+}
+
+// The edge that a side is made of, in the direction in which the light cap runs through it.
+fn directed_edge(place: u32) -> vec2u {
+    let side = sides[caster.side_base + place];
+    let edge = edges[side >> 1u].xy;
+    return select(edge, edge.yx, (side & 1u) == 1u);
 }
 
 @vertex
@@ -63,18 +75,29 @@ fn shadows_volume_dark_cap(
 fn shadows_volume_side(
     @builtin(vertex_index) vertex: u32,
 ) -> @invariant @builtin(position) vec4f {
-    let side = sides[caster.side_base + vertex / caster.side_vertices];
+    let edge = directed_edge(vertex / caster.side_vertices);
     let corner = vertex % caster.side_vertices;
-    let edge = edges[side >> 1u];
-    let flipped = (side & 1u) == 1u;
     // Corners: b a a', b a' b'.
     let second = ((0x29u >> corner) & 1u) == 1u;
     let far = ((0x34u >> corner) & 1u) == 1u;
-    let end = select(edge.x, edge.y, second != flipped);
+    let end = select(edge.x, edge.y, second);
     if far {
         return far_vertex(end);
     }
     return near_vertex(end);
+}
+
+// The dark cap as a fan: a triangle b' a' apex for each side, so that it runs back through a' b'.
+@vertex
+fn shadows_volume_fan(
+    @builtin(vertex_index) vertex: u32,
+) -> @invariant @builtin(position) vec4f {
+    let edge = directed_edge(vertex / 3u);
+    let corner = vertex % 3u;
+    if corner == 2u {
+        return caster.clip_from_world * caster.apex;
+    }
+    return far_vertex(select(edge.y, edge.x, corner == 1u));
 }
 
 @fragment

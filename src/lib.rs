@@ -79,10 +79,8 @@
 //!     &device,
 //!     &queue,
 //!     &ShadowVolumeFrame {
-//!         view: &view,
-//!         light: light.homogeneous(),
 //!         range: Some(light.range),
-//!         casters: &casters,
+//!         ..ShadowVolumeFrame::new(&view, light.homogeneous(), &casters)
 //!     },
 //! )?;
 //! let mut encoder = device.create_command_encoder(&Default::default());
@@ -148,5 +146,6 @@ pub use pcf::{Kernel, PcfDescriptor, PcfSampler};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, VolumeStatistics,
+    Caps, Extrusion, Method, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
+    VolumeStatistics,
 };

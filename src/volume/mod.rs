@@ -13,13 +13,18 @@
 mod buffers;
 mod descriptor;
 mod draw;
+mod hull;
 mod layout;
+mod method;
 mod params;
 mod plan;
 mod regions;
 mod renderer;
 mod rule;
+mod scissor;
 mod silhouette;
+mod world_box;
 
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+pub use method::{Caps, Extrusion, Method};
 pub use renderer::ShadowVolumeRenderer;

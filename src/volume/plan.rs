@@ -4,27 +4,31 @@ use std::collections::HashMap;
 
 use glam::Mat4;
 
+use super::draw::Style;
+use super::method::{Count, DarkCap, Form, Options, Rules, Skip};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::regions::{Place, Regions, Words};
-use super::rule::{self, ObjectLight, WorldBox};
+use super::rule::{self, ObjectLight};
+use super::scissor::Rect;
+use super::world_box::WorldBox;
 use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::error::{CasterError, LightError, ShadowVolumeError};
 use crate::mesh::{CasterMesh, MeshKind};
 
-/// The three kinds of faces of a volume.
+/// The kinds of faces of a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Faces {
     LightCap,
     DarkCap,
     Sides,
+    /// The dark cap as a fan over the silhouette.
+    Fan,
 }
 
 /// One draw. Ordered so that draws of one pipeline follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Draw {
-    pub faces: Faces,
-    /// Whether faces that are clockwise on screen are the volume's front.
-    pub clockwise: bool,
+    pub style: Style,
     /// Place in [`Plan::instances`].
     pub instance: u32,
     /// Whether the caps are those that count -1.
@@ -53,6 +57,8 @@ pub(super) struct Plan {
     /// For each instance, its batch.
     pub batch_of: Vec<u32>,
     pub statistics: VolumeStatistics,
+    /// What of the target is drawn to, and the target's size.
+    pub scissor: Option<(Rect, [u32; 2])>,
 }
 
 /// What of the device's limits the plan depends on.
@@ -69,6 +75,7 @@ pub(super) struct PlanLimits {
 /// A caster that is drawn.
 struct Subject {
     light: ObjectLight,
+    form: Form,
     both_sides: bool,
     mirrored: bool,
     index: usize,
@@ -79,9 +86,11 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
         limits: &PlanLimits,
+        options: Options,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
-        let groups = subjects(frame)?;
+        let mut statistics = VolumeStatistics::default();
+        let groups = subjects(frame, &Rules::new(frame, options), &mut statistics)?;
         let count = groups.iter().map(Vec::len).sum();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -101,8 +110,8 @@ impl Plan {
             casters_skipped: (frame.casters.len() - count) as u32,
             draws: plan.draws.len() as u32,
             dispatches: 2 * plan.batches.len() as u32,
-            gpu_bytes: 0,
             triangles: plan.batches.iter().map(Batch::triangles).sum(),
+            ..statistics
         };
         Ok(plan)
     }
@@ -126,7 +135,7 @@ impl Plan {
                 limit: overflow.limit,
             })?;
         let instance = self.instances.len() as u32;
-        let batch = self.batch(mesh, &place, frame, limits.workgroups);
+        let batch = self.batch(mesh, &place, limits.workgroups);
         self.batch_of.push(batch);
         self.instances.push(InstanceParams {
             light: subject.light.light,
@@ -145,23 +154,19 @@ impl Plan {
             clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
             world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
             light: rule::world_light(frame.light),
+            far_plane: subject.form.far.plane.as_vec3().extend(0.0).to_array(),
+            apex: subject.form.far.apex.as_vec4().to_array(),
             position_stride: params.position_stride,
             position_offset: params.position_offset,
             side_base: place.side,
-            side_vertices: params.side_vertices,
+            side_vertices: subject.form.side_vertices,
         });
         self.draw(subject, frame, instance);
         Ok(())
     }
 
     /// The batch that the next instance belongs to.
-    fn batch(
-        &mut self,
-        mesh: &CasterMesh,
-        place: &Place,
-        frame: &ShadowVolumeFrame<'_>,
-        most: u32,
-    ) -> u32 {
+    fn batch(&mut self, mesh: &CasterMesh, place: &Place, most: u32) -> u32 {
         let open = self.batches.last_mut().filter(|batch| {
             batch.mesh.key() == mesh.key()
                 && batch.chunk == place.chunk
@@ -172,7 +177,7 @@ impl Plan {
             None => self.batches.push(Batch {
                 mesh: mesh.clone(),
                 chunk: place.chunk,
-                params: batch_params(mesh, self.instances.len() as u32, frame),
+                params: batch_params(mesh, self.instances.len() as u32),
                 instance_count: 1,
             }),
         }
@@ -182,22 +187,28 @@ impl Plan {
     fn draw(&mut self, subject: &Subject, frame: &ShadowVolumeFrame<'_>, instance: u32) {
         // A cap that counts +1 is counter-clockwise seen from the light, in the mesh's own space.
         let clockwise = subject.mirrored != rule::is_left_handed(frame.view);
+        let form = &subject.form;
         let mut push = |faces, clockwise, back| {
             self.draws.push(Draw {
-                faces,
-                clockwise,
+                style: Style {
+                    count: form.count,
+                    faces,
+                    clockwise,
+                },
                 instance,
                 back,
             });
         };
         push(Faces::Sides, clockwise, false);
+        if form.dark_cap == DarkCap::Fan {
+            push(Faces::Fan, clockwise, false);
+        }
         for back in [false, true] {
-            if back && !subject.both_sides {
+            if form.count == Count::Pass || (back && !subject.both_sides) {
                 continue;
             }
             push(Faces::LightCap, clockwise != back, back);
-            // With a directional light all sides meet in one point at infinity: no area is left.
-            if !frame.light.is_directional() {
+            if form.dark_cap == DarkCap::Full {
                 push(Faces::DarkCap, clockwise == back, back);
             }
         }
@@ -224,22 +235,31 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
 }
 
 /// The casters that are drawn, those of one mesh together, in the order of first appearance.
-fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterError> {
+fn subjects(
+    frame: &ShadowVolumeFrame<'_>,
+    rules: &Rules,
+    statistics: &mut VolumeStatistics,
+) -> Result<Vec<Vec<Subject>>, CasterError> {
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     for (index, caster) in frame.casters.iter().enumerate() {
         let map = caster.transform();
         let light = ObjectLight::new(frame.light, &map, index)?;
         let world = WorldBox::of(caster);
-        if caster.mesh.triangle_count() == 0 || !rule::in_range(&world, frame.light, frame.range) {
+        let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
+        if let Some(skip) = empty.or_else(|| rules.skips(&world)) {
+            statistics.skip(skip);
             continue;
         }
+        let form = rules.form(&world);
+        statistics.draw(form.count);
         let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
             groups.push(Vec::new());
             groups.len() - 1
         });
         groups[group].push(Subject {
             light,
+            form,
             both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
             mirrored: map.matrix3.determinant() < 0.0,
             index,
@@ -262,11 +282,7 @@ fn words(mesh: &CasterMesh, both_sides: bool) -> Words {
     [triangles, 3 * triangles, sides]
 }
 
-fn batch_params(
-    mesh: &CasterMesh,
-    first_instance: u32,
-    frame: &ShadowVolumeFrame<'_>,
-) -> BatchParams {
+fn batch_params(mesh: &CasterMesh, first_instance: u32) -> BatchParams {
     let (stride, offset) = mesh.layout();
     BatchParams {
         first_instance,
@@ -275,8 +291,7 @@ fn batch_params(
         // In words they fit 32 bits: the positions lie in one storage binding.
         position_stride: (stride / 4) as u32,
         position_offset: (offset / 4) as u32,
-        side_vertices: if frame.light.is_directional() { 3 } else { 6 },
         general: u32::from(mesh.kind() == MeshKind::General),
-        padding: 0,
+        padding: [0; 2],
     }
 }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::buffers::{Bound, Buffers, window};
 use super::draw::{self, DrawPipelines};
 use super::layout::bind;
+use super::method::Options;
 use super::params::{Arguments, BatchParams, CasterParams};
 use super::plan::{Batch, Draw, Faces, Plan, PlanLimits};
 use super::silhouette::{Extraction, workgroups};
@@ -37,6 +38,7 @@ pub struct ShadowVolumeRenderer {
     buffers: Buffers,
     groups: Groups,
     plan: Plan,
+    options: Options,
 }
 
 /// The bind groups of a mesh with a chunk's buffers.
@@ -81,6 +83,7 @@ impl ShadowVolumeRenderer {
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             plan: Plan::default(),
+            options: Options::of(descriptor),
             label,
         })
     }
@@ -107,7 +110,8 @@ impl ShadowVolumeRenderer {
             });
         }
         let limits = PlanLimits::of(&device.limits());
-        let mut plan = Plan::new(frame, device, &limits)?;
+        let mut plan = Plan::new(frame, device, &limits, self.options)?;
+        plan.scissor = self.options.scissor(frame);
         if !plan.draws.is_empty() {
             self.buffers.upload(device, queue, &plan, &limits);
         }
@@ -143,17 +147,26 @@ impl ShadowVolumeRenderer {
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
     /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only).
     ///
-    /// Changes the pass's pipeline, bind group 0 and index buffer, nothing else.
+    /// Changes the pass's pipeline, bind group 0 and index buffer; where the frame gave a target
+    /// size and a range, also the scissor rectangle, which is then the whole target. Nothing else.
     pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
         let Some(bound) = self.bound() else { return };
+        if let Some(([x, y, width, height], _)) = self.plan.scissor {
+            pass.set_scissor_rect(x, y, width, height);
+        }
         let mut current = None;
         for draw in &self.plan.draws {
-            let state = (draw.faces, draw.clockwise);
-            if current != Some(state) {
-                pass.set_pipeline(self.pipelines.get(draw.faces, draw.clockwise));
-                current = Some(state);
+            if current != Some(draw.style) {
+                let Some(pipeline) = self.pipelines.get(draw.style) else {
+                    continue;
+                };
+                pass.set_pipeline(pipeline);
+                current = Some(draw.style);
             }
             self.draw(pass, draw, &bound);
+        }
+        if let Some((_, [width, height])) = self.plan.scissor {
+            pass.set_scissor_rect(0, 0, width, height);
         }
     }
 
@@ -217,15 +230,16 @@ impl ShadowVolumeRenderer {
         let step = window::<CasterParams>(&self.device.limits()) as u32;
         pass.set_bind_group(0, &group.draw, &[draw.instance * step]);
         let arguments = u64::from(draw.instance) * size_of::<Arguments>() as u64;
-        if draw.faces == Faces::Sides {
-            pass.draw_indirect(bound.arguments, arguments + Arguments::SIDES);
+        let list = match draw.style.faces {
+            Faces::Sides if self.plan.casters[instance].side_vertices == 6 => Arguments::QUADS,
+            Faces::Sides | Faces::Fan => Arguments::TRIANGLES,
+            Faces::LightCap | Faces::DarkCap if draw.back => Arguments::BACK,
+            Faces::LightCap | Faces::DarkCap => Arguments::FRONT,
+        };
+        if matches!(draw.style.faces, Faces::Sides | Faces::Fan) {
+            pass.draw_indirect(bound.arguments, arguments + list);
             return;
         }
-        let list = if draw.back {
-            Arguments::BACK
-        } else {
-            Arguments::FRONT
-        };
         pass.set_index_buffer(caps.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed_indirect(bound.arguments, arguments + list);
     }
