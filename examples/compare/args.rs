@@ -61,7 +61,12 @@ pub struct Args {
     pub frames: u32,
 
     /// Start of the random numbers, where any are drawn.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        allow_hyphen_values = true
+    )]
     pub seed: u64,
 
     /// Take the first adapter whose name holds this, in any case.

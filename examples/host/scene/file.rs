@@ -87,7 +87,7 @@ fn checked(
         bail!("mesh {name:?}: index {i} is out of range, there are {count} vertices");
     }
     ensure!(
-        indices.len() % 3 == 0,
+        indices.len().is_multiple_of(3),
         "mesh {name:?}: {} indices do not make whole triangles",
         indices.len()
     );

@@ -86,7 +86,7 @@ pub fn teapot() -> Scene {
         range: 30.0,
         shadow_near: 0.1,
         camera: Camera {
-            eye: vec3(-2.9, 6.1, 10.7),
+            eye: vec3(-2.3, 4.9, 8.9),
             target: vec3(-0.2, 0.9, -0.3),
             fovy: std::f32::consts::FRAC_PI_4,
             near: 0.1,

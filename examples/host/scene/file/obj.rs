@@ -10,17 +10,11 @@ const CREASE: f64 = 60.0;
 
 pub(super) fn parse(bytes: Vec<u8>) -> Result<Model> {
     let text = String::from_utf8(bytes).context("it is not UTF-8 text")?;
-    let options = tobj::LoadOptions {
-        single_index: true,
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        ..Default::default()
-    };
     // Materials are not used; not opening them means that a missing one is no error.
     let no_materials = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
-    let (groups, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
-        .map_err(|e| anyhow!("it is not a valid OBJ file: {e}"))?;
+    let (groups, _) =
+        tobj::load_obj_buf(&mut text.as_bytes(), &tobj::GPU_LOAD_OPTIONS, no_materials)
+            .map_err(|e| anyhow!("it is not a valid OBJ file: {e}"))?;
     let mut model = Model::default();
     for group in groups {
         if group.mesh.indices.is_empty() {
