@@ -90,7 +90,11 @@ fn forget_a_caster(inputs: &mut ShadowInputs) {
 /// No interior error, and each broken twin has some.
 fn volumes_are_exact(studio: &Studio) -> Comparison {
     let error = studio.true_error(Technique::Volume);
-    assert!(error.lit_facing > 100_000, "{} pixels count", error.lit_facing);
+    assert!(
+        error.lit_facing > 100_000,
+        "{} pixels count",
+        error.lit_facing
+    );
     assert_eq!(interior(&error), 0, "interior errors");
     for (what, falsify) in [
         ("a moved light", move_light as fn(&mut ShadowInputs)),
@@ -112,7 +116,10 @@ fn volumes_are_exact_to_the_pixel_on_the_spheres() {
     let wrong = wrong_percent(&error);
     assert!(wrong <= 0.011, "{wrong} % of pixels are wrong");
     let moved = studio.error(Technique::Volume, Bias::default(), move_light);
-    assert!(wrong_percent(&moved) > 0.011, "a moved light keeps the limit");
+    assert!(
+        wrong_percent(&moved) > 0.011,
+        "a moved light keeps the limit"
+    );
 }
 
 #[test]

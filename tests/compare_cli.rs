@@ -128,7 +128,14 @@ fn an_adapter_that_is_not_there_is_named() {
 #[test]
 fn a_range_within_the_shadow_near_plane_is_refused() {
     if host::gpu::Gpu::for_test().is_some() {
-        let args = ["--range", "1e-9", "--size", "8x8", "--technique", "cube-hard"];
+        let args = [
+            "--range",
+            "1e-9",
+            "--size",
+            "8x8",
+            "--technique",
+            "cube-hard",
+        ];
         assert_refused(&args, "near");
     }
 }
@@ -147,7 +154,11 @@ fn a_file_in_the_way_is_left_alone() {
 fn help_is_no_error() {
     let output = compare(&["--help"]);
     assert!(output.status.success());
-    assert!(String::from_utf8(output.stdout).unwrap().contains("--technique"));
+    assert!(
+        String::from_utf8(output.stdout)
+            .unwrap()
+            .contains("--technique")
+    );
 }
 
 #[test]
@@ -197,22 +208,35 @@ fn check_report(report: &Value) {
     let written: Vec<f32> = floats(&report["camera"]["clip_from_world"]);
     assert_eq!(written, matrix, "not the same f32 numbers");
     assert_eq!(floats(&report["light"]), scene.light.to_array());
-    assert_eq!(floats(&report["camera"]["eye"]), scene.camera.eye.to_array());
-    assert_eq!(report["camera"]["fovy"].as_f64().unwrap() as f32, scene.camera.fovy);
+    assert_eq!(
+        floats(&report["camera"]["eye"]),
+        scene.camera.eye.to_array()
+    );
+    assert_eq!(
+        report["camera"]["fovy"].as_f64().unwrap() as f32,
+        scene.camera.fovy
+    );
     assert_eq!(report["camera"]["depth"], "reverse-z-infinite");
     for field in ["name", "backend", "driver"] {
         assert!(report["adapter"][field].is_string(), "{field}");
     }
     let objects = report["scene"].as_array().unwrap();
     assert_eq!(objects.len(), scene.objects.len());
-    assert!(objects.iter().any(|o| o["kind"] == "closed" && o["triangles"] == 1536));
+    assert!(
+        objects
+            .iter()
+            .any(|o| o["kind"] == "closed" && o["triangles"] == 1536)
+    );
     assert!(objects.iter().any(|o| o["kind"] == "general"));
     let facing = report["reference"]["lit_facing"].as_u64().unwrap();
     assert_eq!(report["reference"]["pixels"], 160 * 90);
     assert!(facing > 1000 && facing < 160 * 90);
 
     let techniques = report["techniques"].as_array().unwrap();
-    let names: Vec<&str> = techniques.iter().map(|t| t["name"].as_str().unwrap()).collect();
+    let names: Vec<&str> = techniques
+        .iter()
+        .map(|t| t["name"].as_str().unwrap())
+        .collect();
     assert_eq!(names, TECHNIQUES);
     for technique in techniques {
         check_technique(technique, facing);
@@ -228,7 +252,10 @@ fn check_technique(technique: &Value, facing: u64) {
         assert!(times["clock"] == "wall" || times["clock"] == "gpu");
     }
     for work in ["prepare_ms", "generate_ms"] {
-        assert!(technique[work]["min"].as_f64().unwrap() > 0.0, "{technique}");
+        assert!(
+            technique[work]["min"].as_f64().unwrap() > 0.0,
+            "{technique}"
+        );
     }
     for wrong in ["false_lit", "false_shadow"] {
         let pixels = technique[wrong].as_u64().unwrap();
@@ -241,7 +268,11 @@ fn check_technique(technique: &Value, facing: u64) {
     for cost in ["bytes", "draws", "triangles_drawn"] {
         assert!(technique[cost].as_u64().unwrap() > 0, "{cost}");
     }
-    assert!(technique["settings"].as_object().is_some_and(|s| !s.is_empty()));
+    assert!(
+        technique["settings"]
+            .as_object()
+            .is_some_and(|s| !s.is_empty())
+    );
 }
 
 fn floats(list: &Value) -> Vec<f32> {
@@ -264,7 +295,10 @@ fn check_visibility(dir: &Path) {
     let report: Value = serde_json::from_str(&text).unwrap();
     let (coverage, truth) = (read("coverage.png"), read("reference.visibility.png"));
     for technique in report["techniques"].as_array().unwrap() {
-        let seen = read(&format!("{}.visibility.png", technique["name"].as_str().unwrap()));
+        let seen = read(&format!(
+            "{}.visibility.png",
+            technique["name"].as_str().unwrap()
+        ));
         let wrong = |lit: bool| {
             let pixels = coverage.iter().zip(&truth).zip(&seen);
             pixels
@@ -286,8 +320,18 @@ fn several_scenes_get_a_directory_each_and_other_files_stay() {
     fs::write(scratch.0.join("out/teapot/notes.txt"), "mine").unwrap();
     let out = scratch.path("out");
     let output = compare(&[
-        "--scene", "spheres", "--scene", "teapot", "--light", "1,2,0.5,0", "--size", "64x36",
-        "--frames", "1", "--out", &out,
+        "--scene",
+        "spheres",
+        "--scene",
+        "teapot",
+        "--light",
+        "1,2,0.5,0",
+        "--size",
+        "64x36",
+        "--frames",
+        "1",
+        "--out",
+        &out,
     ]);
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{told}");

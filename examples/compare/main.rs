@@ -117,8 +117,7 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
 
     let bar = progress(1000, &format!("{name}: reference"));
     let shared = bar.clone();
-    let reference =
-        stage.reference(move |part| shared.set_position((part * 1000.0) as u64))?;
+    let reference = stage.reference(move |part| shared.set_position((part * 1000.0) as u64))?;
     bar.finish_and_clear();
 
     let plan = Plan {

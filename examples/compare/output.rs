@@ -118,9 +118,9 @@ struct Staged<'a> {
 impl<'a> Staged<'a> {
     fn new(results: &'a Results) -> Result<Self> {
         let dir = &results.dir;
-        let missing = dir.ancestors().filter(|place| {
-            !place.as_os_str().is_empty() && !place.exists()
-        });
+        let missing = dir
+            .ancestors()
+            .filter(|place| !place.as_os_str().is_empty() && !place.exists());
         let staged = Self {
             stage: dir.join(format!(".compare-{}", std::process::id())),
             results,

@@ -70,10 +70,7 @@ fn draw(svg: &mut String, title: &str, marks: &[Mark]) -> std::result::Result<()
         .margin_right(36)
         .x_label_area_size(52)
         .y_label_area_size(84)
-        .build_cartesian_2d(
-            (left..right).log_scale(),
-            (bottom..top).log_scale(),
-        )?;
+        .build_cartesian_2d((left..right).log_scale(), (bottom..top).log_scale())?;
     chart
         .configure_mesh()
         .x_desc("milliseconds a frame for shadows (less is better)")
@@ -162,7 +159,12 @@ fn free_offset(
     let aside = GAP + half;
     let step = GAP + LINE_HEIGHT / 2;
     let near = [(aside, 0), (-aside, 0), (0, -step), (0, step)];
-    let corners = [(aside, -step), (-aside, -step), (aside, step), (-aside, step)];
+    let corners = [
+        (aside, -step),
+        (-aside, -step),
+        (aside, step),
+        (-aside, step),
+    ];
     let above = (2..).map(|n| (0, -n * step));
     let mut offsets = near.into_iter().chain(corners).chain(above);
     let free = offsets.find(|offset| {

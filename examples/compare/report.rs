@@ -275,7 +275,11 @@ impl Report {
             out,
             "[The reference's visibility](reference.visibility.png), [which surfaces face the \
              light](coverage.png){}. Error pictures: red is false lit, blue false shadow.\n",
-            if export { ", [the scene](scene.ply)" } else { "" }
+            if export {
+                ", [the scene](scene.ply)"
+            } else {
+                ""
+            }
         )?;
         for t in &self.techniques {
             let name = t.name;

@@ -54,7 +54,12 @@ impl Stage {
     ///
     /// # Errors
     /// If the technique refuses the inputs.
-    pub fn picture(&self, gpu: &Gpu, shadow: &mut Shadow, inputs: &ShadowInputs) -> Result<Picture> {
+    pub fn picture(
+        &self,
+        gpu: &Gpu,
+        shadow: &mut Shadow,
+        inputs: &ShadowInputs,
+    ) -> Result<Picture> {
         shadow.prepare(gpu, inputs)?;
         gpu.run(|encoder| {
             self.renderer.draw_ambient(encoder, &self.scene_gpu);

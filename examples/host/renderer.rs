@@ -266,8 +266,13 @@ fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
     let aspect = size[0] as f32 / size[1] as f32;
     // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
     // whatever the scene's scale.
-    let reach = Vec3::from(scene.light.truncate()).distance(camera.target);
-    let intensity = 2.2 * if scene.light.w == 0.0 { 1.0 } else { reach * reach };
+    let reach = scene.light.truncate().distance(camera.target);
+    let intensity = 2.2
+        * if scene.light.w == 0.0 {
+            1.0
+        } else {
+            reach * reach
+        };
     FrameUniform {
         clip_from_world: camera.clip_from_world(aspect).to_cols_array_2d(),
         eye: camera.eye.extend(1.0).to_array(),
@@ -359,7 +364,14 @@ fn ambient_pipeline(
         bias: wgpu::DepthBiasState::default(),
     };
     let targets = [Some(SHADED.into())];
-    pipeline(device, "host_ambient", &module, &[Some(layout)], depth, &targets)
+    pipeline(
+        device,
+        "host_ambient",
+        &module,
+        &[Some(layout)],
+        depth,
+        &targets,
+    )
 }
 
 fn lit_pipeline(

@@ -48,9 +48,7 @@ impl SceneGpu {
         let meshes: Vec<MeshGpu> = scene
             .meshes
             .iter()
-            .map(|mesh| {
-                MeshGpu::new(gpu, mesh).with_context(|| format!("mesh {:?}", mesh.name))
-            })
+            .map(|mesh| MeshGpu::new(gpu, mesh).with_context(|| format!("mesh {:?}", mesh.name)))
             .collect::<Result<_>>()?;
         let casters = scene
             .objects

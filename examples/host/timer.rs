@@ -43,8 +43,8 @@ impl Timer {
     /// With GPU timestamps on a real GPU that has them. Software drivers write timestamps when
     /// commands are queued rather than done, and so does GL here and there: wall time there.
     pub fn new(gpu: &Gpu) -> Self {
-        let real = gpu.info.device_type != wgpu::DeviceType::Cpu
-            && gpu.info.backend != wgpu::Backend::Gl;
+        let real =
+            gpu.info.device_type != wgpu::DeviceType::Cpu && gpu.info.backend != wgpu::Backend::Gl;
         Self::with_timestamps(gpu, real && gpu.device.features().contains(FEATURE))
     }
 
@@ -104,7 +104,12 @@ impl Timestamps {
         let bytes = gpu.read_buffer(&self.resolved);
         let ticks: Vec<u64> = bytes
             .chunks_exact(8)
-            .map(|chunk| chunk.iter().rev().fold(0, |n, &byte| n << 8 | u64::from(byte)))
+            .map(|chunk| {
+                chunk
+                    .iter()
+                    .rev()
+                    .fold(0, |n, &byte| n << 8 | u64::from(byte))
+            })
             .collect();
         // The counter may wrap between the two.
         ticks[1].wrapping_sub(ticks[0]) as f64 * self.period * 1e-6
