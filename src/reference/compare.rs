@@ -1,5 +1,7 @@
 //! The error of a technique: its picture against the reference.
 
+use std::fmt;
+
 use rayon::prelude::*;
 
 use super::image::{Class, ReferenceImage};
@@ -42,7 +44,7 @@ pub enum Verdict {
 }
 
 /// The error of a technique in pixels. Only those whose surface faces the light count.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Comparison {
     /// Pixels that count: the reference says [`Class::Lit`] or [`Class::Shadowed`].
@@ -59,6 +61,21 @@ pub struct Comparison {
     pub rmse: f64,
     /// One verdict per pixel, row-major from the top left, for a picture of the error.
     pub verdicts: Vec<Verdict>,
+}
+
+/// Everything but the verdicts: a picture is no reading matter.
+impl fmt::Debug for Comparison {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Comparison")
+            .field("lit_facing", &self.lit_facing)
+            .field("false_lit", &self.false_lit)
+            .field("false_shadow", &self.false_shadow)
+            .field("false_lit_interior", &self.false_lit_interior)
+            .field("false_shadow_interior", &self.false_shadow_interior)
+            .field("rmse", &self.rmse)
+            .finish_non_exhaustive()
+    }
 }
 
 impl ReferenceImage {

@@ -77,22 +77,23 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// `casts` says for each triangle whether it blocks light.
-    pub(super) fn new(triangles: Vec<Triangle>, casts: &[bool]) -> Self {
+    /// A hierarchy of all triangles, and one of those that block light.
+    pub(super) fn new(mut casting: Vec<Triangle>, others: Vec<Triangle>) -> Self {
+        let casters = casting.len();
+        casting.extend(others);
+        let triangles = casting;
         // The triangle test rounds relative to the coordinates, so the boxes grow by as much.
         let size = triangles.iter().map(Triangle::size).fold(0.0, f64::max);
         let boxes: Vec<Aabb> = triangles
             .iter()
             .map(|triangle| bounds(triangle, ROUNDING * size))
             .collect();
-        let boxed = || boxes.iter().copied().enumerate();
-        let strategy = BvhBuildStrategy::Binned;
-        let seen = Bvh::from_iter(strategy, boxed());
-        let casting = Bvh::from_iter(strategy, boxed().filter(|&(index, _)| casts[index]));
+        // parry numbers leaves by their place, so the casters come first in both.
+        let hierarchy = |boxes| Bvh::from_leaves(BvhBuildStrategy::Binned, boxes);
         Self {
+            seen: hierarchy(&boxes),
+            casting: hierarchy(&boxes[..casters]),
             triangles,
-            seen,
-            casting,
         }
     }
 

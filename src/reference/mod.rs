@@ -93,15 +93,18 @@ impl ReferenceScene {
     /// vertices are not finite in world space.
     pub fn new(objects: &[ReferenceObject<'_>]) -> Result<Self, ReferenceError> {
         number(objects.len())?;
-        let mut triangles = Vec::new();
-        let mut casts = Vec::new();
-        for (number, object) in objects.iter().enumerate() {
-            triangles.extend(world_triangles(number, object)?);
-            casts.resize(triangles.len(), object.casts);
+        let (mut casting, mut others) = (Vec::new(), Vec::new());
+        for (place, object) in objects.iter().enumerate() {
+            let list = if object.casts {
+                &mut casting
+            } else {
+                &mut others
+            };
+            list.extend(world_triangles(place, object)?);
         }
-        number(triangles.len())?;
+        number(casting.len() + others.len())?;
         Ok(Self {
-            geometry: Arc::new(Geometry::new(triangles, &casts)),
+            geometry: Arc::new(Geometry::new(casting, others)),
             progress: None,
         })
     }
