@@ -23,6 +23,23 @@ fn bare() -> (wgpu::Device, wgpu::Queue) {
     noop(wgpu::Features::empty(), wgpu::Limits::defaults())
 }
 
+/// Devices are told apart within one instance only.
+fn two_devices() -> [(wgpu::Device, wgpu::Queue); 2] {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::NOOP,
+        backend_options: wgpu::BackendOptions {
+            noop: wgpu::NoopBackendOptions::enabled(),
+            ..Default::default()
+        },
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let device = || async {
+        let adapter = instance.request_adapter(&Default::default()).await.unwrap();
+        adapter.request_device(&Default::default()).await.unwrap()
+    };
+    [pollster::block_on(device()), pollster::block_on(device())]
+}
+
 fn new(device: &wgpu::Device, descriptor: ShadowVolumeDescriptor<'_>) -> Result<(), Error> {
     ShadowVolumeRenderer::new(device, &descriptor).map(|_| ())
 }
@@ -146,8 +163,7 @@ fn limits_that_are_too_low_are_named() {
 
 #[test]
 fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
-    let (device, queue) = bare();
-    let (other, _) = bare();
+    let [(device, queue), (other, _)] = two_devices();
     let mut renderer =
         ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
     let good_view = view(DepthConvention::InfiniteReverse);

@@ -2,7 +2,7 @@
 
 use crate::host::gpu::Gpu;
 use crate::pictures::{lamp, mixed};
-use crate::stage::{LightPass, Stage, errors};
+use crate::stage::{LightPass, Stage};
 
 fn drawn(gpu: &Gpu, times: u32, guarded: bool) -> Vec<u8> {
     let stage = Stage {
@@ -21,7 +21,7 @@ fn light_is_never_added_twice() {
     assert!(once.iter().all(|&value| value == 0 || value == 100));
 
     let lit: Vec<u8> = once.iter().map(|&v| if v > 0 { 255 } else { 0 }).collect();
-    let found = errors(&lit, &mixed(lamp()).reference());
+    let found = mixed(lamp()).truth().errors(&lit);
     assert!(found.interior > 10_000 && found.wrong == 0, "{found:?}");
 }
 

@@ -98,8 +98,36 @@ impl Stage {
         View::new(projection * camera, self.depth).unwrap()
     }
 
-    /// The exact answer.
-    pub fn reference(&self) -> ReferenceImage {
+    /// The exact answer at the centres of the pixels and, with several samples, at those.
+    pub fn truth(&self) -> Truth {
+        let scene = self.scene();
+        // WebGPU's standard sample pattern, relative to the centre, in pixels.
+        let offsets: &[(f32, f32)] = match self.samples {
+            1 => &[],
+            _ => &[
+                (-0.125, -0.375),
+                (0.375, -0.125),
+                (-0.375, 0.125),
+                (0.125, 0.375),
+            ],
+        };
+        let image = |(x, y): (f32, f32)| {
+            // A picture moved by -offset shows at its centres what was at centre + offset.
+            let pixel = 2.0 / SIDE as f32;
+            let shift = Mat4::from_translation(Vec3::new(-x * pixel, y * pixel, 0.0));
+            let view = View::new(shift * self.view().clip_from_world(), self.depth).unwrap();
+            scene.render(&view, SIDE, SIDE, self.light, None).unwrap()
+        };
+        Truth {
+            centres: image((0.0, 0.0)),
+            samples: offsets
+                .iter()
+                .map(|&offset| image(offset).visibility())
+                .collect(),
+        }
+    }
+
+    fn scene(&self) -> ReferenceScene {
         let objects: Vec<_> = self
             .bodies
             .iter()
@@ -110,10 +138,7 @@ impl Stage {
                 casts: body.casts,
             })
             .collect();
-        ReferenceScene::new(&objects)
-            .unwrap()
-            .render(&self.view(), SIDE, SIDE, self.light, None)
-            .unwrap()
+        ReferenceScene::new(&objects).unwrap()
     }
 
     fn descriptor(&self) -> ShadowVolumeDescriptor<'_> {
@@ -357,20 +382,39 @@ pub struct Errors {
     pub wrong: usize,
 }
 
-/// A pixel is wrong if any of its samples is.
-pub fn errors(picture: &[u8], reference: &ReferenceImage) -> Errors {
-    let wrong = |keep: fn(u8) -> bool| {
-        let visible: Vec<u8> = picture
-            .iter()
-            .map(|&v| if keep(v) { 255 } else { 0 })
-            .collect();
-        reference.compare(&visible, Interior::Screen).unwrap()
-    };
-    Errors {
-        interior: reference.interior_pixels(Interior::Screen).unwrap(),
-        lit: reference.count(Class::Lit),
-        shadowed: reference.count(Class::Shadowed),
-        wrong: wrong(|v| v > 0).false_lit_interior + wrong(|v| v == 255).false_shadow_interior,
+/// What is right, at the centres and at the samples.
+pub struct Truth {
+    pub centres: ReferenceImage,
+    samples: Vec<Vec<u8>>,
+}
+
+impl Truth {
+    /// Whether a shadow edge passes between the samples of a pixel, unseen by its centre.
+    fn is_split(&self, pixel: usize, centre: u8) -> bool {
+        self.samples.iter().any(|sample| sample[pixel] != centre)
+    }
+
+    /// A pixel is wrong if any of its samples is.
+    pub fn errors(&self, picture: &[u8]) -> Errors {
+        let reference = &self.centres;
+        let truth = reference.visibility();
+        let wrong = |keep: fn(u8) -> bool| {
+            let seen = picture.iter().zip(&truth).enumerate();
+            let visible: Vec<u8> = seen
+                .map(|(pixel, (&value, &centre))| match keep(value) {
+                    _ if self.is_split(pixel, centre) => centre,
+                    true => 255,
+                    false => 0,
+                })
+                .collect();
+            reference.compare(&visible, Interior::Screen).unwrap()
+        };
+        Errors {
+            interior: reference.interior_pixels(Interior::Screen).unwrap(),
+            lit: reference.count(Class::Lit),
+            shadowed: reference.count(Class::Shadowed),
+            wrong: wrong(|v| v > 0).false_lit_interior + wrong(|v| v == 255).false_shadow_interior,
+        }
     }
 }
 
