@@ -3,6 +3,7 @@
 
 pub mod gpu;
 pub mod image;
+pub mod pipelines;
 pub mod ply;
 pub mod renderer;
 pub mod scene;
