@@ -8,9 +8,13 @@ mod hard;
 mod host;
 #[path = "volume/light_pass.rs"]
 mod light_pass;
+#[path = "volume/passes.rs"]
+mod passes;
 #[path = "volume/pictures.rs"]
 mod pictures;
 #[path = "volume/shapes.rs"]
 mod shapes;
 #[path = "volume/stage.rs"]
 mod stage;
+#[path = "volume/truth.rs"]
+mod truth;

@@ -1,17 +1,19 @@
-//! A small host: depth prepass, stencil pass, light pass; and the same scene for the reference.
+//! A scene as a small host draws it, and the same scene for the reference.
 
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, DAffine3, DMat4, Mat4, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
-use shadows::reference::{Class, Interior, ReferenceImage, ReferenceObject, ReferenceScene};
+use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, HostPositions, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu, wgsl,
+    ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
+use crate::passes::{HostPipelines, LightPass, Surface, attach, begin, clear, view_of};
 use crate::shapes::Shape;
+use crate::truth::Truth;
 
 pub const SIDE: u32 = 256;
 
@@ -40,6 +42,15 @@ impl Body {
     }
 }
 
+/// How the camera projects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    Perspective,
+    /// Left and right exchanged, as with a left-handed world: everything turns the other way.
+    Mirrored,
+    Orthographic,
+}
+
 /// Everything a picture depends on.
 #[derive(Clone, Debug)]
 pub struct Stage {
@@ -58,6 +69,7 @@ pub struct Stage {
     /// Bytes between positions and before the first, in a buffer of the host's.
     pub host_layout: Option<(usize, usize)>,
     pub light_pass: LightPass,
+    pub lens: Lens,
 }
 
 impl Stage {
@@ -78,6 +90,7 @@ impl Stage {
             premultiplied: false,
             host_layout: None,
             light_pass: LightPass::Screen,
+            lens: Lens::Perspective,
         }
     }
 
@@ -95,6 +108,11 @@ impl Stage {
             Vec3::Y
         };
         let camera = view::look_at_mat4(self.eye, self.target, up);
+        let projection = match self.lens {
+            Lens::Perspective => projection,
+            Lens::Mirrored => Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)) * projection,
+            Lens::Orthographic => proj::orthographic(-5.0, 5.0, -5.0, 5.0, near, far),
+        };
         View::new(projection * camera, self.depth).unwrap()
     }
 
@@ -328,96 +346,6 @@ impl Stage {
     }
 }
 
-/// One body's geometry as the host draws it.
-struct Surface {
-    vertices: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    count: u32,
-}
-
-impl Surface {
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_vertex_buffer(0, self.vertices.slice(..));
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..self.count, 0, 0..1);
-    }
-}
-
-/// How the host adds its light. Each fragment adds 255 in `Screen`, 100 in the others.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LightPass {
-    /// One triangle over the screen.
-    Screen,
-    /// The scene once more, so many times, where its depth is equal.
-    Scene { times: u32, guarded: bool },
-}
-
-impl LightPass {
-    fn is_unguarded(self) -> bool {
-        matches!(self, Self::Scene { guarded: false, .. })
-    }
-
-    fn draw(self, pass: &mut wgpu::RenderPass<'_>, host: &HostPipelines, surfaces: &[Surface]) {
-        match self {
-            Self::Screen => {
-                pass.set_pipeline(&host.light);
-                pass.draw(0..3, 0..1);
-            }
-            Self::Scene { times, .. } => {
-                pass.set_pipeline(&host.light_again);
-                for _ in 0..times {
-                    surfaces.iter().for_each(|surface| surface.draw(pass));
-                }
-            }
-        }
-    }
-}
-
-/// Interior pixels of each kind, and those of them that a picture has wrong.
-#[derive(Clone, Copy, Debug)]
-pub struct Errors {
-    pub interior: usize,
-    pub lit: usize,
-    pub shadowed: usize,
-    pub wrong: usize,
-}
-
-/// What is right, at the centres and at the samples.
-pub struct Truth {
-    pub centres: ReferenceImage,
-    samples: Vec<Vec<u8>>,
-}
-
-impl Truth {
-    /// Whether a shadow edge passes between the samples of a pixel, unseen by its centre.
-    fn is_split(&self, pixel: usize, centre: u8) -> bool {
-        self.samples.iter().any(|sample| sample[pixel] != centre)
-    }
-
-    /// A pixel is wrong if any of its samples is.
-    pub fn errors(&self, picture: &[u8]) -> Errors {
-        let reference = &self.centres;
-        let truth = reference.visibility();
-        let wrong = |keep: fn(u8) -> bool| {
-            let seen = picture.iter().zip(&truth).enumerate();
-            let visible: Vec<u8> = seen
-                .map(|(pixel, (&value, &centre))| match keep(value) {
-                    _ if self.is_split(pixel, centre) => centre,
-                    true => 255,
-                    false => 0,
-                })
-                .collect();
-            reference.compare(&visible, Interior::Screen).unwrap()
-        };
-        Errors {
-            interior: reference.interior_pixels(Interior::Screen).unwrap(),
-            lit: reference.count(Class::Lit),
-            shadowed: reference.count(Class::Shadowed),
-            wrong: wrong(|v| v > 0).false_lit_interior + wrong(|v| v == 255).false_shadow_interior,
-        }
-    }
-}
-
 fn exact(transform: Affine3A) -> DAffine3 {
     DAffine3::from_mat4(DMat4::from_cols_array(
         &Mat4::from(transform).to_cols_array().map(f64::from),
@@ -426,166 +354,4 @@ fn exact(transform: Affine3A) -> DAffine3 {
 
 pub fn bytes_of<T: bytemuck::NoUninit>(data: &[T]) -> &[u8] {
     bytemuck::cast_slice(data)
-}
-
-fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
-/// With a depth to clear to: both aspects are cleared. Without: the depth is read-only.
-fn attach(
-    view: &wgpu::TextureView,
-    clear: Option<f32>,
-) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: clear.map(|depth| wgpu::Operations {
-            load: wgpu::LoadOp::Clear(depth),
-            store: wgpu::StoreOp::Store,
-        }),
-        stencil_ops: Some(wgpu::Operations {
-            load: match clear {
-                Some(_) => wgpu::LoadOp::Clear(0),
-                None => wgpu::LoadOp::Load,
-            },
-            store: wgpu::StoreOp::Store,
-        }),
-    }
-}
-
-fn clear<'a>(
-    view: &'a wgpu::TextureView,
-    color: wgpu::Color,
-    resolve_target: Option<&'a wgpu::TextureView>,
-) -> wgpu::RenderPassColorAttachment<'a> {
-    wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target,
-        ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(color),
-            store: wgpu::StoreOp::Store,
-        },
-    }
-}
-
-fn begin<'e>(
-    encoder: &'e mut wgpu::CommandEncoder,
-    label: &str,
-    colors: &[Option<wgpu::RenderPassColorAttachment<'_>>],
-    depth_stencil: wgpu::RenderPassDepthStencilAttachment<'_>,
-) -> wgpu::RenderPass<'e> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: colors,
-        depth_stencil_attachment: Some(depth_stencil),
-        ..Default::default()
-    })
-}
-
-struct HostPipelines {
-    depth: wgpu::RenderPipeline,
-    light: wgpu::RenderPipeline,
-    light_again: wgpu::RenderPipeline,
-}
-
-const HOST: &str = "
-struct Vertex {
-    @location(0) position: vec3f,
-    @location(1) a: vec4f, @location(2) b: vec4f, @location(3) c: vec4f, @location(4) d: vec4f,
-    @location(5) e: vec4f, @location(6) f: vec4f, @location(7) g: vec4f, @location(8) h: vec4f,
-}
-@vertex fn surface(v: Vertex) -> @invariant @builtin(position) vec4f {
-    let first = mat4x4f(v.a, v.b, v.c, v.d);
-    return shadows_clip_position(first, mat4x4f(v.e, v.f, v.g, v.h), v.position);
-}
-@vertex fn screen(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
-    return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.5, 1.0);
-}
-@fragment fn lit() -> @location(0) vec4f {
-    return vec4f(1.0);
-}
-@fragment fn dim() -> @location(0) vec4f {
-    return vec4f(100.0 / 255.0);
-}
-";
-
-impl HostPipelines {
-    fn new(gpu: &Gpu, stage: &Stage) -> Self {
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("host"),
-                source: wgpu::ShaderSource::Wgsl([wgsl::POSITION, HOST].join("\n").into()),
-            });
-        let attributes = wgpu::vertex_attr_array![
-            0 => Float32x3, 1 => Float32x4, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4,
-            5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4
-        ];
-        let layout = wgpu::VertexBufferLayout {
-            array_stride: 35 * 4,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &attributes,
-        };
-        let add = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let targets = [Some(wgpu::ColorTargetState {
-            format: wgpu::TextureFormat::R8Unorm,
-            blend: Some(wgpu::BlendState {
-                color: add,
-                alpha: add,
-            }),
-            write_mask: wgpu::ColorWrites::ALL,
-        })];
-        let make = |entry, fragment: Option<&str>, write, compare, stencil| {
-            let buffers = [Some(layout.clone())];
-            gpu.device
-                .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some("host"),
-                    layout: None,
-                    vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some(entry),
-                        compilation_options: Default::default(),
-                        buffers: if entry == "screen" { &[] } else { &buffers },
-                    },
-                    primitive: Default::default(),
-                    depth_stencil: Some(wgpu::DepthStencilState {
-                        format: stage.format,
-                        depth_write_enabled: Some(write),
-                        depth_compare: Some(compare),
-                        stencil,
-                        bias: Default::default(),
-                    }),
-                    multisample: wgpu::MultisampleState {
-                        count: stage.samples,
-                        ..Default::default()
-                    },
-                    fragment: fragment.map(|entry| wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some(entry),
-                        compilation_options: Default::default(),
-                        targets: &targets,
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                })
-        };
-        let mut guard = ShadowVolumeRenderer::light_pass_stencil();
-        if stage.light_pass.is_unguarded() {
-            guard.front.pass_op = wgpu::StencilOperation::Keep;
-            guard.back.pass_op = wgpu::StencilOperation::Keep;
-        }
-        let always = wgpu::CompareFunction::Always;
-        let equal = wgpu::CompareFunction::Equal;
-        let nearer = stage.depth.nearer();
-        Self {
-            depth: make("surface", None, true, nearer, Default::default()),
-            light: make("screen", Some("lit"), false, always, guard.clone()),
-            light_again: make("surface", Some("dim"), false, equal, guard),
-        }
-    }
 }
