@@ -382,6 +382,9 @@ pub enum ShadowVolumeError {
         /// Bytes possible.
         limit: u64,
     },
+    /// The target size has no pixels.
+    #[error("a target of {0:?} pixels has none; pass its width and height, or None")]
+    TargetSize([u32; 2]),
     /// More casters than the device's buffers can describe.
     #[error(
         "{count} casters are too many for one frame; this device's buffer limits allow {limit}"

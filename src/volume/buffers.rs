@@ -97,17 +97,26 @@ impl Buffers {
     ) {
         let mut made = false;
         let most = device.limits().max_buffer_size;
-        let mut write = |grown: &mut Grown, bytes: &[u8]| {
+        let storage = limits.storage_bytes;
+        let mut write = |grown: &mut Grown, most, bytes: &[u8]| {
             let buffer = grown.get(device, bytes.len() as u64, most, &mut made);
             queue.write_buffer(buffer, 0, bytes);
         };
         let batches: Vec<BatchParams> = plan.batches.iter().map(|batch| batch.params).collect();
-        write(&mut self.batches, &spread(&batches, device));
-        write(&mut self.casters, &spread(&plan.casters, device));
-        write(&mut self.instances, bytemuck::cast_slice(&plan.instances));
-        write(&mut self.template, bytemuck::cast_slice(&plan.arguments));
+        write(&mut self.batches, most, &spread(&batches, device));
+        write(&mut self.casters, most, &spread(&plan.casters, device));
+        write(
+            &mut self.instances,
+            storage,
+            bytemuck::cast_slice(&plan.instances),
+        );
+        write(
+            &mut self.template,
+            most,
+            bytemuck::cast_slice(&plan.arguments),
+        );
         let arguments = size_of_val(&plan.arguments[..]) as u64;
-        self.arguments.get(device, arguments, most, &mut made);
+        self.arguments.get(device, arguments, storage, &mut made);
         while self.chunks.len() < plan.chunks.len() {
             self.chunks.push(chunk(&self.label, self.chunks.len()));
         }

@@ -228,6 +228,9 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
     {
         return Err(LightError::Range(range).into());
     }
+    if let Some(size) = frame.target_size.filter(|size| size.contains(&0)) {
+        return Err(ShadowVolumeError::TargetSize(size));
+    }
     for (index, caster) in frame.casters.iter().enumerate() {
         caster.validate(index, device)?;
     }
