@@ -208,26 +208,6 @@ fn a_fan_over_the_silhouette_is_as_good_as_the_full_dark_cap() {
 }
 
 #[test]
-fn without_its_dark_cap_a_point_lights_volume_is_open() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    // The broken twin of the tests of caps: a light very far away, drawn as a directional one, has
-    // no dark cap; only where that is the same light is it the same picture.
-    let stage = Stage {
-        eye: Vec3::new(0.5, 0.6, 0.0),
-        target: Vec3::new(4.0, 0.3, 0.0),
-        ..Stage::new(
-            HomogeneousLight::point(Vec3::new(-3.0, 1.4, 0.0)),
-            vec![Body::caster(shapes::cube(), at(-1.2, 1.1, 0.0))],
-        )
-    };
-    let truth = stage.truth();
-    assert_eq!(truth.errors(&stage.draw(&gpu)).wrong, 0);
-    let mut open = stage.clone();
-    open.light = HomogeneousLight::directional(stage.light.0.truncate());
-    assert!(truth.errors(&open.draw(&gpu)).wrong > 100);
-}
-
-#[test]
 fn a_light_among_the_triangles_gets_the_full_cap() {
     let Some(gpu) = Gpu::for_test() else { return };
     let room = shapes::cube().cut(|corners| corners.iter().any(|c| c.y > -0.5));

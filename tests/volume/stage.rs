@@ -165,7 +165,7 @@ impl Stage {
             centres: image((0.0, 0.0)),
             samples: offsets
                 .iter()
-                .map(|&offset| image(offset).visibility())
+                .map(|&offset| image(offset).classes().collect())
                 .collect(),
         }
     }
