@@ -1,6 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
 use crate::error::ShadowVolumeError;
+use crate::support::STORAGE_BUFFERS;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
@@ -45,9 +46,6 @@ pub(super) const WORKGROUP: u32 = 256;
 
 /// Workgroups in a dimension, so that two dimensions hold one invocation for each `u32`.
 const WORKGROUPS: u32 = 4096;
-
-/// Storage buffers in the largest of the passes.
-const STORAGE_BUFFERS: u32 = 6;
 
 impl ShadowVolumeDescriptor<'_> {
     /// Whether the device can do what the descriptor asks for.
