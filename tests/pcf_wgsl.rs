@@ -10,8 +10,8 @@ fn sampler(kernel: Kernel) -> PcfSampler {
     PcfSampler::new(
         &device,
         &PcfDescriptor {
-            label: None,
             kernel,
+            ..Default::default()
         },
     )
 }
@@ -103,8 +103,8 @@ fn a_host_pipeline_accepts_layout_and_module() {
         let sampler = PcfSampler::new(
             &device,
             &PcfDescriptor {
-                label: None,
                 kernel,
+                ..Default::default()
             },
         );
         let source = sampler.wgsl_module(0) + HOST + VERTEX;
