@@ -139,6 +139,7 @@ pub mod pcf;
 pub mod reference;
 pub mod support;
 pub mod view;
+pub mod volume;
 pub mod wgsl;
 
 pub use light::{HomogeneousLight, PointLight};
@@ -150,3 +151,6 @@ pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{Kernel, PcfDescriptor, PcfSampler};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
+pub use volume::{
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, VolumeStatistics,
+};

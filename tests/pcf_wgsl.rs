@@ -118,7 +118,7 @@ fn a_host_pipeline_accepts_layout_and_module() {
                 bind_group_layouts: &[Some(sampler.bind_group_layout())],
                 immediate_size: 0,
             });
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            let _ = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: None,
                 layout: Some(&layout),
                 vertex: wgpu::VertexState {
