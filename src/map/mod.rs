@@ -18,7 +18,7 @@ mod visible;
 
 pub use bias::Bias;
 pub use cube::CubeShadowMap;
-pub use descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
+pub use descriptor::{Allocation, CasterSides, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 pub use face::CubeFace;
 pub(crate) use light::LightUniform;
 pub use statistics::{CubeStatistics, FaceState, FaceStatistics};

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
 
+use super::solid::is_solid;
 use super::{Adjacency, Bounds, MeshKind};
 use crate::error::{CasterError, CasterMeshError};
 
@@ -32,6 +33,7 @@ struct Inner {
     edge_uses: Option<wgpu::Buffer>,
     edge_use_count: u32,
     kind: MeshKind,
+    solid: bool,
     bounds: Bounds,
     radius: f32,
 }
@@ -58,6 +60,7 @@ struct Source {
     offset: u64,
     bounds: Bounds,
     radius: f32,
+    solid: bool,
 }
 
 impl CasterMesh {
@@ -98,6 +101,7 @@ impl CasterMesh {
             offset: 0,
             bounds,
             radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+            solid: is_solid(&packed, adjacency),
         };
         Self::assemble(device, source, adjacency)
     }
@@ -155,6 +159,8 @@ impl CasterMesh {
             offset,
             bounds,
             radius: bounds.radius_of([bounds.min, bounds.max]),
+            // The host may turn it inside out.
+            solid: false,
         };
         Self::assemble(device, source, adjacency)
     }
@@ -208,6 +214,7 @@ impl CasterMesh {
             edge_uses,
             edge_use_count: uses.len() as u32,
             kind,
+            solid: source.solid,
             bounds: source.bounds,
             radius: source.radius,
         })))
@@ -216,6 +223,11 @@ impl CasterMesh {
     /// The rule its shadow volume follows.
     pub fn kind(&self) -> MeshKind {
         self.0.kind
+    }
+
+    /// Whether it is closed and known to be wound counter-clockwise seen from outside.
+    pub(crate) fn is_solid(&self) -> bool {
+        self.0.solid
     }
 
     /// Number of triangles that cast (those that collapsed in the weld do not).
