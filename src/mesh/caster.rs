@@ -1,10 +1,12 @@
 //! The GPU side of a mesh that casts shadows, and a caster: such a mesh somewhere in the world.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
 
+use super::solid::is_solid;
 use super::{Adjacency, Bounds, MeshKind};
 use crate::error::{CasterError, CasterMeshError};
 
@@ -17,6 +19,8 @@ pub struct CasterMesh(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
+    id: u64,
+    revision: AtomicU64,
     device: wgpu::Device,
     positions: wgpu::Buffer,
     stride: u64,
@@ -29,6 +33,7 @@ struct Inner {
     edge_uses: Option<wgpu::Buffer>,
     edge_use_count: u32,
     kind: MeshKind,
+    solid: bool,
     bounds: Bounds,
     radius: f32,
 }
@@ -55,6 +60,7 @@ struct Source {
     offset: u64,
     bounds: Bounds,
     radius: f32,
+    solid: bool,
 }
 
 impl CasterMesh {
@@ -95,6 +101,7 @@ impl CasterMesh {
             offset: 0,
             bounds,
             radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+            solid: is_solid(&packed, adjacency),
         };
         Self::assemble(device, source, adjacency)
     }
@@ -152,6 +159,8 @@ impl CasterMesh {
             offset,
             bounds,
             radius: bounds.radius_of([bounds.min, bounds.max]),
+            // The host may turn it inside out.
+            solid: false,
         };
         Self::assemble(device, source, adjacency)
     }
@@ -189,7 +198,10 @@ impl CasterMesh {
             MeshKind::Closed => None,
             MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
         };
+        static NEXT_ID: AtomicU64 = AtomicU64::new(0);
         Ok(Self(Arc::new(Inner {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            revision: AtomicU64::new(0),
             device: device.clone(),
             positions: source.buffer,
             stride: source.stride,
@@ -202,6 +214,7 @@ impl CasterMesh {
             edge_uses,
             edge_use_count: uses.len() as u32,
             kind,
+            solid: source.solid,
             bounds: source.bounds,
             radius: source.radius,
         })))
@@ -210,6 +223,11 @@ impl CasterMesh {
     /// The rule its shadow volume follows.
     pub fn kind(&self) -> MeshKind {
         self.0.kind
+    }
+
+    /// Whether it is closed and known to be wound counter-clockwise seen from outside.
+    pub(crate) fn is_solid(&self) -> bool {
+        self.0.solid
     }
 
     /// Number of triangles that cast (those that collapsed in the weld do not).
@@ -236,6 +254,23 @@ impl CasterMesh {
     /// Number of vertices in the position buffer.
     pub fn vertex_count(&self) -> u32 {
         self.0.vertex_count
+    }
+
+    /// Says that the positions have changed since shadows were last drawn: the host calls it after
+    /// it deformed a mesh in its own position buffer. Faces of shadow maps that this mesh touches
+    /// are then drawn again. All clones share one revision.
+    pub fn bump_revision(&self) {
+        self.0.revision.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// How often [`bump_revision`](Self::bump_revision) was called.
+    pub fn revision(&self) -> u64 {
+        self.0.revision.load(Ordering::Relaxed)
+    }
+
+    /// A number that no other mesh of this process has or will have; clones share it.
+    pub(crate) fn id(&self) -> u64 {
+        self.0.id
     }
 
     pub(crate) fn device(&self) -> &wgpu::Device {

@@ -8,6 +8,7 @@ mod edges;
 mod input;
 mod parts;
 mod raw;
+mod solid;
 mod tolerance;
 mod topology;
 mod triangles;
