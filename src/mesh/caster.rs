@@ -1,6 +1,6 @@
 //! The GPU side of a mesh that casts shadows, and a caster: such a mesh somewhere in the world.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
@@ -31,6 +31,8 @@ struct Inner {
     kind: MeshKind,
     bounds: Bounds,
     radius: f32,
+    /// Of positions that the host owns; others never change.
+    revision: Option<Mutex<Option<u64>>>,
 }
 
 /// Positions that already lie in a vertex buffer of the host, read in place every frame.
@@ -55,6 +57,7 @@ struct Source {
     offset: u64,
     bounds: Bounds,
     radius: f32,
+    of_host: bool,
 }
 
 impl CasterMesh {
@@ -95,6 +98,7 @@ impl CasterMesh {
             offset: 0,
             bounds,
             radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+            of_host: false,
         };
         Self::assemble(device, source, adjacency)
     }
@@ -152,6 +156,7 @@ impl CasterMesh {
             offset,
             bounds,
             radius: bounds.radius_of([bounds.min, bounds.max]),
+            of_host: true,
         };
         Self::assemble(device, source, adjacency)
     }
@@ -204,7 +209,29 @@ impl CasterMesh {
             kind,
             bounds: source.bounds,
             radius: source.radius,
+            revision: source.of_host.then(|| Mutex::new(None)),
         })))
+    }
+
+    /// Says which state of the host's own positions lies in its buffer: any number that changes
+    /// whenever they do. Shared by all clones.
+    ///
+    /// Until this is called, a mesh made [`from_host_positions`](Self::from_host_positions) is taken
+    /// to have changed in every frame, which is always right; from then on its shadows may be kept
+    /// while the number stays the same. Call it before the frame is prepared. It has no effect on
+    /// meshes whose positions were uploaded by [`new`](Self::new), which never change.
+    pub fn set_revision(&self, revision: u64) {
+        if let Some(own) = &self.0.revision {
+            *own.lock().unwrap_or_else(PoisonError::into_inner) = Some(revision);
+        }
+    }
+
+    /// The state of the positions; `None` if nobody knows.
+    pub(crate) fn revision(&self) -> Option<u64> {
+        match &self.0.revision {
+            Some(own) => *own.lock().unwrap_or_else(PoisonError::into_inner),
+            None => Some(0),
+        }
     }
 
     /// The rule its shadow volume follows.

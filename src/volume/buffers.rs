@@ -87,27 +87,25 @@ impl Buffers {
         }
     }
 
-    /// Makes room for a plan and uploads it.
-    pub fn upload(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        plan: &Plan,
-        limits: &PlanLimits,
-    ) {
+    /// Makes room for a plan. What was extracted before is lost if the
+    /// [`generation`](Self::generation) changes.
+    pub fn reserve(&mut self, device: &wgpu::Device, plan: &Plan, limits: &PlanLimits) {
         let mut made = false;
         let most = device.limits().max_buffer_size;
-        let mut write = |grown: &mut Grown, bytes: &[u8]| {
-            let buffer = grown.get(device, bytes.len() as u64, most, &mut made);
-            queue.write_buffer(buffer, 0, bytes);
+        let mut get = |grown: &mut Grown, count: usize, each: u64| {
+            grown.get(device, count as u64 * each, most, &mut made);
         };
-        let batches: Vec<BatchParams> = plan.batches.iter().map(|batch| batch.params).collect();
-        write(&mut self.batches, &spread(&batches, device));
-        write(&mut self.casters, &spread(&plan.casters, device));
-        write(&mut self.instances, bytemuck::cast_slice(&plan.instances));
-        write(&mut self.template, bytemuck::cast_slice(&plan.arguments));
-        let arguments = size_of_val(&plan.arguments[..]) as u64;
-        self.arguments.get(device, arguments, most, &mut made);
+        let batch = window::<BatchParams>(&device.limits());
+        let caster = window::<CasterParams>(&device.limits());
+        let arguments = size_of::<Arguments>() as u64;
+        // There are at most as many batches as casters. How many there are depends on what is
+        // kept, and must not decide whether it can be.
+        get(&mut self.batches, plan.casters.len(), batch);
+        get(&mut self.casters, plan.casters.len(), caster);
+        let instance = size_of::<InstanceParams>() as u64;
+        get(&mut self.instances, plan.instances.len(), instance);
+        get(&mut self.template, plan.arguments.len(), arguments);
+        get(&mut self.arguments, plan.arguments.len(), arguments);
         while self.chunks.len() < plan.chunks.len() {
             self.chunks.push(chunk(&self.label, self.chunks.len()));
         }
@@ -117,6 +115,18 @@ impl Buffers {
             }
         }
         self.generation += u64::from(made);
+    }
+
+    /// Uploads a plan for which there is room.
+    pub fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue, plan: &Plan) {
+        let Some(bound) = self.bound() else { return };
+        let batches: Vec<BatchParams> = plan.batches.iter().map(|batch| batch.params).collect();
+        queue.write_buffer(bound.batches, 0, &spread(&batches, device));
+        queue.write_buffer(bound.casters, 0, &spread(&plan.casters, device));
+        if plan.stale().next().is_some() {
+            queue.write_buffer(bound.instances, 0, bytemuck::cast_slice(&plan.instances));
+            queue.write_buffer(bound.template, 0, bytemuck::cast_slice(&plan.arguments));
+        }
     }
 
     /// Counts the times a buffer was made.

@@ -25,6 +25,10 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// [`wgsl::POSITION`](crate::wgsl::POSITION); more makes up for other arithmetic. It has no
     /// effect on where shadows fall, except for casters that the host itself does not draw.
     pub cap_bias_ulps: u32,
+    /// Whether a caster's volume is kept for the next frame if neither the light nor the caster
+    /// moves: its silhouette is then not searched again. Default `true`; `false` is of use only to
+    /// measure what it saves.
+    pub keep_between_frames: bool,
 }
 
 impl Default for ShadowVolumeDescriptor<'_> {
@@ -36,6 +40,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             depth: DepthConvention::default(),
             color_formats: &[],
             cap_bias_ulps: 4,
+            keep_between_frames: true,
         }
     }
 }
@@ -172,10 +177,13 @@ pub struct VolumeStatistics {
     pub casters_skipped: u32,
     /// Draw calls that `render` records.
     pub draws: u32,
+    /// Casters whose silhouettes were searched for this frame; those of the other casters drawn
+    /// were kept from the frame before.
+    pub casters_extracted: u32,
     /// Dispatches that `encode` records.
     pub dispatches: u32,
     /// Bytes of GPU memory that the renderer holds (the meshes' own not counted).
     pub gpu_bytes: u64,
-    /// Triangles whose facing `encode` decides, over all casters drawn.
+    /// Triangles of all casters drawn.
     pub triangles: u64,
 }

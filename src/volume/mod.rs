@@ -13,6 +13,7 @@
 mod buffers;
 mod descriptor;
 mod draw;
+mod kept;
 mod layout;
 mod params;
 mod plan;

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::Mat4;
 
+use super::kept::{Kept, Slot};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::regions::{Place, Regions, Words};
 use super::rule::{self, ObjectLight, WorldBox};
@@ -38,6 +39,8 @@ pub(super) struct Batch {
     pub chunk: usize,
     pub params: BatchParams,
     pub instance_count: u32,
+    /// Whether the buffers hold these volumes already.
+    pub ready: bool,
 }
 
 /// Everything `prepare` uploads and `encode` and `render` walk through.
@@ -52,6 +55,8 @@ pub(super) struct Plan {
     pub casters: Vec<CasterParams>,
     /// For each instance, its batch.
     pub batch_of: Vec<u32>,
+    /// For each instance, what its volume follows from.
+    pub slots: Vec<Slot>,
     pub statistics: VolumeStatistics,
 }
 
@@ -79,6 +84,7 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
         limits: &PlanLimits,
+        kept: &Kept<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
         let groups = subjects(frame)?;
@@ -92,7 +98,7 @@ impl Plan {
         let mut plan = Self::default();
         let mut regions = Regions::new(limits.storage_bytes);
         for subject in groups.iter().flatten() {
-            plan.add(subject, frame, &mut regions, limits)?;
+            plan.add(subject, frame, &mut regions, limits, kept)?;
         }
         plan.chunks = regions.chunks().to_vec();
         plan.draws.sort_unstable();
@@ -100,11 +106,30 @@ impl Plan {
             casters_drawn: count as u32,
             casters_skipped: (frame.casters.len() - count) as u32,
             draws: plan.draws.len() as u32,
-            dispatches: 2 * plan.batches.len() as u32,
-            gpu_bytes: 0,
             triangles: plan.batches.iter().map(Batch::triangles).sum(),
+            ..Default::default()
         };
+        plan.count_extraction();
         Ok(plan)
+    }
+
+    /// Has every volume extracted, because the buffers were made anew.
+    pub fn forget(&mut self) {
+        self.batches.iter_mut().for_each(|b| b.ready = false);
+        self.slots.iter_mut().for_each(|s| s.ready = false);
+        self.count_extraction();
+    }
+
+    /// The batches that are extracted, with their places in the list of batches.
+    pub fn stale(&self) -> impl Iterator<Item = (u32, &Batch)> {
+        (0..).zip(&self.batches).filter(|(_, batch)| !batch.ready)
+    }
+
+    fn count_extraction(&mut self) {
+        let extracted = self.slots.iter().filter(|slot| !slot.ready).count() as u32;
+        let dispatches = 2 * self.stale().count() as u32;
+        self.statistics.casters_extracted = extracted;
+        self.statistics.dispatches = dispatches;
     }
 
     fn add(
@@ -113,6 +138,7 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         regions: &mut Regions,
         limits: &PlanLimits,
+        kept: &Kept<'_>,
     ) -> Result<(), ShadowVolumeError> {
         let caster = &frame.casters[subject.index];
         let mesh = &caster.mesh;
@@ -126,17 +152,18 @@ impl Plan {
                 limit: overflow.limit,
             })?;
         let instance = self.instances.len() as u32;
-        let batch = self.batch(mesh, &place, frame, limits.workgroups);
+        let mut slot = Slot {
+            mesh: mesh.clone(),
+            revision: mesh.revision(),
+            chunk: place.chunk,
+            instance: instance_params(subject, &place),
+            ready: false,
+        };
+        slot.ready = kept.holds(instance as usize, &slot);
+        let batch = self.batch(&slot, frame, limits.workgroups);
         self.batch_of.push(batch);
-        self.instances.push(InstanceParams {
-            light: subject.light.light,
-            light_rest: subject.light.rest,
-            both_sides: u32::from(subject.both_sides),
-            facing_base: place.facing,
-            cap_base: place.cap,
-            side_base: place.side,
-            padding: 0,
-        });
+        self.instances.push(slot.instance);
+        self.slots.push(slot);
         // Caps are below the region's end, which the regions keep below 2^32.
         let cap_end = place.cap + need[1] as u32;
         self.arguments.push(Arguments::new(place.cap, cap_end));
@@ -155,25 +182,21 @@ impl Plan {
     }
 
     /// The batch that the next instance belongs to.
-    fn batch(
-        &mut self,
-        mesh: &CasterMesh,
-        place: &Place,
-        frame: &ShadowVolumeFrame<'_>,
-        most: u32,
-    ) -> u32 {
+    fn batch(&mut self, slot: &Slot, frame: &ShadowVolumeFrame<'_>, most: u32) -> u32 {
         let open = self.batches.last_mut().filter(|batch| {
-            batch.mesh.key() == mesh.key()
-                && batch.chunk == place.chunk
+            batch.mesh.key() == slot.mesh.key()
+                && batch.chunk == slot.chunk
+                && batch.ready == slot.ready
                 && batch.instance_count < most
         });
         match open {
             Some(batch) => batch.instance_count += 1,
             None => self.batches.push(Batch {
-                mesh: mesh.clone(),
-                chunk: place.chunk,
-                params: batch_params(mesh, self.instances.len() as u32, frame),
+                mesh: slot.mesh.clone(),
+                chunk: slot.chunk,
+                params: batch_params(&slot.mesh, self.instances.len() as u32, frame),
                 instance_count: 1,
+                ready: slot.ready,
             }),
         }
         self.batches.len() as u32 - 1
@@ -260,6 +283,18 @@ fn words(mesh: &CasterMesh, both_sides: bool) -> Words {
         (MeshKind::General, _) => u64::from(mesh.edge_use_count()),
     };
     [triangles, 3 * triangles, sides]
+}
+
+fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
+    InstanceParams {
+        light: subject.light.light,
+        light_rest: subject.light.rest,
+        both_sides: u32::from(subject.both_sides),
+        facing_base: place.facing,
+        cap_base: place.cap,
+        side_base: place.side,
+        padding: 0,
+    }
 }
 
 fn batch_params(

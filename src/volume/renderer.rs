@@ -1,9 +1,11 @@
 //! The renderer: prepare, encode, render.
 
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::buffers::{Bound, Buffers, window};
 use super::draw::{self, DrawPipelines};
+use super::kept::Kept;
 use super::layout::bind;
 use super::params::{Arguments, BatchParams, CasterParams};
 use super::plan::{Batch, Draw, Faces, Plan, PlanLimits};
@@ -37,6 +39,9 @@ pub struct ShadowVolumeRenderer {
     buffers: Buffers,
     groups: Groups,
     plan: Plan,
+    keep: bool,
+    /// Whether `encode` was called since the last `prepare`.
+    encoded: AtomicBool,
 }
 
 /// The bind groups of a mesh with a chunk's buffers.
@@ -81,6 +86,8 @@ impl ShadowVolumeRenderer {
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             plan: Plan::default(),
+            keep: descriptor.keep_between_frames,
+            encoded: AtomicBool::new(false),
             label,
         })
     }
@@ -107,23 +114,40 @@ impl ShadowVolumeRenderer {
             });
         }
         let limits = PlanLimits::of(&device.limits());
-        let mut plan = Plan::new(frame, device, &limits)?;
+        let mut plan = Plan::new(frame, device, &limits, &self.kept())?;
         if !plan.draws.is_empty() {
-            self.buffers.upload(device, queue, &plan, &limits);
+            let generation = self.buffers.generation();
+            self.buffers.reserve(device, &plan, &limits);
+            if self.buffers.generation() != generation {
+                plan.forget();
+            }
+            self.buffers.upload(device, queue, &plan);
         }
         plan.statistics.gpu_bytes = self.buffers.bytes();
         self.plan = plan;
+        *self.encoded.get_mut() = false;
         self.bind();
         Ok(())
     }
 
-    /// Records the compute passes that extract the volumes. May be called again without another
-    /// [`prepare`](Self::prepare), e.g. after the host moved vertices of a mesh.
+    /// Records the compute passes that extract the volumes which were not kept from the frame
+    /// before: none where neither the light nor a caster has moved.
+    ///
+    /// What is recorded must be submitted, for the next frame counts on it. May be called again
+    /// without another [`prepare`](Self::prepare), e.g. after the host moved vertices of a mesh.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.encoded.store(true, Ordering::Relaxed);
         let Some(bound) = self.bound() else { return };
-        // Counts start from the template, so that recording twice counts nothing twice.
-        let size = size_of_val(&self.plan.arguments[..]) as u64;
-        encoder.copy_buffer_to_buffer(bound.template, 0, bound.arguments, 0, size);
+        if self.plan.stale().next().is_none() {
+            return;
+        }
+        let each = size_of::<Arguments>() as u64;
+        for (_, batch) in self.plan.stale() {
+            // Counts start from the template, so that recording twice counts nothing twice.
+            let start = u64::from(batch.params.first_instance) * each;
+            let size = u64::from(batch.instance_count) * each;
+            encoder.copy_buffer_to_buffer(bound.template, start, bound.arguments, start, size);
+        }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(&self.label),
             timestamp_writes: None,
@@ -177,6 +201,17 @@ impl ShadowVolumeRenderer {
         self.plan.statistics
     }
 
+    /// What the buffers hold of the frame before.
+    fn kept(&self) -> Kept<'_> {
+        if !self.keep {
+            return Kept::NOTHING;
+        }
+        Kept {
+            slots: &self.plan.slots,
+            encoded: self.encoded.load(Ordering::Relaxed),
+        }
+    }
+
     /// The buffers, if there is anything to draw.
     fn bound(&self) -> Option<Bound<'_>> {
         if self.plan.draws.is_empty() {
@@ -195,13 +230,13 @@ impl ShadowVolumeRenderer {
         let most = limits.max_compute_workgroups_per_dimension;
         let step = window::<BatchParams>(&limits) as u32;
         pass.set_pipeline(pipeline);
-        for (index, batch) in (0..).zip(&self.plan.batches) {
-            let Some(group) = self.groups.get(index) else {
+        for (index, batch) in self.plan.stale() {
+            let Some(group) = self.groups.get(index as usize) else {
                 continue;
             };
             let (count, group) = work(batch, group);
             let [x, y, z] = workgroups(count, batch.instance_count, most);
-            pass.set_bind_group(0, group, &[index as u32 * step]);
+            pass.set_bind_group(0, group, &[index * step]);
             pass.dispatch_workgroups(x, y, z);
         }
     }
