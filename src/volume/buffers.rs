@@ -3,6 +3,7 @@
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
+use super::silhouette::Way;
 
 /// A buffer that grows.
 #[derive(Debug)]
@@ -62,13 +63,12 @@ pub(super) struct Buffers {
     generation: u64,
 }
 
-/// The buffers of one frame; there are none if nothing is drawn.
+/// The buffers that compute shaders read and write, besides a chunk's.
 pub(super) struct Bound<'a> {
     pub batches: &'a wgpu::Buffer,
     pub instances: &'a wgpu::Buffer,
     pub template: &'a wgpu::Buffer,
     pub arguments: &'a wgpu::Buffer,
-    pub casters: &'a wgpu::Buffer,
 }
 
 impl Buffers {
@@ -95,18 +95,29 @@ impl Buffers {
         let mut get = |grown: &mut Grown, count: usize, each: u64| {
             grown.get(device, count as u64 * each, most, &mut made);
         };
-        let batch = window::<BatchParams>(&device.limits());
+        let count = plan.casters.len();
         let caster = window::<CasterParams>(&device.limits());
-        let arguments = size_of::<Arguments>() as u64;
-        // There are at most as many batches as casters. How many there are depends on what is
-        // kept, and must not decide whether it can be.
-        get(&mut self.batches, plan.casters.len(), batch);
-        get(&mut self.casters, plan.casters.len(), caster);
-        let instance = size_of::<InstanceParams>() as u64;
-        get(&mut self.instances, plan.instances.len(), instance);
-        get(&mut self.template, plan.arguments.len(), arguments);
-        get(&mut self.arguments, plan.arguments.len(), arguments);
-        while self.chunks.len() < plan.chunks.len() {
+        get(&mut self.casters, count, caster);
+        if plan.uses(Way::Compute) {
+            // There are at most as many batches as casters. How many there are depends on what is
+            // kept, and must not decide whether it can be.
+            get(
+                &mut self.batches,
+                count,
+                window::<BatchParams>(&device.limits()),
+            );
+            get(
+                &mut self.instances,
+                count,
+                size_of::<InstanceParams>() as u64,
+            );
+            let arguments = size_of::<Arguments>() as u64;
+            get(&mut self.template, count, arguments);
+            get(&mut self.arguments, count, arguments);
+        }
+        // Nothing is listed where vertex shaders do all the work, and there may be no storage.
+        let listed = plan.uses(Way::Compute) || plan.uses(Way::Cpu);
+        while listed && self.chunks.len() < plan.chunks.len() {
             self.chunks.push(chunk(&self.label, self.chunks.len()));
         }
         for (chunk, words) in self.chunks.iter_mut().zip(&plan.chunks) {
@@ -119,11 +130,14 @@ impl Buffers {
 
     /// Uploads a plan for which there is room.
     pub fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue, plan: &Plan) {
-        let Some(bound) = self.bound() else { return };
-        let batches: Vec<BatchParams> = plan.batches.iter().map(|batch| batch.params).collect();
-        queue.write_buffer(bound.batches, 0, &spread(&batches, device));
-        queue.write_buffer(bound.casters, 0, &spread(&plan.casters, device));
-        if plan.stale().next().is_some() {
+        if let Some(casters) = self.casters() {
+            queue.write_buffer(casters, 0, &spread(&plan.casters, device));
+        }
+        if let Some(bound) = self.bound()
+            && plan.stale().next().is_some()
+        {
+            let batches: Vec<BatchParams> = plan.batches.iter().map(|b| b.params).collect();
+            queue.write_buffer(bound.batches, 0, &spread(&batches, device));
             queue.write_buffer(bound.instances, 0, bytemuck::cast_slice(&plan.instances));
             queue.write_buffer(bound.template, 0, bytemuck::cast_slice(&plan.arguments));
         }
@@ -134,15 +148,19 @@ impl Buffers {
         self.generation
     }
 
-    /// The frame's buffers, once something was uploaded.
+    /// The buffers of compute shaders, once there was work for them.
     pub fn bound(&self) -> Option<Bound<'_>> {
         Some(Bound {
             batches: self.batches.buffer.as_ref()?,
             instances: self.instances.buffer.as_ref()?,
             template: self.template.buffer.as_ref()?,
             arguments: self.arguments.buffer.as_ref()?,
-            casters: self.casters.buffer.as_ref()?,
         })
+    }
+
+    /// The parameters of the casters, once there are any.
+    pub fn casters(&self) -> Option<&wgpu::Buffer> {
+        self.casters.buffer.as_ref()
     }
 
     /// Facings, caps and sides of a chunk.
@@ -209,6 +227,7 @@ impl PlanLimits {
         .into_iter()
         .fold(u64::MAX, u64::min);
         Self {
+            buffer_bytes: limits.max_buffer_size,
             storage_bytes,
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,

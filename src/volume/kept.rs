@@ -1,6 +1,7 @@
 //! What of a frame's extraction still holds in the next.
 
 use super::params::InstanceParams;
+use super::silhouette::{Counts, Way};
 use crate::mesh::CasterMesh;
 
 /// What an instance's part of the buffers follows from. Equal slots at one place hold equal volumes.
@@ -15,6 +16,9 @@ pub(super) struct Slot {
     pub revision: Option<u64>,
     pub chunk: usize,
     pub instance: InstanceParams,
+    pub way: Way,
+    /// The size of a volume that was found on the CPU.
+    pub counts: Counts,
     /// Whether the buffers held this volume already when the frame was prepared.
     pub ready: bool,
 }
@@ -25,6 +29,7 @@ impl Slot {
             && self.revision.is_some()
             && self.revision == wanted.revision
             && self.chunk == wanted.chunk
+            && self.way == wanted.way
             && bytemuck::bytes_of(&self.instance) == bytemuck::bytes_of(&wanted.instance)
     }
 }
@@ -44,10 +49,11 @@ impl Kept<'_> {
         encoded: false,
     };
 
-    /// Whether the volume at this place in the list of instances need not be extracted again.
-    pub fn holds(&self, instance: usize, wanted: &Slot) -> bool {
-        self.slots
-            .get(instance)
-            .is_some_and(|slot| (slot.ready || self.encoded) && slot.holds(wanted))
+    /// The slot at this place in the list of instances, if it need not be extracted again.
+    pub fn get(&self, instance: usize, wanted: &Slot) -> Option<&Slot> {
+        // The CPU has done its work when the frame is prepared.
+        let done = |slot: &Slot| slot.ready || self.encoded || slot.way == Way::Cpu;
+        let slot = self.slots.get(instance)?;
+        (done(slot) && slot.holds(wanted)).then_some(slot)
     }
 }

@@ -6,10 +6,11 @@ use glam::Mat4;
 
 use super::kept::{Kept, Slot};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
-use super::regions::{Place, Regions, Words};
+use super::regions::{Overflow, Place, Regions, Words};
 use super::rule::{self, ObjectLight, WorldBox};
+use super::silhouette::{Counts, Way, Ways};
 use super::{ShadowVolumeFrame, VolumeStatistics};
-use crate::error::{CasterError, LightError, ShadowVolumeError};
+use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::{CasterMesh, MeshKind};
 
 /// The three kinds of faces of a volume.
@@ -41,6 +42,7 @@ pub(super) struct Batch {
     pub instance_count: u32,
     /// Whether the buffers hold these volumes already.
     pub ready: bool,
+    pub way: Way,
 }
 
 /// Everything `prepare` uploads and `encode` and `render` walk through.
@@ -63,6 +65,8 @@ pub(super) struct Plan {
 /// What of the device's limits the plan depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlanLimits {
+    /// Bytes of the largest buffer that can be made.
+    pub buffer_bytes: u64,
     /// Bytes of the largest buffer that can be made and bound as storage.
     pub storage_bytes: u64,
     /// Casters whose parameters fit the buffers.
@@ -76,6 +80,7 @@ struct Subject {
     light: ObjectLight,
     both_sides: bool,
     mirrored: bool,
+    way: Way,
     index: usize,
 }
 
@@ -84,10 +89,11 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
         limits: &PlanLimits,
+        ways: &Ways,
         kept: &Kept<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
-        let groups = subjects(frame)?;
+        let groups = subjects(frame, ways)?;
         let count = groups.iter().map(Vec::len).sum();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -120,13 +126,28 @@ impl Plan {
         self.count_extraction();
     }
 
-    /// The batches that are extracted, with their places in the list of batches.
+    /// Whether any volume is found in this way.
+    pub fn uses(&self, way: Way) -> bool {
+        self.batches.iter().any(|batch| batch.way == way)
+    }
+
+    /// The batches that compute shaders extract, with their places in the list of batches.
     pub fn stale(&self) -> impl Iterator<Item = (u32, &Batch)> {
-        (0..).zip(&self.batches).filter(|(_, batch)| !batch.ready)
+        let stale = |batch: &Batch| !batch.ready && batch.way == Way::Compute;
+        (0..)
+            .zip(&self.batches)
+            .filter(move |(_, batch)| stale(batch))
+    }
+
+    /// The slots whose volumes the CPU extracts.
+    pub fn stale_on_cpu(&mut self) -> impl Iterator<Item = &mut Slot> {
+        let stale = |slot: &&mut Slot| !slot.ready && slot.way == Way::Cpu;
+        self.slots.iter_mut().filter(stale)
     }
 
     fn count_extraction(&mut self) {
-        let extracted = self.slots.iter().filter(|slot| !slot.ready).count() as u32;
+        let searched = |slot: &&Slot| !slot.ready && slot.way != Way::Vertex;
+        let extracted = self.slots.iter().filter(searched).count() as u32;
         let dispatches = 2 * self.stale().count() as u32;
         self.statistics.casters_extracted = extracted;
         self.statistics.dispatches = dispatches;
@@ -142,30 +163,34 @@ impl Plan {
     ) -> Result<(), ShadowVolumeError> {
         let caster = &frame.casters[subject.index];
         let mesh = &caster.mesh;
-        let need = words(mesh, subject.both_sides);
-        let place = regions
-            .place(need)
-            .map_err(|overflow| ShadowVolumeError::TooLarge {
+        let place = place(mesh, subject, regions, limits).map_err(|overflow| {
+            ShadowVolumeError::TooLarge {
                 index: subject.index,
                 what: overflow.what,
                 size: overflow.size,
                 limit: overflow.limit,
-            })?;
+            }
+        })?;
         let instance = self.instances.len() as u32;
         let mut slot = Slot {
             mesh: mesh.clone(),
             revision: mesh.revision(),
             chunk: place.chunk,
             instance: instance_params(subject, &place),
+            way: subject.way,
+            counts: Counts::default(),
             ready: false,
         };
-        slot.ready = kept.holds(instance as usize, &slot);
+        if let Some(kept) = kept.get(instance as usize, &slot) {
+            slot.counts = kept.counts;
+            slot.ready = true;
+        }
         let batch = self.batch(&slot, frame, limits.workgroups);
         self.batch_of.push(batch);
         self.instances.push(slot.instance);
         self.slots.push(slot);
         // Caps are below the region's end, which the regions keep below 2^32.
-        let cap_end = place.cap + need[1] as u32;
+        let cap_end = place.cap + words(mesh, subject)[1] as u32;
         self.arguments.push(Arguments::new(place.cap, cap_end));
         let params = &self.batches[batch as usize].params;
         self.casters.push(CasterParams {
@@ -176,6 +201,9 @@ impl Plan {
             position_offset: params.position_offset,
             side_base: place.side,
             side_vertices: params.side_vertices,
+            object_light: subject.light.light,
+            object_light_rest: subject.light.rest,
+            both_sides: u32::from(subject.both_sides),
         });
         self.draw(subject, frame, instance);
         Ok(())
@@ -187,6 +215,7 @@ impl Plan {
             batch.mesh.key() == slot.mesh.key()
                 && batch.chunk == slot.chunk
                 && batch.ready == slot.ready
+                && batch.way == slot.way
                 && batch.instance_count < most
         });
         match open {
@@ -197,6 +226,7 @@ impl Plan {
                 params: batch_params(&slot.mesh, self.instances.len() as u32, frame),
                 instance_count: 1,
                 ready: slot.ready,
+                way: slot.way,
             }),
         }
         self.batches.len() as u32 - 1
@@ -215,7 +245,8 @@ impl Plan {
         };
         push(Faces::Sides, clockwise, false);
         for back in [false, true] {
-            if back && !subject.both_sides {
+            // Where vertex shaders decide, they turn the caps that count -1 over.
+            if back && (!subject.both_sides || subject.way == Way::Vertex) {
                 continue;
             }
             push(Faces::LightCap, clockwise != back, back);
@@ -247,7 +278,10 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
 }
 
 /// The casters that are drawn, those of one mesh together, in the order of first appearance.
-fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterError> {
+fn subjects(
+    frame: &ShadowVolumeFrame<'_>,
+    ways: &Ways,
+) -> Result<Vec<Vec<Subject>>, ShadowVolumeError> {
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     for (index, caster) in frame.casters.iter().enumerate() {
@@ -257,6 +291,9 @@ fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterEr
         if caster.mesh.triangle_count() == 0 || !rule::in_range(&world, frame.light, frame.range) {
             continue;
         }
+        let way = ways
+            .of(&caster.mesh)
+            .ok_or(ShadowVolumeError::HostPositions { index })?;
         let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
             groups.push(Vec::new());
             groups.len() - 1
@@ -265,24 +302,51 @@ fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterEr
             light,
             both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
             mirrored: map.matrix3.determinant() < 0.0,
+            way,
             index,
         });
     }
     Ok(groups)
 }
 
+/// Finds room for one instance's lists.
+fn place(
+    mesh: &CasterMesh,
+    subject: &Subject,
+    regions: &mut Regions,
+    limits: &PlanLimits,
+) -> Result<Place, Overflow> {
+    let size = match subject.way {
+        Way::Vertex => mesh.record_bytes(),
+        Way::Compute | Way::Cpu => 0,
+    };
+    if size > limits.buffer_bytes {
+        return Err(Overflow {
+            what: "edge records",
+            size,
+            limit: limits.buffer_bytes,
+        });
+    }
+    regions.place(words(mesh, subject))
+}
+
 /// Words for facings, caps and sides, the worst case: they cannot overflow.
 ///
 /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its uses at
 /// most; where light-facing triangles alone count, a closed mesh's edge only once.
-fn words(mesh: &CasterMesh, both_sides: bool) -> Words {
+fn words(mesh: &CasterMesh, subject: &Subject) -> Words {
     let triangles = u64::from(mesh.triangle_count());
-    let sides = match (mesh.kind(), both_sides) {
+    let sides = match (mesh.kind(), subject.both_sides) {
         (MeshKind::Closed, false) => u64::from(mesh.edge_count()),
         (MeshKind::Closed, true) => 2 * u64::from(mesh.edge_count()),
         (MeshKind::General, _) => u64::from(mesh.edge_use_count()),
     };
-    [triangles, 3 * triangles, sides]
+    match subject.way {
+        Way::Compute => [triangles, 3 * triangles, sides],
+        // Facings stay on the CPU.
+        Way::Cpu => [0, 3 * triangles, sides],
+        Way::Vertex => [0; 3],
+    }
 }
 
 fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
