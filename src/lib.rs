@@ -155,8 +155,9 @@ pub mod wgsl;
 
 pub use light::{HomogeneousLight, PointLight};
 pub use map::{
-    Allocation, Bias, CasterSides, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
-    CubeStatistics, DepthEncoding, FaceState, FaceStatistics,
+    Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
+    FaceStatistics,
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{Kernel, PcfDescriptor, PcfSampler};

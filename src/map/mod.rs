@@ -2,6 +2,7 @@
 
 mod assign;
 mod bias;
+mod cross;
 mod cube;
 mod descriptor;
 mod draws;
@@ -17,6 +18,7 @@ mod texture;
 mod visible;
 
 pub use bias::Bias;
+pub use cross::{CubeCross, CubeCrossDescriptor};
 pub use cube::CubeShadowMap;
 pub use descriptor::{Allocation, CasterSides, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 pub use face::CubeFace;
