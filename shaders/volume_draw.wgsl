@@ -1,23 +1,6 @@
-// The four kinds of faces of a shadow volume. Every vertex is pulled by its index, so that faces
-// that meet compute the same position from the same numbers.
+// The four kinds of faces of a shadow volume, from the lists that an extraction left. Every vertex
+// is pulled by its index.
 
-struct Caster {
-    clip_from_world: mat4x4f,
-    world_from_object: mat4x4f,
-    // World space, homogeneous.
-    light: vec4f,
-    // xyz: far vertices lie where its product with the direction from the light is 1; 0: at infinity.
-    far_plane: vec4f,
-    // A point of that plane, or at infinity, homogeneous: where the fan's triangles meet.
-    apex: vec4f,
-    // In words of 4 bytes.
-    position_stride: u32,
-    position_offset: u32,
-    side_base: u32,
-    side_vertices: u32,
-}
-
-@group(0) @binding(0) var<uniform> caster: Caster;
 @group(0) @binding(1) var<storage, read> positions: array<f32>;
 @group(0) @binding(2) var<storage, read> edges: array<vec4u>;
 @group(0) @binding(3) var<storage, read> sides: array<u32>;
@@ -27,78 +10,49 @@ fn position(vertex: u32) -> vec3f {
     return vec3f(positions[word], positions[word + 1u], positions[word + 2u]);
 }
 
-fn near_vertex(vertex: u32) -> vec4f {
-    return shadows_clip_position(
-        caster.clip_from_world,
-        caster.world_from_object,
-        position(vertex),
-    );
-}
-
-// The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the very place of the
-// light has no such direction: it stays where it is, the same for every face that meets there, so
-// that the surface is still closed and no vertex is (0, 0, 0, 0).
-fn far_vertex(vertex: u32) -> vec4f {
-    let world = (caster.world_from_object * vec4f(position(vertex), 1.0)).xyz;
-    let direction = caster.light.w * world - caster.light.xyz;
-    if all(direction == vec3f(0.0)) {
-        return near_vertex(vertex);
-    }
-    let w = dot(caster.far_plane.xyz, direction);
-    return caster.clip_from_world * vec4f(direction + w * caster.light.xyz, w);
-}
-
-// The edge that a side is made of, in the direction in which the light cap runs through it.
-fn directed_edge(place: u32) -> vec2u {
-    let side = sides[caster.side_base + place];
-    let edge = edges[side >> 1u].xy;
-    return select(edge, edge.yx, (side & 1u) == 1u);
-}
-
 @vertex
 fn shadows_volume_light_cap(
     @builtin(vertex_index) vertex: u32,
 ) -> @invariant @builtin(position) vec4f {
-    return near_vertex(vertex);
+    return near_point(position(vertex));
 }
 
 @vertex
 fn shadows_volume_dark_cap(
     @builtin(vertex_index) vertex: u32,
 ) -> @invariant @builtin(position) vec4f {
-    return far_vertex(vertex);
+    return far_point(position(vertex));
 }
 
-// A cap that runs through an edge from a to b is bounded there by the side b, a, a', b', where a'
-// and b' are at infinity; for a directional light a' = b' and one triangle is left.
+// The edge that a side is made of, in the direction in which the caps' boundary runs through it.
+fn directed_edge(place: u32) -> vec2u {
+    let side = sides[caster.side_base + place];
+    let edge = edges[side >> 1u].xy;
+    return select(edge, edge.yx, (side & 1u) == 1u);
+}
+
+// A cap that runs through an edge is bounded there by the edge's side.
 @vertex
 fn shadows_volume_side(
     @builtin(vertex_index) vertex: u32,
 ) -> @invariant @builtin(position) vec4f {
     let edge = directed_edge(vertex / caster.side_vertices);
     let corner = vertex % caster.side_vertices;
-    // Corners: b a a', b a' b'.
-    let second = ((0x29u >> corner) & 1u) == 1u;
-    let far = ((0x34u >> corner) & 1u) == 1u;
-    let end = select(edge.x, edge.y, second);
-    if far {
-        return far_vertex(end);
+    let end = position(select(edge.x, edge.y, side_corner_is_second(corner)));
+    if side_corner_is_far(corner) {
+        return far_point(end);
     }
-    return near_vertex(end);
+    return near_point(end);
 }
 
-// The dark cap as a fan: a triangle b' a' apex for each side, so that it runs back through a' b'.
 @vertex
 fn shadows_volume_fan(
     @builtin(vertex_index) vertex: u32,
 ) -> @invariant @builtin(position) vec4f {
     let edge = directed_edge(vertex / 3u);
     let corner = vertex % 3u;
-    if corner == 2u {
-        return caster.clip_from_world * caster.apex;
+    if corner == 0u {
+        return fan_apex();
     }
-    return far_vertex(select(edge.y, edge.x, corner == 1u));
+    return far_point(position(select(edge.x, edge.y, fan_corner_is_second(corner))));
 }
-
-@fragment
-fn shadows_volume_nothing() {}

@@ -28,7 +28,18 @@
 //! use shadows::{wgpu, *};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let (device, queue) = wgpu::Device::noop(&Default::default());
+//! # // wgpu 30's check of indirect draws trips over the driverless device's limits.
+//! # let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+//! #     backends: wgpu::Backends::NOOP,
+//! #     flags: wgpu::InstanceFlags::empty(),
+//! #     backend_options: wgpu::BackendOptions {
+//! #         noop: wgpu::NoopBackendOptions::enabled(),
+//! #         ..Default::default()
+//! #     },
+//! #     ..wgpu::InstanceDescriptor::new_without_display_handle()
+//! # });
+//! # let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
+//! # let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
 //! // Once a mesh: who is whose neighbour, then the GPU's copy.
 //! let positions = [[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
@@ -39,7 +50,6 @@
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
 //! let sampler = PcfSampler::new(&device, &PcfDescriptor::default());
-//! let group = sampler.bind_group(&device, &map);
 //! let lighting = sampler.wgsl_module(1)
 //!     + "@fragment fn light(@location(0) world: vec3f) -> @location(0) vec4f {
 //!            return vec4f(shadows_visibility(world)); // times the light's colour
@@ -74,7 +84,9 @@
 //! #     .create_view(&Default::default());
 //!
 //! // Every frame: decide, then record into the host's own encoder and pass.
-//! map.prepare(&device, &queue, &CubeFrame { light: &light, casters: &casters })?;
+//! let frame = CubeFrame { lights: &[light], casters: &casters, ..Default::default() };
+//! map.prepare(&device, &queue, &frame)?;
+//! let group = sampler.bind_group(&device, &map)?; // again when `map.texture_revision()` changes
 //! volumes.prepare(
 //!     &device,
 //!     &queue,
@@ -140,12 +152,16 @@ pub mod volume;
 pub mod wgsl;
 
 pub use light::{HomogeneousLight, PointLight};
-pub use map::{Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics};
+pub use map::{
+    Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
+    FaceStatistics,
+};
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{Kernel, PcfDescriptor, PcfSampler};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
     Caps, Extrusion, Method, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
-    VolumeStatistics,
+    Silhouettes, VolumeStatistics,
 };

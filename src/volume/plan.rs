@@ -5,14 +5,16 @@ use std::collections::HashMap;
 use glam::Mat4;
 
 use super::draw::Style;
+use super::kept::{Kept, Slot};
 use super::method::{Count, DarkCap, Form, Options, Rules, Skip};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
-use super::regions::{Place, Regions, Words};
+use super::regions::{Overflow, Place, Regions, Words};
 use super::rule::{self, ObjectLight};
 use super::scissor::Rect;
+use super::silhouette::{Counts, Way, Ways};
 use super::world_box::WorldBox;
 use super::{ShadowVolumeFrame, VolumeStatistics};
-use crate::error::{CasterError, LightError, ShadowVolumeError};
+use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::{CasterMesh, MeshKind};
 
 /// The kinds of faces of a volume.
@@ -42,6 +44,9 @@ pub(super) struct Batch {
     pub chunk: usize,
     pub params: BatchParams,
     pub instance_count: u32,
+    /// Whether the buffers hold these volumes already.
+    pub ready: bool,
+    pub way: Way,
 }
 
 /// Everything `prepare` uploads and `encode` and `render` walk through.
@@ -56,6 +61,8 @@ pub(super) struct Plan {
     pub casters: Vec<CasterParams>,
     /// For each instance, its batch.
     pub batch_of: Vec<u32>,
+    /// For each instance, what its volume follows from.
+    pub slots: Vec<Slot>,
     pub statistics: VolumeStatistics,
     /// What of the target is drawn to, and the target's size.
     pub scissor: Option<(Rect, [u32; 2])>,
@@ -64,6 +71,8 @@ pub(super) struct Plan {
 /// What of the device's limits the plan depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlanLimits {
+    /// Bytes of the largest buffer that can be made.
+    pub buffer_bytes: u64,
     /// Bytes of the largest buffer that can be made and bound as storage.
     pub storage_bytes: u64,
     /// Casters whose parameters fit the buffers.
@@ -72,12 +81,20 @@ pub(super) struct PlanLimits {
     pub workgroups: u32,
 }
 
+/// What of the renderer the plan depends on.
+pub(super) struct Means<'a> {
+    pub options: Options,
+    pub ways: &'a Ways,
+    pub kept: Kept<'a>,
+}
+
 /// A caster that is drawn.
 struct Subject {
     light: ObjectLight,
     form: Form,
     both_sides: bool,
     mirrored: bool,
+    way: Way,
     index: usize,
 }
 
@@ -86,11 +103,11 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
         limits: &PlanLimits,
-        options: Options,
+        means: &Means<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
         let mut statistics = VolumeStatistics::default();
-        let groups = subjects(frame, &Rules::new(frame, options), &mut statistics)?;
+        let groups = subjects(frame, means, &mut statistics)?;
         let count = groups.iter().map(Vec::len).sum();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -101,7 +118,7 @@ impl Plan {
         let mut plan = Self::default();
         let mut regions = Regions::new(limits.storage_bytes);
         for subject in groups.iter().flatten() {
-            plan.add(subject, frame, &mut regions, limits)?;
+            plan.add(subject, frame, &mut regions, limits, &means.kept)?;
         }
         plan.chunks = regions.chunks().to_vec();
         plan.draws.sort_unstable();
@@ -109,11 +126,46 @@ impl Plan {
             casters_drawn: count as u32,
             casters_skipped: (frame.casters.len() - count) as u32,
             draws: plan.draws.len() as u32,
-            dispatches: 2 * plan.batches.len() as u32,
             triangles: plan.batches.iter().map(Batch::triangles).sum(),
             ..statistics
         };
+        plan.scissor = means.options.scissor(frame);
+        plan.count_extraction();
         Ok(plan)
+    }
+
+    /// Has every volume extracted, because the buffers were made anew.
+    pub fn forget(&mut self) {
+        self.batches.iter_mut().for_each(|b| b.ready = false);
+        self.slots.iter_mut().for_each(|s| s.ready = false);
+        self.count_extraction();
+    }
+
+    /// Whether any volume is found in this way.
+    pub fn uses(&self, way: Way) -> bool {
+        self.batches.iter().any(|batch| batch.way == way)
+    }
+
+    /// The batches that compute shaders extract, with their places in the list of batches.
+    pub fn stale(&self) -> impl Iterator<Item = (u32, &Batch)> {
+        let stale = |batch: &Batch| !batch.ready && batch.way == Way::Compute;
+        (0..)
+            .zip(&self.batches)
+            .filter(move |(_, batch)| stale(batch))
+    }
+
+    /// The slots whose volumes the CPU extracts.
+    pub fn stale_on_cpu(&mut self) -> impl Iterator<Item = &mut Slot> {
+        let stale = |slot: &&mut Slot| !slot.ready && slot.way == Way::Cpu;
+        self.slots.iter_mut().filter(stale)
+    }
+
+    fn count_extraction(&mut self) {
+        let searched = |slot: &&Slot| !slot.ready && slot.way != Way::Vertex;
+        let extracted = self.slots.iter().filter(searched).count() as u32;
+        let dispatches = 2 * self.stale().count() as u32;
+        self.statistics.casters_extracted = extracted;
+        self.statistics.dispatches = dispatches;
     }
 
     fn add(
@@ -122,32 +174,38 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         regions: &mut Regions,
         limits: &PlanLimits,
+        kept: &Kept<'_>,
     ) -> Result<(), ShadowVolumeError> {
         let caster = &frame.casters[subject.index];
         let mesh = &caster.mesh;
-        let need = words(mesh, subject.both_sides);
-        let place = regions
-            .place(need)
-            .map_err(|overflow| ShadowVolumeError::TooLarge {
+        let place = place(mesh, subject, regions, limits).map_err(|overflow| {
+            ShadowVolumeError::TooLarge {
                 index: subject.index,
                 what: overflow.what,
                 size: overflow.size,
                 limit: overflow.limit,
-            })?;
+            }
+        })?;
         let instance = self.instances.len() as u32;
-        let batch = self.batch(mesh, &place, limits.workgroups);
+        let mut slot = Slot {
+            mesh: mesh.clone(),
+            revision: mesh.revision(),
+            chunk: place.chunk,
+            instance: instance_params(subject, &place),
+            way: subject.way,
+            counts: Counts::default(),
+            ready: false,
+        };
+        if let Some(kept) = kept.get(instance as usize, &slot) {
+            slot.counts = kept.counts;
+            slot.ready = true;
+        }
+        let batch = self.batch(&slot, limits.workgroups);
         self.batch_of.push(batch);
-        self.instances.push(InstanceParams {
-            light: subject.light.light,
-            light_rest: subject.light.rest,
-            both_sides: u32::from(subject.both_sides),
-            facing_base: place.facing,
-            cap_base: place.cap,
-            side_base: place.side,
-            padding: 0,
-        });
+        self.instances.push(slot.instance);
+        self.slots.push(slot);
         // Caps are below the region's end, which the regions keep below 2^32.
-        let cap_end = place.cap + need[1] as u32;
+        let cap_end = place.cap + words(mesh, subject)[1] as u32;
         self.arguments.push(Arguments::new(place.cap, cap_end));
         let params = &self.batches[batch as usize].params;
         self.casters.push(CasterParams {
@@ -160,25 +218,32 @@ impl Plan {
             position_offset: params.position_offset,
             side_base: place.side,
             side_vertices: subject.form.side_vertices,
+            object_light: subject.light.light,
+            object_light_rest: subject.light.rest,
+            both_sides: u32::from(subject.both_sides),
         });
         self.draw(subject, frame, instance);
         Ok(())
     }
 
     /// The batch that the next instance belongs to.
-    fn batch(&mut self, mesh: &CasterMesh, place: &Place, most: u32) -> u32 {
+    fn batch(&mut self, slot: &Slot, most: u32) -> u32 {
         let open = self.batches.last_mut().filter(|batch| {
-            batch.mesh.key() == mesh.key()
-                && batch.chunk == place.chunk
+            batch.mesh.key() == slot.mesh.key()
+                && batch.chunk == slot.chunk
+                && batch.ready == slot.ready
+                && batch.way == slot.way
                 && batch.instance_count < most
         });
         match open {
             Some(batch) => batch.instance_count += 1,
             None => self.batches.push(Batch {
-                mesh: mesh.clone(),
-                chunk: place.chunk,
-                params: batch_params(mesh, self.instances.len() as u32),
+                mesh: slot.mesh.clone(),
+                chunk: slot.chunk,
+                params: batch_params(&slot.mesh, self.instances.len() as u32),
                 instance_count: 1,
+                ready: slot.ready,
+                way: slot.way,
             }),
         }
         self.batches.len() as u32 - 1
@@ -203,8 +268,12 @@ impl Plan {
         if form.dark_cap == DarkCap::Fan {
             push(Faces::Fan, clockwise, false);
         }
+        if form.count == Count::Pass {
+            return;
+        }
         for back in [false, true] {
-            if form.count == Count::Pass || (back && !subject.both_sides) {
+            // Where vertex shaders decide, they turn the caps that count -1 over.
+            if back && (!subject.both_sides || subject.way == Way::Vertex) {
                 continue;
             }
             push(Faces::LightCap, clockwise != back, back);
@@ -240,9 +309,10 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
 /// The casters that are drawn, those of one mesh together, in the order of first appearance.
 fn subjects(
     frame: &ShadowVolumeFrame<'_>,
-    rules: &Rules,
+    means: &Means<'_>,
     statistics: &mut VolumeStatistics,
-) -> Result<Vec<Vec<Subject>>, CasterError> {
+) -> Result<Vec<Vec<Subject>>, ShadowVolumeError> {
+    let rules = Rules::new(frame, means.options);
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     for (index, caster) in frame.casters.iter().enumerate() {
@@ -256,6 +326,10 @@ fn subjects(
         }
         let form = rules.form(&world);
         statistics.draw(form.count);
+        let way = means
+            .ways
+            .of(&caster.mesh)
+            .ok_or(ShadowVolumeError::HostPositions { index })?;
         let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
             groups.push(Vec::new());
             groups.len() - 1
@@ -265,24 +339,63 @@ fn subjects(
             form,
             both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
             mirrored: map.matrix3.determinant() < 0.0,
+            way,
             index,
         });
     }
     Ok(groups)
 }
 
+/// Finds room for one instance's lists.
+fn place(
+    mesh: &CasterMesh,
+    subject: &Subject,
+    regions: &mut Regions,
+    limits: &PlanLimits,
+) -> Result<Place, Overflow> {
+    let size = match subject.way {
+        Way::Vertex => mesh.record_bytes(),
+        Way::Compute | Way::Cpu => 0,
+    };
+    if size > limits.buffer_bytes {
+        return Err(Overflow {
+            what: "edge records",
+            size,
+            limit: limits.buffer_bytes,
+        });
+    }
+    regions.place(words(mesh, subject))
+}
+
 /// Words for facings, caps and sides, the worst case: they cannot overflow.
 ///
 /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its uses at
 /// most; where light-facing triangles alone count, a closed mesh's edge only once.
-fn words(mesh: &CasterMesh, both_sides: bool) -> Words {
+fn words(mesh: &CasterMesh, subject: &Subject) -> Words {
     let triangles = u64::from(mesh.triangle_count());
-    let sides = match (mesh.kind(), both_sides) {
+    let sides = match (mesh.kind(), subject.both_sides) {
         (MeshKind::Closed, false) => u64::from(mesh.edge_count()),
         (MeshKind::Closed, true) => 2 * u64::from(mesh.edge_count()),
         (MeshKind::General, _) => u64::from(mesh.edge_use_count()),
     };
-    [triangles, 3 * triangles, sides]
+    match subject.way {
+        Way::Compute => [triangles, 3 * triangles, sides],
+        // Facings stay on the CPU.
+        Way::Cpu => [0, 3 * triangles, sides],
+        Way::Vertex => [0; 3],
+    }
+}
+
+fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
+    InstanceParams {
+        light: subject.light.light,
+        light_rest: subject.light.rest,
+        both_sides: u32::from(subject.both_sides),
+        facing_base: place.facing,
+        cap_base: place.cap,
+        side_base: place.side,
+        padding: 0,
+    }
 }
 
 fn batch_params(mesh: &CasterMesh, first_instance: u32) -> BatchParams {
