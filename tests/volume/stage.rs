@@ -167,6 +167,7 @@ impl Stage {
             depth: self.depth,
             color_formats: &[],
             cap_bias_ulps: self.cap_bias_ulps,
+            ..Default::default()
         }
     }
 
