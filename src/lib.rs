@@ -28,7 +28,18 @@
 //! use shadows::{wgpu, *};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let (device, queue) = wgpu::Device::noop(&Default::default());
+//! # // wgpu 30's check of indirect draws trips over the driverless device's limits.
+//! # let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+//! #     backends: wgpu::Backends::NOOP,
+//! #     flags: wgpu::InstanceFlags::empty(),
+//! #     backend_options: wgpu::BackendOptions {
+//! #         noop: wgpu::NoopBackendOptions::enabled(),
+//! #         ..Default::default()
+//! #     },
+//! #     ..wgpu::InstanceDescriptor::new_without_display_handle()
+//! # });
+//! # let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
+//! # let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
 //! // Once a mesh: who is whose neighbour, then the GPU's copy.
 //! let positions = [[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;

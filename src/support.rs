@@ -61,6 +61,9 @@ const MULTIVIEW: Features = Features::MULTIVIEW.union(Features::SELECTIVE_MULTIV
 const COMPUTE: DownlevelFlags =
     DownlevelFlags::COMPUTE_SHADERS.union(DownlevelFlags::INDIRECT_EXECUTION);
 
+/// Storage buffers in the largest of the crate's shader stages.
+pub(crate) const STORAGE_BUFFERS: u32 = 6;
+
 impl Support {
     /// Asks an adapter, before the host creates its device.
     pub fn of_adapter(adapter: &wgpu::Adapter) -> Self {
@@ -79,7 +82,7 @@ impl Support {
             multiview: features.contains(MULTIVIEW) && limits.max_multiview_view_count >= 6,
             float32_blending: features.contains(Features::FLOAT32_BLENDABLE),
             vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
-                && limits.max_storage_buffers_per_shader_stage >= 4,
+                && limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS,
             compute: downlevel.contains(COMPUTE),
             limits,
         }
@@ -143,12 +146,12 @@ impl Support {
             (
                 self.vertex_storage,
                 "storage buffers in vertex shaders",
-                "cube shadow maps only; ShadowVolumeRenderer::new is refused",
+                "the silhouettes of shadow volumes are found in the vertex shader alone",
             ),
             (
                 self.compute,
                 "compute shaders with indirect draws",
-                "cube shadow maps only; ShadowVolumeRenderer::new is refused",
+                "the silhouettes of shadow volumes are found on the CPU",
             ),
         ]
         .into_iter()

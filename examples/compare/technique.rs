@@ -23,14 +23,6 @@ pub enum Technique {
 }
 
 impl Technique {
-    /// Every technique, in the order of reports.
-    pub const ALL: [Self; 4] = [
-        Self::Cube(Kernel::Hard),
-        Self::Cube(Kernel::Bilinear),
-        Self::Cube(Kernel::FourTaps),
-        Self::Volume,
-    ];
-
     /// The name on the command line, in reports and of files.
     pub fn name(self) -> &'static str {
         match self {
@@ -267,9 +259,9 @@ impl Shadow {
             (Means::Cube { map, bias, .. }, Technique::Cube(kernel)) => json!({
                 "face_texels": map.size(),
                 "kernel": format!("{kernel:?}"),
-                "kernel_radius_texels": kernel.radius(),
-                "bias_normal_offset_texels": bias.normal_offset,
-                "bias_constant_texels": bias.constant,
+                "kernel_radius_texels": decimal(kernel.radius()),
+                "bias_normal_offset_texels": decimal(bias.normal_offset),
+                "bias_constant_texels": decimal(bias.constant),
             }),
             (Means::Volume { cap_bias_ulps, .. }, _) => json!({
                 "stencil": "z-fail, 8 bits, wrapping",
@@ -289,4 +281,9 @@ impl Shadow {
             _ => Interior::Screen,
         }
     }
+}
+
+/// The number as one would write it: 0.1 rather than the f64 nearest to the f32 nearest to 0.1.
+fn decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
 }

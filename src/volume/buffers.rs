@@ -3,7 +3,7 @@
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
-use super::silhouette::Way;
+use super::silhouette::{Way, Ways};
 
 /// A buffer that grows.
 #[derive(Debug)]
@@ -191,8 +191,9 @@ impl Buffers {
 
 fn chunk(label: &str, place: usize) -> [Grown; 3] {
     use wgpu::BufferUsages as U;
-    // Only caps are read as indices.
-    let usages = [U::STORAGE, U::STORAGE | U::INDEX, U::STORAGE];
+    // Only caps are read as indices. The CPU may write caps and sides.
+    let list = U::STORAGE | U::COPY_DST;
+    let usages = [U::STORAGE, list | U::INDEX, list];
     std::array::from_fn(|i| Grown::new(format!("{label} {} {place}", NAMES[i]), usages[i]))
 }
 
@@ -211,21 +212,22 @@ fn spread<T: bytemuck::NoUninit>(items: &[T], device: &wgpu::Device) -> Vec<u8> 
 }
 
 impl PlanLimits {
-    /// What the device's limits allow.
-    pub fn of(limits: &wgpu::Limits) -> Self {
+    /// What the device's limits allow to those who look for silhouettes in these ways.
+    pub fn of(limits: &wgpu::Limits, ways: &Ways) -> Self {
         let storage_bytes = limits
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
         // Dynamic offsets are 32 bits wide.
         let uniform_bytes = limits.max_buffer_size.min(u64::from(u32::MAX));
-        let casters = [
-            uniform_bytes / window::<CasterParams>(limits),
+        let of_compute = [
             uniform_bytes / window::<BatchParams>(limits),
             storage_bytes / size_of::<InstanceParams>() as u64,
             storage_bytes / size_of::<Arguments>() as u64,
-        ]
-        .into_iter()
-        .fold(u64::MAX, u64::min);
+        ];
+        let of_compute = of_compute
+            .into_iter()
+            .filter(|_| ways.contain(Way::Compute));
+        let casters = of_compute.fold(uniform_bytes / window::<CasterParams>(limits), u64::min);
         Self {
             buffer_bytes: limits.max_buffer_size,
             storage_bytes,

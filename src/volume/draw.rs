@@ -13,6 +13,13 @@ const EXTRUDE: &str = include_str!("../../shaders/volume_extrude.wgsl");
 const DRAW: &str = include_str!("../../shaders/volume_draw.wgsl");
 const VERTEX: &str = include_str!("../../shaders/volume_vertex.wgsl");
 
+/// How far sides are set back from the viewer, in units of the depth format's last place.
+///
+/// In a crease between a lit and an unlit triangle a side leaves the surface at so small an angle
+/// that both have the same depth for a while, give or take the rasteriser's rounding. Set back by
+/// that rounding it counts as behind the surface it belongs to.
+const SIDE_BIAS_ULPS: i32 = 2;
+
 /// What the vertex shaders work from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Feed {
@@ -277,7 +284,9 @@ impl Factory<'_> {
         let depth = self.descriptor.depth;
         let bias = match faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
-            Faces::DarkCap | Faces::Sides => 0,
+            Faces::Sides => SIDE_BIAS_ULPS,
+            // At infinity it is behind everything as it is.
+            Faces::DarkCap => 0,
         };
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,

@@ -1,6 +1,7 @@
 //! What a device must be able to do.
 
 use crate::error::ShadowVolumeError;
+use crate::support::STORAGE_BUFFERS;
 
 /// Invocations in a workgroup of the extraction passes.
 pub(super) const WORKGROUP: u32 = 256;
@@ -11,9 +12,11 @@ type Need = (&'static str, u32, fn(&wgpu::Limits) -> u32);
 /// For volumes whose silhouettes compute shaders find: the storage buffers of the largest pass,
 /// and dispatches of which two dimensions hold one invocation for each `u32`.
 pub(super) const COMPUTE: &[Need] = &[
-    ("max_storage_buffers_per_shader_stage", 6, |l| {
-        l.max_storage_buffers_per_shader_stage
-    }),
+    (
+        "max_storage_buffers_per_shader_stage",
+        STORAGE_BUFFERS,
+        |l| l.max_storage_buffers_per_shader_stage,
+    ),
     ("max_compute_workgroup_size_x", WORKGROUP, |l| {
         l.max_compute_workgroup_size_x
     }),

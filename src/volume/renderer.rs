@@ -27,6 +27,9 @@ use crate::error::ShadowVolumeError;
 ///
 /// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
 /// and is lit: casters that stack that deep along a light ray want fewer, closed meshes.
+///
+/// A light nearer to a triangle than about 3e-5 of the triangle's size leaves wrong pixels along
+/// the horizon of that triangle: its corners' points at infinity then cancel in f32 clip space.
 #[derive(Debug)]
 pub struct ShadowVolumeRenderer {
     device: wgpu::Device,
@@ -89,7 +92,8 @@ impl ShadowVolumeRenderer {
     /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster.
     ///
     /// GPU memory, kept between frames and grown as needed: about 22 bytes a triangle and instance
-    /// for a closed mesh, 28 for any other, and 450 a caster.
+    /// for a closed mesh, 28 for any other, and 450 a caster; up to twice that, because buffers
+    /// grow to powers of two.
     ///
     /// # Errors
     /// [`ShadowVolumeError`], before any GPU work, if the view's depth convention is not the
@@ -107,7 +111,7 @@ impl ShadowVolumeRenderer {
                 view: frame.view.depth(),
             });
         }
-        let limits = PlanLimits::of(&device.limits());
+        let limits = PlanLimits::of(&device.limits(), &self.ways);
         let mut plan = Plan::new(frame, device, &limits, &self.ways, &self.kept())?;
         if !plan.draws.is_empty() {
             let generation = self.buffers.generation();
