@@ -23,7 +23,10 @@ fn shadows_cube_quad(
         let face = receiver.face;
         let direction = face.forward + uv.x * face.right + uv.y * face.down;
         // Halfway between the texel centres, so no rounding of the address picks other texels.
-        let stored = textureGather(0, map, map_sampler, direction);
+        let found = shadows_cube_gather(map, map_sampler, receiver, direction);
+        let s = uv.x + 0.5 * step * vec4f(-1.0, 1.0, 1.0, -1.0);
+        let t = uv.y + 0.5 * step * vec4f(1.0, 1.0, -1.0, -1.0);
+        let stored = shadows_cube_depth(receiver, found, 1.0 + s * s + t * t);
         let middle = dot(receiver.plane, vec3f(1.0, uv));
         let across = receiver.plane.y * 0.5 * step;
         let down = receiver.plane.z * 0.5 * step;

@@ -11,6 +11,10 @@ struct ShadowsCubeLight {
     // Biases; a texel at distance 1 along the major axis is 2 / size wide.
     normal_offset: f32,
     depth_scale: f32,
+    // One step of the map's format.
+    quantum: f32,
+    // Which cube of the array; -1: no caster in range, -2: not drawn yet.
+    cube: i32,
 }
 
 // One face of the cube, seen from a receiver on it: directions are
@@ -32,6 +36,9 @@ struct ShadowsReceiver {
     plane: vec3f,
     // 1: surely lit, 0: surely unlit, -1: ask the map.
     known: f32,
+    cube: i32,
+    quantum: f32,
+    range_over_near: f32,
 }
 
 fn shadows_cube_face(direction: vec3f, size: f32) -> ShadowsCubeFace {
@@ -64,10 +71,13 @@ fn shadows_receiver(light: ShadowsCubeLight, position: vec3f, normal: vec3f) -> 
     let from_light = position - light.position;
     let distance = length(from_light);
     var receiver: ShadowsReceiver;
-    if distance > light.range {
-        receiver.known = 0.0;
+    if distance > light.range || light.cube < 0 {
+        receiver.known = select(0.0, 1.0, distance <= light.range && light.cube == -1);
         return receiver;
     }
+    receiver.cube = light.cube;
+    receiver.quantum = light.quantum;
+    receiver.range_over_near = light.range / light.near;
     receiver.face = shadows_cube_face(from_light, light.size);
     let toward_light = -sign(dot(normal, from_light));
     let n = normalize(normal) * select(toward_light, 1.0, toward_light == 0.0);
@@ -115,7 +125,8 @@ fn shadows_cube_texel(
     }
     let face = receiver.face;
     let direction = mat3x3f(face.forward, face.right, face.down) * coordinates;
-    let stored = textureSampleLevel(map, map_sampler, direction, 0.0).x;
+    let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
+    let stored = shadows_cube_depth(receiver, found, vec4f(dot(coordinates, coordinates))).x;
     // Behind the plane's horizon the plane is infinitely far away: depth 0.
     let reference = max(dot(receiver.plane, coordinates), 0.0);
     return select(0.0, 1.0, reference >= stored);

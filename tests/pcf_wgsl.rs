@@ -3,15 +3,15 @@
 mod common;
 
 use common::{noop, to_glsl, validate, validation_error};
-use shadows::{Kernel, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{DepthEncoding, Kernel, PcfDescriptor, PcfSampler, wgpu};
 
 fn sampler(kernel: Kernel) -> PcfSampler {
     let (device, _) = noop();
     PcfSampler::new(
         &device,
         &PcfDescriptor {
-            label: None,
             kernel,
+            ..Default::default()
         },
     )
 }
@@ -103,8 +103,8 @@ fn a_host_pipeline_accepts_layout_and_module() {
         let sampler = PcfSampler::new(
             &device,
             &PcfDescriptor {
-                label: None,
                 kernel,
+                ..Default::default()
             },
         );
         let source = sampler.wgsl_module(0) + HOST + VERTEX;
@@ -141,5 +141,64 @@ fn a_host_pipeline_accepts_layout_and_module() {
             });
         });
         assert_eq!(error, None);
+    }
+}
+
+/// Every way to make a sampler but its kernel.
+fn ways() -> Vec<PcfDescriptor<'static>> {
+    let mut ways = Vec::new();
+    for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
+        for many_lights in [false, true] {
+            for textbook in [false, true] {
+                ways.push(PcfDescriptor {
+                    encoding,
+                    many_lights,
+                    textbook,
+                    ..Default::default()
+                });
+            }
+        }
+    }
+    ways
+}
+
+/// Parses and validates WGSL as a device with cube arrays would.
+fn validate_arrays(wgsl: &str) -> Result<naga::Module, String> {
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
+    Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
+        .validate(&module)
+        .map_err(|e| e.emit_to_string(wgsl))?;
+    Ok(module)
+}
+
+#[test]
+fn every_encoding_number_of_lights_and_method_is_valid() {
+    let (device, _) = noop();
+    for kernel in Kernel::ALL {
+        for way in ways() {
+            let sampler = PcfSampler::new(&device, &PcfDescriptor { kernel, ..way });
+            let host = match way.many_lights {
+                false => HOST.to_owned(),
+                true => HOST.replace("(position)", "(3u, position)"),
+            };
+            let text = sampler.wgsl_module(2) + &host;
+            let module = validate_arrays(&text).unwrap();
+            for (_, function) in module.functions.iter() {
+                let name = function.name.as_deref().unwrap_or_default();
+                assert!(name.starts_with("shadows_"), "{name}");
+            }
+            assert_eq!(
+                validate(&text).is_ok(),
+                !way.many_lights,
+                "arrays cost a capability"
+            );
+            // The broken twin: a host that calls as for the other number of lights.
+            let wrong = match way.many_lights {
+                true => HOST.to_owned(),
+                false => HOST.replace("(position)", "(3u, position)"),
+            };
+            assert!(validate_arrays(&(sampler.wgsl_module(2) + &wrong)).is_err());
+        }
     }
 }

@@ -1,12 +1,26 @@
 //! Shadow maps.
 
+mod assign;
 mod bias;
+mod cross;
 mod cube;
-mod cull;
+mod descriptor;
+mod draws;
 mod face;
+mod light;
+mod plan;
 mod resources;
+mod scene;
+mod schedule;
+mod slot;
+mod statistics;
+mod texture;
+mod visible;
 
 pub use bias::Bias;
-pub(crate) use cube::LightUniform;
-pub use cube::{CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics};
+pub use cross::{CubeCross, CubeCrossDescriptor};
+pub use cube::CubeShadowMap;
+pub use descriptor::{Allocation, CasterSides, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 pub use face::CubeFace;
+pub(crate) use light::LightUniform;
+pub use statistics::{CubeStatistics, FaceState, FaceStatistics};

@@ -1,12 +1,14 @@
 //! The GPU side of a mesh that casts shadows, and a caster: such a mesh somewhere in the world.
 
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
 
 use super::data::{MeshData, edge_records};
 use super::records::VertexRecords;
+use super::solid::is_solid;
 use super::{Adjacency, Bounds, MeshKind};
 use crate::error::{CasterError, CasterMeshError};
 
@@ -19,6 +21,8 @@ pub struct CasterMesh(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
+    id: u64,
+    revision: AtomicU64,
     device: wgpu::Device,
     positions: wgpu::Buffer,
     stride: u64,
@@ -31,14 +35,13 @@ struct Inner {
     edge_uses: Option<wgpu::Buffer>,
     edge_use_count: u32,
     kind: MeshKind,
+    solid: bool,
     bounds: Bounds,
     radius: f32,
     /// The same in main memory, if the positions were uploaded from there.
     data: Option<MeshData>,
     /// Made when a renderer first asks for them.
     records: OnceLock<VertexRecords>,
-    /// Of positions that the host owns; others never change.
-    revision: Option<Mutex<Option<u64>>>,
 }
 
 /// Positions that already lie in a vertex buffer of the host, read in place every frame.
@@ -63,6 +66,7 @@ struct Source {
     offset: u64,
     bounds: Bounds,
     radius: f32,
+    solid: bool,
     /// In main memory, if they are known there.
     packed: Option<Vec<[f32; 3]>>,
 }
@@ -106,6 +110,7 @@ impl CasterMesh {
             offset: 0,
             bounds,
             radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+            solid: is_solid(&packed, adjacency),
             packed: Some(packed),
         };
         Self::assemble(device, source, adjacency)
@@ -164,6 +169,8 @@ impl CasterMesh {
             offset,
             bounds,
             radius: bounds.radius_of([bounds.min, bounds.max]),
+            // The host may turn it inside out.
+            solid: false,
             packed: None,
         };
         Self::assemble(device, source, adjacency)
@@ -186,7 +193,7 @@ impl CasterMesh {
             MeshKind::Closed => None,
             MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
         };
-        let host = source.packed.is_none();
+        static NEXT_ID: AtomicU64 = AtomicU64::new(0);
         let edge_count = records.len() as u32;
         let data = source.packed.map(|positions| MeshData {
             positions,
@@ -195,6 +202,8 @@ impl CasterMesh {
             edge_uses: uses.to_vec(),
         });
         Ok(Self(Arc::new(Inner {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            revision: AtomicU64::new(0),
             device: device.clone(),
             positions: source.buffer,
             stride: source.stride,
@@ -207,38 +216,22 @@ impl CasterMesh {
             edge_uses,
             edge_use_count: uses.len() as u32,
             kind,
+            solid: source.solid,
             bounds: source.bounds,
             radius: source.radius,
             data,
             records: OnceLock::new(),
-            revision: host.then(|| Mutex::new(None)),
         })))
-    }
-
-    /// Says which state of the host's own positions lies in its buffer: any number that changes
-    /// whenever they do. Shared by all clones.
-    ///
-    /// Until this is called, a mesh made [`from_host_positions`](Self::from_host_positions) is taken
-    /// to have changed in every frame, which is always right; from then on its shadows may be kept
-    /// while the number stays the same. Call it before the frame is prepared. It has no effect on
-    /// meshes whose positions were uploaded by [`new`](Self::new), which never change.
-    pub fn set_revision(&self, revision: u64) {
-        if let Some(own) = &self.0.revision {
-            *own.lock().unwrap_or_else(PoisonError::into_inner) = Some(revision);
-        }
-    }
-
-    /// The state of the positions; `None` if nobody knows.
-    pub(crate) fn revision(&self) -> Option<u64> {
-        match &self.0.revision {
-            Some(own) => *own.lock().unwrap_or_else(PoisonError::into_inner),
-            None => Some(0),
-        }
     }
 
     /// The rule its shadow volume follows.
     pub fn kind(&self) -> MeshKind {
         self.0.kind
+    }
+
+    /// Whether it is closed and known to be wound counter-clockwise seen from outside.
+    pub(crate) fn is_solid(&self) -> bool {
+        self.0.solid
     }
 
     /// Number of triangles that cast (those that collapsed in the weld do not).
@@ -265,6 +258,23 @@ impl CasterMesh {
     /// Number of vertices in the position buffer.
     pub fn vertex_count(&self) -> u32 {
         self.0.vertex_count
+    }
+
+    /// Says that the positions have changed since shadows were last drawn: the host calls it after
+    /// it deformed a mesh in its own position buffer. Faces of shadow maps that this mesh touches
+    /// are then drawn again. All clones share one revision.
+    pub fn bump_revision(&self) {
+        self.0.revision.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// How often [`bump_revision`](Self::bump_revision) was called.
+    pub fn revision(&self) -> u64 {
+        self.0.revision.load(Ordering::Relaxed)
+    }
+
+    /// A number that no other mesh of this process has or will have; clones share it.
+    pub(crate) fn id(&self) -> u64 {
+        self.0.id
     }
 
     pub(crate) fn device(&self) -> &wgpu::Device {

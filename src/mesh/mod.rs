@@ -10,6 +10,7 @@ mod input;
 mod parts;
 mod raw;
 mod records;
+mod solid;
 mod tolerance;
 mod topology;
 mod triangles;

@@ -12,8 +12,7 @@ use crate::mesh::CasterMesh;
 pub(super) struct Slot {
     // Keeps the mesh alive, so that its key stays its own.
     pub mesh: CasterMesh,
-    /// `None`: the positions may have changed since.
-    pub revision: Option<u64>,
+    pub revision: u64,
     pub chunk: usize,
     pub instance: InstanceParams,
     pub way: Way,
@@ -26,7 +25,6 @@ pub(super) struct Slot {
 impl Slot {
     fn holds(&self, wanted: &Self) -> bool {
         self.mesh.key() == wanted.mesh.key()
-            && self.revision.is_some()
             && self.revision == wanted.revision
             && self.chunk == wanted.chunk
             && self.way == wanted.way

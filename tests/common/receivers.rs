@@ -26,14 +26,29 @@ pub fn visibility(
     kernel: Kernel,
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
+    let descriptor = PcfDescriptor {
+        kernel,
+        encoding: map.encoding(),
+        ..Default::default()
+    };
+    ask(gpu, map, &descriptor, 0, points)
+}
+
+/// Visibility from one light of a map, by any sampler.
+pub fn ask(
+    gpu: &Gpu,
+    map: &CubeShadowMap,
+    descriptor: &PcfDescriptor<'_>,
+    light: usize,
+    points: &[(Vec3, Vec3)],
+) -> Vec<f32> {
     let device = &gpu.device;
-    let sampler = PcfSampler::new(
-        device,
-        &PcfDescriptor {
-            label: None,
-            kernel,
-        },
-    );
+    let sampler = PcfSampler::new(device, descriptor);
+    let call = match descriptor.many_lights {
+        false => "shadows_visibility_flat(".to_owned(),
+        true => format!("shadows_visibility_flat({light}u, "),
+    };
+    let shader = SHADER.replace("shadows_visibility_flat(", &call);
     let data: Vec<[f32; 8]> = points
         .iter()
         .map(|(p, n)| [p.x, p.y, p.z, 0.0, n.x, n.y, n.z, 0.0])
@@ -51,7 +66,7 @@ pub fn visibility(
     });
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
-        source: wgpu::ShaderSource::Wgsl((sampler.wgsl_module(1) + SHADER).into()),
+        source: wgpu::ShaderSource::Wgsl((sampler.wgsl_module(1) + &shader).into()),
     });
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
@@ -94,7 +109,7 @@ pub fn visibility(
             },
         ],
     });
-    let map_group = sampler.bind_group(device, map);
+    let map_group = sampler.bind_group_of(device, map, light).unwrap();
     gpu.run(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);

@@ -1,0 +1,145 @@
+//! Instanced draws: one for each mesh on each face.
+
+use glam::DAffine3;
+
+use super::descriptor::CasterSides;
+use super::resources::Instance;
+use super::scene::{Record, Scene, Winding};
+use super::slot::{Slot, bounds};
+use crate::PointLight;
+use crate::mesh::{Caster, CasterMesh};
+
+/// One draw call: a mesh, and where its instances lie.
+#[derive(Clone, Debug)]
+pub(super) struct Draw {
+    pub mesh: CasterMesh,
+    pub cull: Option<wgpu::Face>,
+    pub first_instance: u64,
+    pub instance_count: u32,
+}
+
+/// Which triangles of a caster the rasteriser drops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Cull {
+    None,
+    Front,
+    Back,
+}
+
+impl Cull {
+    fn of(sides: CasterSides, record: &Record, light: &PointLight) -> Self {
+        let far = sides == CasterSides::Far;
+        if !far && !bounds(light, record).clear_of_near(f64::from(light.near)) {
+            return Self::None; // the light may be inside, or the near plane cut the nearest side
+        }
+        // The faces' frames are left-handed: what is counter-clockwise seen from the light is
+        // clockwise (a back face) on the map, unless the transform mirrors it once more.
+        match (record.winding, far) {
+            (Winding::Any, _) => Self::None,
+            (Winding::Sound, false) | (Winding::Mirrored, true) => Self::Front,
+            (Winding::Sound, true) | (Winding::Mirrored, false) => Self::Back,
+        }
+    }
+
+    fn face(self) -> Option<wgpu::Face> {
+        match self {
+            Self::None => None,
+            Self::Front => Some(wgpu::Face::Front),
+            Self::Back => Some(wgpu::Face::Back),
+        }
+    }
+}
+
+/// The draws of all faces that the next encode draws.
+#[derive(Debug, Default)]
+pub(super) struct DrawLists {
+    faces: Vec<[Vec<Draw>; 6]>,
+    pub instances: Vec<Instance>,
+    // Kept only for its memory: group, culling and row of each caster on each face.
+    members: [Vec<(u32, Cull, u32)>; 6],
+    rows: Vec<Instance>,
+}
+
+impl DrawLists {
+    pub fn new(slots: usize) -> Self {
+        Self {
+            faces: (0..slots).map(|_| Default::default()).collect(),
+            ..Self::default()
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.faces.iter_mut().flatten().for_each(Vec::clear);
+        self.instances.clear();
+    }
+
+    pub fn of(&self, slot: usize, face: usize) -> &[Draw] {
+        &self.faces[slot][face]
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Draw> {
+        self.faces.iter().flatten().flatten()
+    }
+
+    /// Adds some faces of a slot.
+    pub fn add(&mut self, index: usize, slot: &Slot, mask: u8, scene: &Scene, casters: &[Caster]) {
+        let Some(light) = slot.light else { return };
+        let light_from_world = DAffine3::from_translation(-light.position.as_dvec3());
+        self.rows.clear();
+        self.members.iter_mut().for_each(Vec::clear);
+        for at in touching(slot.masks(), mask) {
+            let (caster, record) = (&casters[at], &scene.records()[at]);
+            let on = slot.masks()[at] & mask;
+            let cull = Cull::of(scene.sides(), record, &light);
+            for (bit, members) in self.members.iter_mut().enumerate() {
+                if on & 1 << bit != 0 {
+                    members.push((record.group, cull, self.rows.len() as u32));
+                }
+            }
+            self.rows
+                .push(instance(&(light_from_world * caster.transform())));
+        }
+        for (members, draws) in self.members.iter_mut().zip(&mut self.faces[index]) {
+            members.sort_unstable();
+            for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+                let Some(group) = scene.group(run[0].0) else {
+                    continue; // every record's group exists
+                };
+                draws.push(Draw {
+                    mesh: group.mesh.clone(),
+                    cull: run[0].1.face(),
+                    first_instance: self.instances.len() as u64,
+                    instance_count: run.len() as u32,
+                });
+                let rows = run.iter().map(|&(.., row)| self.rows[row as usize]);
+                self.instances.extend(rows);
+            }
+        }
+    }
+}
+
+/// The casters that touch any face of a mask. Most casters touch none, so sixteen at a time are
+/// looked at.
+fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
+    masks
+        .chunks(16)
+        .enumerate()
+        .filter(move |(_, chunk)| chunk.iter().fold(0, |all, &one| all | one) & mask != 0)
+        .flat_map(move |(number, chunk)| {
+            let touches = chunk
+                .iter()
+                .enumerate()
+                .filter(move |&(_, on)| on & mask != 0);
+            touches.map(move |(at, _)| number * 16 + at)
+        })
+}
+
+fn instance(light_from_object: &DAffine3) -> Instance {
+    let linear = light_from_object.matrix3.transpose();
+    let offset = light_from_object.translation;
+    [
+        linear.x_axis.extend(offset.x).as_vec4().to_array(),
+        linear.y_axis.extend(offset.y).as_vec4().to_array(),
+        linear.z_axis.extend(offset.z).as_vec4().to_array(),
+    ]
+}
