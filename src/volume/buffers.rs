@@ -5,6 +5,12 @@ use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
 use super::silhouette::{Way, Ways};
 
+/// Tests read what was extracted.
+const READ_BACK: wgpu::BufferUsages = match cfg!(test) {
+    true => wgpu::BufferUsages::COPY_SRC,
+    false => wgpu::BufferUsages::empty(),
+};
+
 /// A buffer that grows.
 #[derive(Debug)]
 struct Grown {
@@ -80,7 +86,10 @@ impl Buffers {
             batches: grown("batches", U::UNIFORM | U::COPY_DST),
             instances: grown("instances", U::STORAGE | U::COPY_DST),
             template: grown("argument template", U::COPY_SRC | U::COPY_DST),
-            arguments: grown("arguments", U::STORAGE | U::INDIRECT | U::COPY_DST),
+            arguments: grown(
+                "arguments",
+                U::STORAGE | U::INDIRECT | U::COPY_DST | READ_BACK,
+            ),
             casters: grown("casters", U::UNIFORM | U::COPY_DST),
             chunks: Vec::new(),
             generation: 0,
@@ -192,7 +201,7 @@ impl Buffers {
 fn chunk(label: &str, place: usize) -> [Grown; 3] {
     use wgpu::BufferUsages as U;
     // Only caps are read as indices. The CPU may write caps and sides.
-    let list = U::STORAGE | U::COPY_DST;
+    let list = U::STORAGE | U::COPY_DST | READ_BACK;
     let usages = [U::STORAGE, list | U::INDEX, list];
     std::array::from_fn(|i| Grown::new(format!("{label} {} {place}", NAMES[i]), usages[i]))
 }

@@ -275,3 +275,7 @@ impl ShadowVolumeRenderer {
         self.groups.update(&self.plan, &parts);
     }
 }
+
+#[cfg(test)]
+#[path = "agreement.rs"]
+mod agreement;
