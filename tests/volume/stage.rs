@@ -159,7 +159,7 @@ impl Stage {
         ReferenceScene::new(&objects).unwrap()
     }
 
-    fn descriptor(&self) -> ShadowVolumeDescriptor<'_> {
+    pub fn descriptor(&self) -> ShadowVolumeDescriptor<'_> {
         ShadowVolumeDescriptor {
             label: Some("test"),
             depth_stencil_format: self.format,
