@@ -24,3 +24,5 @@ mod shapes;
 mod stage;
 #[path = "volume/truth.rs"]
 mod truth;
+#[path = "volume/ways.rs"]
+mod ways;

@@ -3,7 +3,7 @@
 use glam::DAffine3;
 
 use super::descriptor::CasterSides;
-use super::resources::Instance;
+use super::resources::{Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
 use crate::PointLight;
@@ -16,6 +16,15 @@ pub(super) struct Draw {
     pub cull: Option<wgpu::Face>,
     pub first_instance: u64,
     pub instance_count: u32,
+}
+
+impl Draw {
+    pub fn key(&self) -> PipelineKey {
+        PipelineKey {
+            stride: self.mesh.layout().0,
+            cull: self.cull,
+        }
+    }
 }
 
 /// Which triangles of a caster the rasteriser drops.

@@ -6,6 +6,7 @@ mod cross;
 mod cube;
 mod descriptor;
 mod draws;
+mod encode;
 mod face;
 mod light;
 mod plan;
@@ -15,6 +16,7 @@ mod schedule;
 mod slot;
 mod statistics;
 mod texture;
+mod upload;
 mod visible;
 
 pub use bias::Bias;

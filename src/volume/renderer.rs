@@ -114,7 +114,7 @@ impl ShadowVolumeRenderer {
                 view: frame.view.depth(),
             });
         }
-        let limits = PlanLimits::of(&device.limits());
+        let limits = PlanLimits::of(&device.limits(), &self.ways);
         let means = Means {
             options: self.options,
             ways: &self.ways,
@@ -297,3 +297,7 @@ impl ShadowVolumeRenderer {
         self.groups.update(&self.plan, &parts);
     }
 }
+
+#[cfg(test)]
+#[path = "agreement.rs"]
+mod agreement;
