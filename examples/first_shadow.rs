@@ -56,8 +56,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
     let light = PointLight::new(Vec3::new(-1.3, 2.6, 2.2), 0.05, 20.0);
     let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
-    let sampler = PcfSampler::new(&device, &PcfDescriptor::default());
-    let shadow_group = sampler.bind_group(&device, &map);
+    let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
+    let shadow_group = sampler.bind_group(&device, &map)?;
 
     // The host's own pipeline; group 1 is the shadows'.
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -236,3 +236,58 @@ pub enum CubeShadowMapError {
         limit: u64,
     },
 }
+
+/// What can be wrong with a [`PcfSampler`](crate::PcfSampler).
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PcfError {
+    /// The number of taps is out of range.
+    #[error("{what} = {taps} is out of range; pass 4 to {limit}")]
+    Taps {
+        /// The field.
+        what: &'static str,
+        /// Its value.
+        taps: u32,
+        /// The largest value.
+        limit: u32,
+    },
+    /// The strata of a random disk are too few, too many or odd in number.
+    #[error(
+        "around x rings = {around} x {rings} taps are out of range; pass an even product, 8 to {limit}"
+    )]
+    Samples {
+        /// Strata around the disk.
+        around: u32,
+        /// Rings.
+        rings: u32,
+        /// The most taps.
+        limit: u32,
+    },
+    /// The radius of a disk is out of range.
+    #[error("the radius {radius:?} is out of range; pass a number above 0, at most 64 texels")]
+    Radius {
+        /// The radius.
+        radius: crate::Radius,
+    },
+    /// The side of the texture of offsets is out of range.
+    #[error("a texture of {size} x {size} offsets is out of range; pass 1 to {limit}")]
+    OffsetTexture {
+        /// Texels along a side.
+        size: u32,
+        /// The most texels along a side.
+        limit: u32,
+    },
+    /// The size of the light is out of range.
+    #[error("light_size = {0} is out of range; pass a finite number above 0")]
+    LightSize(f32),
+    /// The sampler was made for another kind of map.
+    #[error(
+        "this sampler reads {made_for:?} maps and was given a {given:?} map; make one with PcfDescriptor::map = {given:?}"
+    )]
+    Map {
+        /// What the sampler was made for.
+        made_for: crate::MapKind,
+        /// What it was given.
+        given: crate::MapKind,
+    },
+}

@@ -38,8 +38,8 @@
 //!
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
-//! let sampler = PcfSampler::new(&device, &PcfDescriptor::default());
-//! let group = sampler.bind_group(&device, &map);
+//! let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
+//! let group = sampler.bind_group(&device, &map)?;
 //! let lighting = sampler.wgsl_module(1)
 //!     + "@fragment fn light(@location(0) world: vec3f) -> @location(0) vec4f {
 //!            return vec4f(shadows_visibility(world)); // times the light's colour
@@ -143,6 +143,9 @@ pub mod wgsl;
 pub use light::{HomogeneousLight, PointLight};
 pub use map::{Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics};
 pub use mesh::{Caster, CasterMesh, HostPositions};
-pub use pcf::{Kernel, PcfDescriptor, PcfSampler};
+pub use pcf::{
+    AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,
+    VogelDisk,
+};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -6,22 +6,34 @@ use common::{noop, to_glsl, validate, validation_error};
 use shadows::{Kernel, PcfDescriptor, PcfSampler, wgpu};
 
 fn sampler(kernel: Kernel) -> PcfSampler {
-    let (device, _) = noop();
-    PcfSampler::new(
-        &device,
-        &PcfDescriptor {
-            label: None,
-            kernel,
-        },
-    )
+    let (device, queue) = noop();
+    made(&device, &queue, kernel)
 }
 
-const HOST: &str = "
-@fragment
-fn host(@location(0) position: vec3f) -> @location(0) vec4f {
-    return vec4f(shadows_visibility(position));
+fn made(device: &wgpu::Device, queue: &wgpu::Queue, kernel: Kernel) -> PcfSampler {
+    let descriptor = PcfDescriptor {
+        kernel,
+        ..Default::default()
+    };
+    PcfSampler::new(device, queue, &descriptor).unwrap()
 }
-";
+
+/// A fragment shader that asks for the visibility at its position.
+fn host(kernel: Kernel) -> String {
+    let pixel = if kernel.uses_pixel() {
+        ", pixel.xy"
+    } else {
+        ""
+    };
+    format!(
+        "
+@fragment
+fn host(@builtin(position) pixel: vec4f, @location(0) position: vec3f) -> @location(0) vec4f {{
+    return vec4f(shadows_visibility(position{pixel}));
+}}
+"
+    )
+}
 
 const VERTEX: &str = "
 struct Corner { @builtin(position) clip: vec4f, @location(0) position: vec3f }
@@ -37,7 +49,7 @@ fn every_kernel_is_valid_as_functions_and_as_a_module_of_any_group() {
         let sampler = sampler(kernel);
         validate(&sampler.wgsl()).unwrap();
         for group in 0..4 {
-            let text = sampler.wgsl_module(group) + HOST;
+            let text = sampler.wgsl_module(group) + &host(kernel);
             let module = validate(&text).unwrap();
             assert!(
                 module
@@ -83,7 +95,10 @@ fn a_kernel_carries_no_code_of_another() {
     for kernel in Kernel::ALL {
         let text = sampler(kernel).wgsl();
         for other in Kernel::ALL {
-            assert_eq!(text.contains(other.function()), kernel == other);
+            assert_eq!(
+                text.contains(&format!("fn {}(", other.function())),
+                kernel == other
+            );
         }
     }
 }
@@ -91,23 +106,17 @@ fn a_kernel_carries_no_code_of_another() {
 #[test]
 fn every_kernel_translates_to_gl() {
     for kernel in Kernel::ALL {
-        let text = sampler(kernel).wgsl_module(0) + HOST;
+        let text = sampler(kernel).wgsl_module(0) + &host(kernel);
         to_glsl(&text, "host").unwrap();
     }
 }
 
 #[test]
 fn a_host_pipeline_accepts_layout_and_module() {
-    let (device, _) = noop();
+    let (device, queue) = noop();
     for kernel in Kernel::ALL {
-        let sampler = PcfSampler::new(
-            &device,
-            &PcfDescriptor {
-                label: None,
-                kernel,
-            },
-        );
-        let source = sampler.wgsl_module(0) + HOST + VERTEX;
+        let sampler = made(&device, &queue, kernel);
+        let source = sampler.wgsl_module(0) + &host(kernel) + VERTEX;
         let error = validation_error(&device, || {
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: None,
@@ -118,7 +127,7 @@ fn a_host_pipeline_accepts_layout_and_module() {
                 bind_group_layouts: &[Some(sampler.bind_group_layout())],
                 immediate_size: 0,
             });
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            let _ = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: None,
                 layout: Some(&layout),
                 vertex: wgpu::VertexState {

@@ -2,7 +2,7 @@
 //! no rasteriser between the point that is asked for and the answer.
 
 use shadows::glam::Vec3;
-use shadows::{CubeShadowMap, Kernel, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{AnyMap, Kernel, PcfDescriptor, PcfSampler, wgpu};
 use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
@@ -13,31 +13,58 @@ const SHADER: &str = "
 @compute @workgroup_size(64)
 fn ask(@builtin(global_invocation_id) id: vec3u) {
     if id.x < arrayLength(&visibility) {
+        let pixel = vec2f(points[2 * id.x].w, points[2 * id.x + 1].w);
         visibility[id.x] =
-            shadows_visibility_flat(points[2 * id.x].xyz, points[2 * id.x + 1].xyz);
+            shadows_visibility_flat(points[2 * id.x].xyz, points[2 * id.x + 1].xyz PIXEL);
     }
 }
 ";
 
-/// Visibility of points with geometric normals.
-pub fn visibility(
+/// Visibility of points with geometric normals, each as if at a pixel of its own.
+pub fn visibility<'a>(
     gpu: &Gpu,
-    map: &CubeShadowMap,
+    map: impl Into<AnyMap<'a>>,
     kernel: Kernel,
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
+    let map = map.into();
+    let descriptor = PcfDescriptor {
+        kernel,
+        map: map.kind(),
+        ..Default::default()
+    };
+    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
+    ask(gpu, map, &sampler, &sampler.wgsl_module(1), points)
+}
+
+/// The pixel that point `i` is taken to be at.
+pub fn pixel(i: usize) -> [f32; 2] {
+    [(i % 64) as f32 + 0.5, (i / 64) as f32 + 0.5]
+}
+
+/// The same with a sampler's module that a test may have changed.
+pub fn ask(
+    gpu: &Gpu,
+    map: AnyMap<'_>,
+    sampler: &PcfSampler,
+    module: &str,
+    points: &[(Vec3, Vec3)],
+) -> Vec<f32> {
     let device = &gpu.device;
-    let sampler = PcfSampler::new(
-        device,
-        &PcfDescriptor {
-            label: None,
-            kernel,
-        },
-    );
     let data: Vec<[f32; 8]> = points
         .iter()
-        .map(|(p, n)| [p.x, p.y, p.z, 0.0, n.x, n.y, n.z, 0.0])
+        .enumerate()
+        .map(|(i, (p, n))| {
+            let [x, y] = pixel(i);
+            [p.x, p.y, p.z, x, n.x, n.y, n.z, y]
+        })
         .collect();
+    let argument = if sampler.kernel().uses_pixel() {
+        ", pixel"
+    } else {
+        ""
+    };
+    let shader = SHADER.replace(" PIXEL", argument);
     let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: None,
         contents: bytemuck::cast_slice(&data),
@@ -51,7 +78,7 @@ pub fn visibility(
     });
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
-        source: wgpu::ShaderSource::Wgsl((sampler.wgsl_module(1) + SHADER).into()),
+        source: wgpu::ShaderSource::Wgsl((module.to_owned() + &shader).into()),
     });
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
@@ -94,7 +121,7 @@ pub fn visibility(
             },
         ],
     });
-    let map_group = sampler.bind_group(device, map);
+    let map_group = sampler.bind_group(device, map).unwrap();
     gpu.run(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
