@@ -289,5 +289,160 @@ pub enum PcfError {
         made_for: crate::MapKind,
         /// What it was given.
         given: crate::MapKind,
+
+/// What can be wrong with the input of [`reference`](crate::reference).
+#[cfg(feature = "reference")]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ReferenceError {
+    /// The index list is no list of whole triangles.
+    #[error("object {object}: {count} indices are no multiple of 3; pass 3 per triangle")]
+    IndexCount {
+        /// Place in the list of objects.
+        object: usize,
+        /// Length of its index list.
+        count: usize,
+    },
+    /// An index points past the last vertex.
+    #[error("object {object}: index {index} is out of range, it has {vertices} vertices")]
+    IndexOutOfRange {
+        /// Place in the list of objects.
+        object: usize,
+        /// The index found there.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A position is not finite in world space: the vertex or the transform is NaN, infinite or
+    /// too large.
+    #[error(
+        "object {object}: vertex {vertex} has no finite place in the world; check it and the transform"
+    )]
+    Position {
+        /// Place in the list of objects.
+        object: usize,
+        /// The vertex.
+        vertex: u32,
+    },
+    /// More objects or triangles than 32-bit numbers can count.
+    #[error("{0} objects or triangles are too many; at most 2^32 - 1 are possible")]
+    TooLarge(usize),
+    /// The light is not one.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// The picture has no pixels.
+    #[error("a picture of {width} x {height} pixels is empty; pass at least 1 x 1")]
+    Size {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The picture to compare has another number of pixels.
+    #[error("{passed} visibilities were passed for a picture of {pixels} pixels; pass one each")]
+    VisibilityCount {
+        /// How many were passed.
+        passed: usize,
+        /// Pixels of the reference.
+        pixels: usize,
+    },
+    /// A visibility is NaN or outside 0 to 1.
+    #[error("pixel {pixel} has the visibility {value}; pass 0 (in shadow) to 1 (lit)")]
+    Visibility {
+        /// Row-major number of the pixel.
+        pixel: usize,
+        /// What was passed.
+        value: f32,
+    },
+    /// An interior of shadow map texels that cannot be.
+    #[error(
+        "an interior of {face_size} texels a face, kernel radius {kernel_radius}, does not exist; pass at least 1 texel, a finite radius of at least 0, and a point light"
+    )]
+    Interior {
+        /// Texels along the edge of a cube face.
+        face_size: u32,
+        /// Radius of the filter in texels.
+        kernel_radius: f32,
+    },
+}
+
+/// What can be wrong when a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) is made or
+/// prepared.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowVolumeError {
+    /// The depth-stencil format is none of the two that have what shadow volumes need.
+    #[error(
+        "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
+    )]
+    Format(wgpu::TextureFormat),
+    /// The sample count is neither 1 nor 4.
+    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    SampleCount(u32),
+    /// The device was created without a feature that the descriptor needs.
+    #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
+    MissingFeature {
+        /// What is missing.
+        feature: wgpu::Features,
+        /// What needs it, e.g. `"DepthConvention::Standard"`.
+        needed_by: String,
+    },
+    /// A limit of the device is too low for any shadow volume.
+    #[error(
+        "the device's {name} is {available}, shadow volumes need {needed}; ask for more when the device is created (see Support)"
+    )]
+    Limit {
+        /// The limit's name in [`wgpu::Limits`].
+        name: &'static str,
+        /// What is needed.
+        needed: u64,
+        /// What the device has.
+        available: u64,
+    },
+    /// A colour format that no colour target can have.
+    #[error("color_formats[{place}] is {format:?}, which is no colour format")]
+    ColorFormat {
+        /// Place in the list of colour formats.
+        place: usize,
+        /// The format found there.
+        format: wgpu::TextureFormat,
+    },
+    /// The view was made with another depth convention than the renderer.
+    #[error("the view's depth is {view:?}, this renderer was made for {renderer:?}")]
+    Depth {
+        /// The renderer's convention.
+        renderer: crate::DepthConvention,
+        /// The view's convention.
+        view: crate::DepthConvention,
+    },
+    /// The light or its range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// The volume of one caster does not fit the device's buffers.
+    #[error(
+        "caster {index}: its {what} need {size} bytes in one buffer, {limit} are possible; split the mesh or ask for higher buffer limits"
+    )]
+    TooLarge {
+        /// Place in the slice of casters.
+        index: usize,
+        /// `"facings"`, `"caps"` or `"sides"`.
+        what: &'static str,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes possible.
+        limit: u64,
+    },
+    /// More casters than the device's buffers can describe.
+    #[error(
+        "{count} casters are too many for one frame; this device's buffer limits allow {limit}"
+    )]
+    TooManyCasters {
+        /// Casters that would be drawn.
+        count: usize,
+        /// The largest count that works.
+        limit: usize,
     },
 }

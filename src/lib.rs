@@ -138,6 +138,7 @@ pub mod pcf;
 pub mod reference;
 pub mod support;
 pub mod view;
+pub mod volume;
 pub mod wgsl;
 
 pub use light::{HomogeneousLight, PointLight};
@@ -149,3 +150,6 @@ pub use pcf::{
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
+pub use volume::{
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, VolumeStatistics,
+};

@@ -1,5 +1,7 @@
 //! Adjacency: welding, edges, six indices a triangle, and the report on the mesh's topology.
 
+#[path = "adjacency/area.rs"]
+mod area;
 #[path = "adjacency/cases.rs"]
 mod cases;
 #[path = "adjacency/errors.rs"]

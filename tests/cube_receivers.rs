@@ -212,7 +212,7 @@ fn errors(
             let truth = blocked(d);
             let (a, b) = d.normalize().any_orthonormal_pair();
             let alike = (0..48).all(|i| {
-                let (sine, cosine) = (f64::from(i) * 0.3927).sin_cos();
+                let (sine, cosine) = (f64::from(i) * std::f64::consts::FRAC_PI_8).sin_cos();
                 let radius = reach * f64::from(1 + i / 16) / 3.0 * 3.0_f64.sqrt();
                 blocked(d + radius * (a * cosine + b * sine)) == truth
             });

@@ -64,7 +64,8 @@ impl Gpu {
             }
         };
         let support = Support::of_adapter(&adapter);
-        let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        let timestamps = adapter.features()
+            & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("headless"),

@@ -2,3 +2,9 @@
 #![allow(dead_code)] // each of them uses its own part
 
 pub mod gpu;
+pub mod image;
+pub mod ply;
+pub mod renderer;
+pub mod scene;
+pub mod scene_gpu;
+pub mod timer;

@@ -1,0 +1,292 @@
+//! The shadow techniques behind one interface: prepare, generate, shade.
+
+use anyhow::{Result, bail};
+use serde_json::{Value, json};
+use shadows::reference::Interior;
+use shadows::{
+    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, HomogeneousLight, Kernel,
+    PcfDescriptor, PcfSampler, PointLight, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, View, wgpu,
+};
+
+use crate::host::gpu::Gpu;
+use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
+use crate::host::scene_gpu::SceneGpu;
+
+/// A way to make shadows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Technique {
+    /// A cube shadow map read through a kernel.
+    Cube(Kernel),
+    /// Stencil shadow volumes.
+    Volume,
+}
+
+impl Technique {
+    /// Every technique, in the order of reports.
+    pub const ALL: [Self; 4] = [
+        Self::Cube(Kernel::Hard),
+        Self::Cube(Kernel::Bilinear),
+        Self::Cube(Kernel::FourTaps),
+        Self::Volume,
+    ];
+
+    /// The name on the command line, in reports and of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cube(Kernel::Hard) => "cube-hard",
+            Self::Cube(Kernel::Bilinear) => "cube-2x2",
+            Self::Cube(Kernel::FourTaps) => "cube-16",
+            Self::Cube(_) => "cube",
+            Self::Volume => "volume",
+        }
+    }
+
+    /// Whether it can shadow this light.
+    pub fn applies_to(self, light: HomogeneousLight) -> bool {
+        match self {
+            Self::Cube(_) => !light.is_directional(),
+            Self::Volume => true,
+        }
+    }
+}
+
+/// What a technique is told each frame.
+#[derive(Clone)]
+pub struct ShadowInputs {
+    pub view: View,
+    pub light: HomogeneousLight,
+    /// Where cube maps begin; shadow volumes begin at the light.
+    pub near: f32,
+    pub range: f32,
+    pub casters: Vec<Caster>,
+}
+
+impl ShadowInputs {
+    /// The light's end; directional lights have none.
+    pub fn light_range(&self) -> Option<f32> {
+        (!self.light.is_directional()).then_some(self.range)
+    }
+
+    fn point_light(&self) -> Result<PointLight> {
+        if self.light.is_directional() {
+            bail!("cube shadow maps need a point light (w = 1)");
+        }
+        Ok(PointLight::new(
+            self.light.0.truncate(),
+            self.near,
+            self.range,
+        ))
+    }
+}
+
+/// What it takes, for reports.
+#[derive(Clone, Copy, Debug)]
+pub struct Cost {
+    /// GPU memory beyond what the host has anyway (meshes, depth-stencil buffer).
+    pub bytes: u64,
+    pub draws: u64,
+    pub triangles: u64,
+}
+
+/// A technique at work.
+pub struct Shadow {
+    technique: Technique,
+    lit: LitPipeline,
+    means: Means,
+}
+
+enum Means {
+    Cube {
+        map: Box<CubeShadowMap>,
+        group: wgpu::BindGroup,
+        bias: Bias,
+    },
+    Volume {
+        renderer: Box<ShadowVolumeRenderer>,
+        cap_bias_ulps: u32,
+    },
+}
+
+impl Shadow {
+    /// Makes what the technique needs; `face` is the texels along a cube map's side.
+    ///
+    /// # Errors
+    /// If the device cannot do it.
+    pub fn new(gpu: &Gpu, renderer: &Renderer, technique: Technique, face: u32) -> Result<Self> {
+        Self::with_bias(gpu, renderer, technique, face, Bias::default())
+    }
+
+    /// The same with a bias other than the default, for those that have one.
+    ///
+    /// # Errors
+    /// If the device cannot do it.
+    pub fn with_bias(
+        gpu: &Gpu,
+        renderer: &Renderer,
+        technique: Technique,
+        face: u32,
+        bias: Bias,
+    ) -> Result<Self> {
+        match technique {
+            Technique::Cube(kernel) => Self::cube(gpu, renderer, kernel, face, bias),
+            Technique::Volume => Self::volume(gpu, renderer),
+        }
+    }
+
+    fn cube(gpu: &Gpu, renderer: &Renderer, kernel: Kernel, face: u32, bias: Bias) -> Result<Self> {
+        let technique = Technique::Cube(kernel);
+        let label = Some(technique.name());
+        let map = CubeShadowMap::new(
+            &gpu.device,
+            &CubeShadowMapDescriptor {
+                label,
+                size: face,
+                bias,
+            },
+        )?;
+        let sampler = PcfSampler::new(&gpu.device, &PcfDescriptor { label, kernel });
+        let lit = renderer.lit_pipeline(
+            gpu,
+            &ShadowAccess {
+                module: Some(&sampler.wgsl_module(1)),
+                layout: Some(sampler.bind_group_layout()),
+                stencil: None,
+            },
+        );
+        let group = sampler.bind_group(&gpu.device, &map);
+        Ok(Self {
+            technique,
+            lit,
+            means: Means::Cube {
+                map: Box::new(map),
+                group,
+                bias,
+            },
+        })
+    }
+
+    fn volume(gpu: &Gpu, renderer: &Renderer) -> Result<Self> {
+        let descriptor = ShadowVolumeDescriptor {
+            label: Some(Technique::Volume.name()),
+            depth_stencil_format: renderer.depth_stencil_format(),
+            depth: DEPTH,
+            ..Default::default()
+        };
+        let lit = renderer.lit_pipeline(
+            gpu,
+            &ShadowAccess {
+                stencil: Some(ShadowVolumeRenderer::light_pass_stencil()),
+                ..Default::default()
+            },
+        );
+        Ok(Self {
+            technique: Technique::Volume,
+            lit,
+            means: Means::Volume {
+                renderer: Box::new(ShadowVolumeRenderer::new(&gpu.device, &descriptor)?),
+                cap_bias_ulps: descriptor.cap_bias_ulps,
+            },
+        })
+    }
+
+    /// Which technique it is.
+    pub fn technique(&self) -> Technique {
+        self.technique
+    }
+
+    /// The frame's work on the CPU.
+    ///
+    /// # Errors
+    /// If the technique refuses the inputs.
+    pub fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()> {
+        let casters = &inputs.casters;
+        match &mut self.means {
+            Means::Cube { map, .. } => {
+                let light = &inputs.point_light()?;
+                map.prepare(&gpu.device, &gpu.queue, &CubeFrame { light, casters })?;
+            }
+            Means::Volume { renderer, .. } => {
+                let frame = ShadowVolumeFrame {
+                    view: &inputs.view,
+                    light: inputs.light,
+                    range: inputs.light_range(),
+                    casters,
+                };
+                renderer.prepare(&gpu.device, &gpu.queue, &frame)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Records what finds the shadows: the map's faces, or the volumes and their stencil pass.
+    pub fn generate(&self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+        match &self.means {
+            Means::Cube { map, .. } => map.encode(encoder),
+            Means::Volume { renderer, .. } => {
+                renderer.encode(encoder);
+                renderer.render(&mut host.begin_stencil_pass(encoder));
+            }
+        }
+    }
+
+    /// Records the lit pass.
+    pub fn shade(&self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
+        let group = match &self.means {
+            Means::Cube { group, .. } => Some(group),
+            Means::Volume { .. } => None,
+        };
+        host.draw_lit(encoder, scene, &self.lit, group);
+    }
+
+    /// What the last prepared frame takes.
+    pub fn cost(&self) -> Cost {
+        match &self.means {
+            Means::Cube { map, .. } => {
+                let statistics = map.statistics();
+                Cost {
+                    bytes: statistics.bytes,
+                    draws: statistics.draws.into(),
+                    triangles: statistics.triangles,
+                }
+            }
+            Means::Volume { renderer, .. } => {
+                let statistics = renderer.statistics();
+                Cost {
+                    bytes: statistics.gpu_bytes,
+                    draws: statistics.draws.into(),
+                    triangles: statistics.triangles,
+                }
+            }
+        }
+    }
+
+    /// Everything that was chosen, by name.
+    pub fn settings(&self) -> Value {
+        match (&self.means, self.technique) {
+            (Means::Cube { map, bias, .. }, Technique::Cube(kernel)) => json!({
+                "face_texels": map.size(),
+                "kernel": format!("{kernel:?}"),
+                "kernel_radius_texels": kernel.radius(),
+                "bias_normal_offset_texels": bias.normal_offset,
+                "bias_constant_texels": bias.constant,
+            }),
+            (Means::Volume { cap_bias_ulps, .. }, _) => json!({
+                "stencil": "z-fail, 8 bits, wrapping",
+                "cap_bias_ulps": cap_bias_ulps,
+            }),
+            (Means::Cube { .. }, Technique::Volume) => Value::Null,
+        }
+    }
+
+    /// Where resolution is no excuse for this technique's errors.
+    pub fn interior(&self) -> Interior {
+        match (&self.means, self.technique) {
+            (Means::Cube { map, .. }, Technique::Cube(kernel)) => Interior::Map {
+                face_size: map.size(),
+                kernel_radius: kernel.radius(),
+            },
+            _ => Interior::Screen,
+        }
+    }
+}

@@ -1,0 +1,477 @@
+//! A forward renderer without a window: depth and ambient light first, then one pass that adds the
+//! light and writes its visibility beside it.
+
+use anyhow::{Result, ensure};
+use shadows::glam::Vec3;
+use shadows::{DepthConvention, View, wgpu};
+
+use super::gpu::Gpu;
+use super::image;
+use super::scene::Scene;
+use super::scene_gpu::SceneGpu;
+
+/// The convention of the host's depth buffer.
+pub const DEPTH: DepthConvention = DepthConvention::InfiniteReverse;
+
+// sRGB, so that the hardware blends light linearly.
+const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// Share of the light that comes from everywhere.
+const AMBIENT: f32 = 0.1;
+/// Linear colour where there is no surface.
+const SKY: wgpu::Color = wgpu::Color {
+    r: 0.012,
+    g: 0.018,
+    b: 0.032,
+    a: 1.0,
+};
+
+/// `HostFrame` in host.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct FrameUniform {
+    clip_from_world: [[f32; 4]; 4],
+    eye: [f32; 4],
+    light: [f32; 4],
+    range: f32,
+    intensity: f32,
+    ambient: f32,
+    padding: f32,
+}
+
+/// How a light pass learns where there is shadow.
+#[derive(Clone, Default)]
+pub struct ShadowAccess<'a> {
+    /// WGSL that declares `shadows_visibility(vec3f) -> f32` and its bindings in group 1.
+    pub module: Option<&'a str>,
+    /// Layout of group 1.
+    pub layout: Option<&'a wgpu::BindGroupLayout>,
+    /// The stencil test, if that decides.
+    pub stencil: Option<wgpu::StencilState>,
+}
+
+/// The pipeline of a lit pass.
+pub struct LitPipeline {
+    pipeline: wgpu::RenderPipeline,
+    uses_stencil: bool,
+}
+
+/// Targets and pipelines for one scene seen by one camera.
+pub struct Renderer {
+    size: [u32; 2],
+    depth_stencil_format: wgpu::TextureFormat,
+    depth_stencil: wgpu::TextureView,
+    shaded: wgpu::Texture,
+    visibility: wgpu::Texture,
+    host_layout: wgpu::BindGroupLayout,
+    host_group: wgpu::BindGroup,
+    ambient: wgpu::RenderPipeline,
+    unshadowed: LitPipeline,
+}
+
+impl Renderer {
+    /// Targets of `size` pixels, pipelines and the frame's uniforms.
+    ///
+    /// # Errors
+    /// If the device cannot make targets of this size.
+    pub fn new(gpu: &Gpu, size: [u32; 2], scene: &Scene, scene_gpu: &SceneGpu) -> Result<Self> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        ensure!(
+            size.iter().all(|&side| side <= limit),
+            "a picture of {}x{} is too large for this device; at most {limit}x{limit}",
+            size[0],
+            size[1]
+        );
+        let depth_stencil_format = depth_stencil_format(gpu);
+        let depth_stencil = gpu.target(size, depth_stencil_format, 1);
+        let frame = frame_uniform(scene, size);
+        let host_layout = host_layout(&gpu.device);
+        let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
+        Ok(Self {
+            size,
+            depth_stencil_format,
+            depth_stencil: depth_stencil.create_view(&Default::default()),
+            shaded: gpu.target(size, SHADED, 1),
+            visibility: gpu.target(size, VISIBILITY, 1),
+            ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format),
+            unshadowed: lit_pipeline(
+                &gpu.device,
+                &host_layout,
+                depth_stencil_format,
+                &ShadowAccess::default(),
+            ),
+            host_layout,
+            host_group,
+        })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The format of the depth-stencil buffer.
+    pub fn depth_stencil_format(&self) -> wgpu::TextureFormat {
+        self.depth_stencil_format
+    }
+
+    /// The lit pass's pipeline for one way to find shadows.
+    pub fn lit_pipeline(&self, gpu: &Gpu, access: &ShadowAccess<'_>) -> LitPipeline {
+        lit_pipeline(
+            &gpu.device,
+            &self.host_layout,
+            self.depth_stencil_format,
+            access,
+        )
+    }
+
+    /// The lit pass's pipeline without shadows.
+    pub fn unshadowed(&self) -> &LitPipeline {
+        &self.unshadowed
+    }
+
+    /// Clears, then draws depth and ambient light.
+    pub fn draw_ambient(&self, encoder: &mut wgpu::CommandEncoder, scene: &SceneGpu) {
+        let shaded = self.shaded.create_view(&Default::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("ambient"),
+            color_attachments: &[Some(color(&shaded, wgpu::LoadOp::Clear(SKY)))],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.depth_stencil,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(DEPTH.clear_depth()),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0),
+                    store: wgpu::StoreOp::Store,
+                }),
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.ambient);
+        self.draw_objects(&mut pass, scene);
+    }
+
+    /// A pass that may count in the stencil buffer, cleared to 0, against the scene's depth.
+    pub fn begin_stencil_pass<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+    ) -> wgpu::RenderPass<'e> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("stencil"),
+            depth_stencil_attachment: Some(self.stencil_attachment(wgpu::LoadOp::Clear(0))),
+            ..Default::default()
+        })
+    }
+
+    /// Adds the light where it is not shadowed, and writes its visibility.
+    pub fn draw_lit(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &SceneGpu,
+        lit: &LitPipeline,
+        shadow_group: Option<&wgpu::BindGroup>,
+    ) {
+        let shaded = self.shaded.create_view(&Default::default());
+        let visibility = self.visibility.create_view(&Default::default());
+        let mut depth_stencil = self.stencil_attachment(wgpu::LoadOp::Load);
+        if !lit.uses_stencil {
+            depth_stencil.stencil_ops = None;
+        }
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("lit"),
+            color_attachments: &[
+                Some(color(&shaded, wgpu::LoadOp::Load)),
+                Some(color(
+                    &visibility,
+                    wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                )),
+            ],
+            depth_stencil_attachment: Some(depth_stencil),
+            ..Default::default()
+        });
+        pass.set_pipeline(&lit.pipeline);
+        pass.set_stencil_reference(0);
+        if let Some(group) = shadow_group {
+            pass.set_bind_group(1, group, &[]);
+        }
+        self.draw_objects(&mut pass, scene);
+    }
+
+    /// The shaded picture, sRGB.
+    pub fn read_shaded(&self, gpu: &Gpu) -> Vec<[u8; 3]> {
+        image::without_alpha(&gpu.read_texture(&self.shaded, 0, wgpu::TextureAspect::All))
+    }
+
+    /// Visibility of the light at each pixel, 255 lit; 0 also where there is no surface.
+    pub fn read_visibility(&self, gpu: &Gpu) -> Vec<u8> {
+        gpu.read_texture(&self.visibility, 0, wgpu::TextureAspect::All)
+    }
+
+    fn stencil_attachment(
+        &self,
+        load: wgpu::LoadOp<u32>,
+    ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        wgpu::RenderPassDepthStencilAttachment {
+            view: &self.depth_stencil,
+            depth_ops: None,
+            stencil_ops: Some(wgpu::Operations {
+                load,
+                store: wgpu::StoreOp::Store,
+            }),
+        }
+    }
+
+    fn draw_objects(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneGpu) {
+        for (place, &mesh) in scene.objects.iter().enumerate() {
+            let mesh = &scene.meshes[mesh];
+            if mesh.index_count == 0 {
+                continue;
+            }
+            let offset = place as u32 * scene.object_stride;
+            pass.set_bind_group(0, &self.host_group, &[offset]);
+            pass.set_vertex_buffer(0, mesh.positions.slice(..));
+            pass.set_vertex_buffer(1, mesh.normals.slice(..));
+            pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..mesh.index_count, 0, 0..1);
+        }
+    }
+}
+
+/// The host's view of a scene.
+///
+/// # Errors
+/// If the camera's numbers make no view, e.g. because it looks straight up or down.
+pub fn view(scene: &Scene, size: [u32; 2]) -> Result<View> {
+    let aspect = size[0] as f32 / size[1] as f32;
+    Ok(View::new(scene.camera.clip_from_world(aspect), DEPTH)?)
+}
+
+fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
+    if gpu
+        .device
+        .features()
+        .contains(wgpu::Features::DEPTH32FLOAT_STENCIL8)
+    {
+        wgpu::TextureFormat::Depth32FloatStencil8
+    } else {
+        wgpu::TextureFormat::Depth24PlusStencil8
+    }
+}
+
+fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
+    let camera = &scene.camera;
+    let aspect = size[0] as f32 / size[1] as f32;
+    // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
+    // whatever the scene's scale.
+    let reach = scene.light.truncate().distance(camera.target);
+    let intensity = 2.2
+        * if scene.light.w == 0.0 {
+            1.0
+        } else {
+            reach * reach
+        };
+    FrameUniform {
+        clip_from_world: camera.clip_from_world(aspect).to_cols_array_2d(),
+        eye: camera.eye.extend(1.0).to_array(),
+        light: scene.light.to_array(),
+        range: scene.range,
+        intensity,
+        ambient: AMBIENT,
+        padding: 0.0,
+    }
+}
+
+fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("host"),
+        entries: &[entry(0, false), entry(1, true)],
+    })
+}
+
+fn host_group(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    frame: &FrameUniform,
+    scene: &SceneGpu,
+) -> wgpu::BindGroup {
+    use wgpu::util::DeviceExt as _;
+    let frame = gpu
+        .device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("frame"),
+            contents: bytemuck::bytes_of(frame),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("host"),
+        layout,
+        entries: &[
+            wgpu::BindGroupEntry {
+                binding: 0,
+                resource: frame.as_entire_binding(),
+            },
+            wgpu::BindGroupEntry {
+                binding: 1,
+                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer: &scene.object_uniforms,
+                    offset: 0,
+                    size: wgpu::BufferSize::new(u64::from(scene.object_stride)),
+                }),
+            },
+        ],
+    })
+}
+
+fn color<'v>(
+    view: &'v wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'v> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations {
+            load,
+            store: wgpu::StoreOp::Store,
+        },
+    }
+}
+
+fn ambient_pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let module = shader(device, "ambient", &[]);
+    let depth = wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(DEPTH.nearer_or_equal()),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    };
+    let targets = [Some(SHADED.into())];
+    pipeline(
+        device,
+        "host_ambient",
+        &module,
+        &[Some(layout)],
+        depth,
+        &targets,
+    )
+}
+
+fn lit_pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    format: wgpu::TextureFormat,
+    access: &ShadowAccess<'_>,
+) -> LitPipeline {
+    let module = match access.module {
+        Some(receiver) => shader(
+            device,
+            "lit, sampled",
+            &[receiver, include_str!("shaders/sampled.wgsl")],
+        ),
+        None => shader(device, "lit", &[include_str!("shaders/unshadowed.wgsl")]),
+    };
+    let depth = wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(false),
+        depth_compare: Some(wgpu::CompareFunction::Equal),
+        stencil: access.stencil.clone().unwrap_or_default(),
+        bias: wgpu::DepthBiasState::default(),
+    };
+    let additive = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let targets = [
+        Some(wgpu::ColorTargetState {
+            format: SHADED,
+            blend: Some(wgpu::BlendState {
+                color: additive,
+                alpha: additive,
+            }),
+            write_mask: wgpu::ColorWrites::ALL,
+        }),
+        Some(VISIBILITY.into()),
+    ];
+    let mut layouts = vec![Some(layout)];
+    layouts.extend(access.layout.map(Some));
+    LitPipeline {
+        pipeline: pipeline(device, "host_lit", &module, &layouts, depth, &targets),
+        uses_stencil: access.stencil.is_some(),
+    }
+}
+
+fn shader(device: &wgpu::Device, label: &str, parts: &[&str]) -> wgpu::ShaderModule {
+    let shared = [shadows::wgsl::POSITION, include_str!("shaders/host.wgsl")];
+    let source = [&shared[..], parts].concat().join("\n");
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    })
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    fragment: &str,
+    module: &wgpu::ShaderModule,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    depth: wgpu::DepthStencilState,
+    targets: &[Option<wgpu::ColorTargetState>],
+) -> wgpu::RenderPipeline {
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(fragment),
+        bind_group_layouts: layouts,
+        immediate_size: 0,
+    });
+    let buffer = |attributes| {
+        Some(wgpu::VertexBufferLayout {
+            array_stride: 12,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes,
+        })
+    };
+    let (positions, normals) = (
+        wgpu::vertex_attr_array![0 => Float32x3],
+        wgpu::vertex_attr_array![1 => Float32x3],
+    );
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("host_vertex"),
+            compilation_options: Default::default(),
+            buffers: &[buffer(&positions), buffer(&normals)],
+        },
+        // Nothing is culled: meshes may be open, and the side one sees receives light too.
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(depth),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,140 @@
+//! A scene on the GPU: what the host draws and what casts shadows.
+
+use anyhow::{Context as _, Result, ensure};
+use shadows::glam::{Mat3, Mat4};
+use shadows::mesh::{Adjacency, MeshKind};
+use shadows::wgpu::{self, util::DeviceExt as _};
+use shadows::{Caster, CasterMesh};
+
+use super::gpu::Gpu;
+use super::scene::{Mesh, Object, Scene};
+
+/// A mesh as the host draws it.
+pub struct MeshGpu {
+    pub positions: wgpu::Buffer,
+    pub normals: wgpu::Buffer,
+    pub indices: wgpu::Buffer,
+    pub index_count: u32,
+    pub kind: MeshKind,
+    caster: CasterMesh,
+}
+
+/// Buffers of a scene's meshes, the objects' uniforms and the casters.
+pub struct SceneGpu {
+    pub meshes: Vec<MeshGpu>,
+    /// For each object, the place of its mesh.
+    pub objects: Vec<usize>,
+    /// One [`ObjectUniform`] every [`Self::object_stride`] bytes.
+    pub object_uniforms: wgpu::Buffer,
+    pub object_stride: u32,
+    pub casters: Vec<Caster>,
+}
+
+/// `HostObject` in host.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ObjectUniform {
+    world_from_object: [[f32; 4]; 4],
+    normal_from_object: [[f32; 4]; 3],
+    albedo: [f32; 4],
+}
+
+impl SceneGpu {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    /// One line naming the mesh or object that does not fit the device.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self> {
+        let meshes: Vec<MeshGpu> = scene
+            .meshes
+            .iter()
+            .map(|mesh| MeshGpu::new(gpu, mesh).with_context(|| format!("mesh {:?}", mesh.name)))
+            .collect::<Result<_>>()?;
+        let casters = scene
+            .objects
+            .iter()
+            .filter(|object| object.casts)
+            .map(|object| Caster::new(meshes[object.mesh].caster.clone(), object.transform))
+            .collect();
+        let (object_uniforms, object_stride) = upload_objects(gpu, &scene.objects)?;
+        Ok(Self {
+            meshes,
+            objects: scene.objects.iter().map(|object| object.mesh).collect(),
+            object_uniforms,
+            object_stride,
+            casters,
+        })
+    }
+}
+
+impl MeshGpu {
+    fn new(gpu: &Gpu, mesh: &Mesh) -> Result<Self> {
+        let adjacency = Adjacency::new(&mesh.positions, &mesh.indices)?;
+        let buffer = |label, contents: &[u8], usage| {
+            let limit = gpu.device.limits().max_buffer_size;
+            ensure!(
+                contents.len() as u64 <= limit,
+                "its {label} take {} bytes, the device allows {limit}",
+                contents.len()
+            );
+            Ok(gpu
+                .device
+                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some(label),
+                    contents,
+                    usage,
+                }))
+        };
+        let vertex = wgpu::BufferUsages::VERTEX;
+        Ok(Self {
+            positions: buffer("positions", bytemuck::cast_slice(&mesh.positions), vertex)?,
+            normals: buffer("normals", bytemuck::cast_slice(&mesh.normals), vertex)?,
+            indices: buffer(
+                "indices",
+                bytemuck::cast_slice(&mesh.indices),
+                wgpu::BufferUsages::INDEX,
+            )?,
+            index_count: mesh.indices.len() as u32,
+            kind: adjacency.kind(),
+            caster: CasterMesh::new(&gpu.device, &mesh.positions, &adjacency)?,
+        })
+    }
+}
+
+fn upload_objects(gpu: &Gpu, objects: &[Object]) -> Result<(wgpu::Buffer, u32)> {
+    let limits = gpu.device.limits();
+    let stride = size_of::<ObjectUniform>()
+        .next_multiple_of(limits.min_uniform_buffer_offset_alignment as usize);
+    let bytes = stride * objects.len().max(1);
+    let addressable = limits.max_buffer_size.min(u64::from(u32::MAX));
+    ensure!(
+        bytes as u64 <= addressable,
+        "{} objects are too many for one uniform buffer of at most {addressable} bytes",
+        objects.len()
+    );
+    let mut contents = vec![0; bytes];
+    for (slot, object) in contents.chunks_exact_mut(stride).zip(objects) {
+        slot[..size_of::<ObjectUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform(object)));
+    }
+    let buffer = gpu
+        .device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("objects"),
+            contents: &contents,
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+    Ok((buffer, stride as u32))
+}
+
+fn uniform(object: &Object) -> ObjectUniform {
+    let linear = Mat3::from(object.transform.matrix3);
+    // The cofactors: the inverse transpose up to a factor, and finite for a flattened object too.
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let normal = [y.cross(z), z.cross(x), x.cross(y)];
+    let [r, g, b] = object.albedo;
+    ObjectUniform {
+        world_from_object: Mat4::from(object.transform).to_cols_array_2d(),
+        normal_from_object: normal.map(|column| column.extend(0.0).to_array()),
+        albedo: [r, g, b, 1.0],
+    }
+}

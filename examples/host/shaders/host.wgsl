@@ -1,0 +1,80 @@
+// A plain forward renderer's shaders. `shadows_clip_position` comes from the library's
+// `wgsl::POSITION`: depths are then bit-equal in every pass, the shadow volumes' included.
+
+struct HostFrame {
+    clip_from_world: mat4x4f,
+    eye: vec4f,
+    light: vec4f, // homogeneous
+    range: f32,
+    intensity: f32,
+    ambient: f32,
+    padding: f32,
+}
+
+struct HostObject {
+    world_from_object: mat4x4f,
+    normal_from_object: mat3x3f,
+    albedo: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> host_frame: HostFrame;
+@group(0) @binding(1) var<uniform> host_object: HostObject;
+
+struct HostVaryings {
+    @invariant @builtin(position) clip: vec4f,
+    @location(0) world: vec3f,
+    @location(1) normal: vec3f,
+}
+
+@vertex
+fn host_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> HostVaryings {
+    var out: HostVaryings;
+    out.clip = shadows_clip_position(
+        host_frame.clip_from_world,
+        host_object.world_from_object,
+        position,
+    );
+    out.world = (host_object.world_from_object * vec4f(position, 1.0)).xyz;
+    out.normal = host_object.normal_from_object * normal;
+    return out;
+}
+
+// The triangle's own normal, toward the viewer: an open mesh shows both its sides.
+fn host_flat_normal(world: vec3f) -> vec3f {
+    let normal = cross(dpdx(world), dpdy(world));
+    return select(-normal, normal, dot(normal, host_frame.eye.xyz - world) > 0.0);
+}
+
+@fragment
+fn host_ambient(in: HostVaryings) -> @location(0) vec4f {
+    let flat_normal = host_flat_normal(in.world);
+    let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
+    // More light from above than from below, so that what lies in shadow keeps its form.
+    let sky = 0.65 + 0.35 * normal.y;
+    return vec4f(host_object.albedo.rgb * host_frame.ambient * sky, 1.0);
+}
+
+struct HostLit {
+    @location(0) shaded: vec4f,
+    @location(1) visibility: f32,
+}
+
+// Diffuse light: zero at the range with no step there (Karis, "Real Shading in Unreal Engine 4",
+// 2013), and bounded by 1 however near the light is.
+fn host_light(in: HostVaryings, visibility: f32) -> HostLit {
+    let flat_normal = host_flat_normal(in.world);
+    let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
+    let toward_light = host_frame.light.xyz - host_frame.light.w * in.world;
+    let squared = dot(toward_light, toward_light);
+    var falloff = 1.0;
+    if host_frame.light.w != 0.0 {
+        let ratio = squared / (host_frame.range * host_frame.range);
+        let window = saturate(1.0 - ratio * ratio);
+        falloff = window * window / squared;
+    }
+    let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
+    let facing = select(0.0, 1.0, dot(flat_normal, toward_light) > 0.0);
+    let light = 1.0 - exp(-host_frame.intensity * falloff * cosine * facing);
+    let diffuse = host_object.albedo.rgb * (1.0 - host_frame.ambient) * light;
+    return HostLit(vec4f(diffuse * visibility, 0.0), visibility);
+}

@@ -1,0 +1,5 @@
+// The lit pass where the stencil test decides, or nothing does: what is drawn is lit.
+@fragment
+fn host_lit(in: HostVaryings) -> HostLit {
+    return host_light(in, 1.0);
+}

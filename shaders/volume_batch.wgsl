@@ -1,0 +1,45 @@
+// What the two extraction passes know about a batch: one mesh, several instances of it.
+
+const WORKGROUP: u32 = 256u;
+
+// Words of indirect arguments an instance owns, and where in them the counts lie.
+const ARGS_STRIDE: u32 = 16u;
+const ARGS_FRONT: u32 = 0u; // indexed draw of the caps that count +1
+const ARGS_BACK: u32 = 5u; // indexed draw of the caps that count -1
+const ARGS_SIDES: u32 = 10u; // draw of the sides
+
+struct Batch {
+    first_instance: u32,
+    triangle_count: u32,
+    edge_count: u32,
+    // In words of 4 bytes.
+    position_stride: u32,
+    position_offset: u32,
+    // 6 for a quad, 3 where the far edge is one point at infinity.
+    side_vertices: u32,
+    // 0: an edge record names its two triangles; 1: its first use and their number.
+    general: u32,
+    padding: u32,
+}
+
+struct Instance {
+    // The light in the mesh's own space, homogeneous, and what xyz lost when rounded to f32.
+    light: vec4f,
+    light_rest: vec3f,
+    // 0: light-facing triangles count; 1: every triangle counts, turned toward the light.
+    both_sides: u32,
+    // Where this instance's part of the shared buffers begins, in words.
+    facing_base: u32,
+    cap_base: u32,
+    side_base: u32,
+    padding: u32,
+}
+
+@group(0) @binding(0) var<uniform> batch: Batch;
+@group(0) @binding(1) var<storage, read> instances: array<Instance>;
+@group(0) @binding(2) var<storage, read_write> args: array<atomic<u32>>;
+
+// Long meshes are folded: x runs fastest, y is the instance, z the row of workgroups.
+fn element(group: vec3u, groups: vec3u, local: u32) -> u32 {
+    return (group.z * groups.x + group.x) * WORKGROUP + local;
+}

@@ -1,0 +1,59 @@
+// Edge pass, one invocation an edge: how often the caps' boundary runs through the edge.
+
+@group(0) @binding(3) var<storage, read> edges: array<vec4u>;
+// A use is `triangle << 1 | reversed`; read only where the mesh is general.
+@group(0) @binding(4) var<storage, read> edge_uses: array<u32>;
+@group(0) @binding(5) var<storage, read> facing: array<i32>;
+@group(0) @binding(6) var<storage, read_write> sides: array<u32>;
+
+var<workgroup> side_count: atomic<u32>;
+var<workgroup> side_first: u32;
+
+// The coefficient of an edge in the boundary of the chain of caps: +1 for each cap that runs
+// through it from its first vertex to its second, -1 for each that runs back.
+fn boundary(edge: vec4u, facing_base: u32) -> i32 {
+    if batch.general == 0u {
+        return facing[facing_base + edge.z] - facing[facing_base + edge.w];
+    }
+    var sum = 0i;
+    for (var i = 0u; i < edge.w; i += 1u) {
+        let edge_use = edge_uses[edge.z + i];
+        let count = facing[facing_base + (edge_use >> 1u)];
+        sum += select(count, -count, (edge_use & 1u) == 1u);
+    }
+    return sum;
+}
+
+@compute @workgroup_size(256)
+fn shadows_volume_edges(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(num_workgroups) groups: vec3u,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let index = batch.first_instance + group.y;
+    let instance = instances[index];
+    let edge = element(group, groups, local);
+    var sum = 0i;
+    var slot = 0u;
+    if edge < batch.edge_count {
+        sum = boundary(edges[edge], instance.facing_base);
+    }
+    let copies = u32(abs(sum));
+    if copies > 0u {
+        slot = atomicAdd(&side_count, copies);
+    }
+    workgroupBarrier();
+    if local == 0u {
+        let total = atomicLoad(&side_count);
+        if total > 0u {
+            let step = batch.side_vertices;
+            let vertices = &args[index * ARGS_STRIDE + ARGS_SIDES];
+            side_first = instance.side_base + atomicAdd(vertices, total * step) / step;
+        }
+    }
+    workgroupBarrier();
+    let entry = (edge << 1u) | select(0u, 1u, sum < 0);
+    for (var i = 0u; i < copies; i += 1u) {
+        sides[side_first + slot + i] = entry;
+    }
+}

@@ -1,1 +1,0 @@
-//! Reference (being filled in).

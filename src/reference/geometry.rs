@@ -1,0 +1,159 @@
+//! World-space triangles in f64 and the two questions asked of them: what is seen, what is blocked.
+
+use glam::{DVec3, DVec4, Vec4Swizzles};
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
+
+use super::ray::Ray;
+
+/// How far a point computed here may lie from where it ought to, relative to its coordinates.
+///
+/// A hit point is `origin + t * direction`: t has some ten roundings, the corners of the triangle
+/// one transform (seven), the camera ray one matrix inverse. 64 machine epsilons cover them.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    pub(super) corners: [DVec3; 3],
+    /// Object and triangle within it, as the caller numbers them.
+    pub(super) source: [u32; 2],
+}
+
+impl Triangle {
+    pub(super) fn normal(&self) -> DVec3 {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a)
+    }
+
+    /// On which side of the triangle's plane a homogeneous point lies: +1 where the corners appear
+    /// counter-clockwise, -1 behind, 0 where rounding could turn the sign.
+    ///
+    /// `size` is the largest coordinate that the point was computed from. The bound has two parts:
+    /// the point's and the corners' own uncertainty, and that of the determinant (Shewchuk,
+    /// "Adaptive Precision Floating-Point Arithmetic", 1997, bound A, rounded up).
+    pub(super) fn side(&self, point: DVec4, size: f64) -> f64 {
+        let [a, b, c] = self.corners;
+        let (ab, ac, to) = (b - a, c - a, point.xyz() - point.w * a);
+        let normal = ab.cross(ac);
+        let (x, y) = (ab.abs(), ac.abs());
+        let permanent = DVec3::new(
+            x.y * y.z + x.z * y.y,
+            x.z * y.x + x.x * y.z,
+            x.x * y.y + x.y * y.x,
+        )
+        .dot(to.abs());
+        let size = point.w * self.size().max(size);
+        let bound = normal.length() * ROUNDING * size + 8.0 * f64::EPSILON * permanent;
+        let determinant = normal.dot(to);
+        if determinant.abs() > bound {
+            determinant.signum()
+        } else {
+            0.0
+        }
+    }
+
+    fn size(&self) -> f64 {
+        self.corners
+            .iter()
+            .map(|corner| corner.abs().max_element())
+            .fold(0.0, f64::max)
+    }
+}
+
+/// A point of a surface: where it is, on which triangle, and how precisely that is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SurfacePoint {
+    pub(super) position: DVec3,
+    pub(super) triangle: u32,
+    /// The largest coordinate that the position was computed from.
+    pub(super) size: f64,
+}
+
+pub(super) struct Geometry {
+    triangles: Vec<Triangle>,
+    seen: Bvh,
+    casting: Bvh,
+}
+
+impl Geometry {
+    /// A hierarchy of all triangles, and one of those that block light.
+    pub(super) fn new(mut casting: Vec<Triangle>, others: Vec<Triangle>) -> Self {
+        let casters = casting.len();
+        casting.extend(others);
+        let triangles = casting;
+        // The triangle test rounds relative to the coordinates, so the boxes grow by as much.
+        let size = triangles.iter().map(Triangle::size).fold(0.0, f64::max);
+        let boxes: Vec<Aabb> = triangles
+            .iter()
+            .map(|triangle| bounds(triangle, ROUNDING * size))
+            .collect();
+        // parry numbers leaves by their place, so the casters come first in both.
+        let hierarchy = |boxes| Bvh::from_leaves(BvhBuildStrategy::Binned, boxes);
+        Self {
+            seen: hierarchy(&boxes),
+            casting: hierarchy(&boxes[..casters]),
+            triangles,
+        }
+    }
+
+    pub(super) fn triangle(&self, index: u32) -> &Triangle {
+        &self.triangles[index as usize]
+    }
+
+    /// The nearest triangle along a ray, up to parameter `end`, and the ray's parameter there.
+    pub(super) fn nearest(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(u32, f64)> {
+        let ray = Ray::new(origin, direction, end);
+        self.seen.find_best(
+            f64::MAX,
+            |node, best| enters(&ray, node, best).min(f64::MAX),
+            |index, _| {
+                ray.meets(&self.triangle(index).corners)
+                    .filter(|t| (0.0..=end).contains(t))
+            },
+        )
+    }
+
+    /// Whether a casting triangle lies between a surface and a homogeneous light.
+    ///
+    /// A triangle blocks if the line from surface to light passes through it and if the two lie
+    /// strictly on opposite sides of its plane. That is the whole treatment of self-shadowing: the
+    /// surface's own triangle, a coplanar duplicate and the neighbour across a shared edge all have
+    /// the point in their plane, so that a ray can meet them only at its start; how close to the
+    /// start the rounded hit falls, which depends on the angle, does not enter. For the same reason
+    /// a triangle whose plane holds the light, thus edge-on to it, casts no shadow.
+    pub(super) fn blocked(&self, surface: &SurfacePoint, light: DVec4) -> bool {
+        let position = surface.position;
+        let ray = ray_to(position, light);
+        let size = surface.size.max(light.xyz().abs().max_element() * light.w);
+        let point = position.extend(1.0);
+        let separates = |index: u32| {
+            let triangle = self.triangle(index);
+            index != surface.triangle
+                && ray.meets(&triangle.corners).is_some()
+                && triangle.side(point, size) * triangle.side(light, size) < 0.0
+        };
+        self.casting
+            .leaves(|node| enters(&ray, node, f64::MAX) < f64::INFINITY)
+            .any(separates)
+    }
+}
+
+fn ray_to(position: DVec3, light: DVec4) -> Ray {
+    let end = if light.w == 0.0 { f64::INFINITY } else { 1.0 };
+    Ray::new(position, light.xyz() - light.w * position, end)
+}
+
+fn enters(ray: &Ray, node: &BvhNode, end: f64) -> f64 {
+    ray.enters(node.mins().to_array(), node.maxs().to_array(), end)
+}
+
+fn bounds(triangle: &Triangle, margin: f64) -> Aabb {
+    let [a, b, c] = triangle.corners;
+    let low = a.min(b).min(c) - margin;
+    let high = a.max(b).max(c) + margin;
+    Aabb::new(
+        Vector::from_array(low.to_array()),
+        Vector::from_array(high.to_array()),
+    )
+}

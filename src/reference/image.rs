@@ -1,0 +1,238 @@
+//! A reference picture: what each pixel sees and whether the light reaches it.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+use glam::{DVec3, DVec4, Vec4Swizzles};
+
+use super::camera::{Camera, PixelRay};
+use super::geometry::{Geometry, SurfacePoint};
+use crate::HomogeneousLight;
+
+/// What a pixel of the reference shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// No surface.
+    Background,
+    /// The side of a triangle that faces away from the light, or is edge-on to it.
+    Away,
+    /// A side that faces the light, beyond its range.
+    OutOfRange,
+    /// A side that faces the light, with nothing in between.
+    Lit,
+    /// A side that faces the light, behind a caster.
+    Shadowed,
+}
+
+impl Class {
+    /// Whether shadow techniques are judged here: the surface faces the light, within range.
+    pub fn faces_light(self) -> bool {
+        matches!(self, Self::Lit | Self::Shadowed)
+    }
+}
+
+/// What the ray through a pixel centre meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Place in the list given to [`ReferenceScene::new`](super::ReferenceScene::new).
+    pub object: u32,
+    /// Triangle of that object, counted as its indices are.
+    pub triangle: u32,
+    /// World space.
+    pub position: DVec3,
+    /// Unit normal of the triangle, world space, toward the viewer.
+    pub normal: DVec3,
+    /// Distance from the near plane along the pixel's ray, in world units.
+    pub distance: f64,
+}
+
+/// The light as the reference takes it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lighting {
+    pub(super) light: DVec4,
+    range: f64,
+}
+
+impl Lighting {
+    pub(super) fn new(light: HomogeneousLight, range: Option<f32>) -> Self {
+        let range = match range {
+            Some(range) if !light.is_directional() => f64::from(range),
+            _ => f64::INFINITY,
+        };
+        Self {
+            light: light.0.as_dvec4(),
+            range,
+        }
+    }
+
+    /// The class of a point seen on the side of its triangle that `side` (+1 or -1) names.
+    pub(super) fn class(&self, geometry: &Geometry, surface: &SurfacePoint, side: f64) -> Class {
+        let light = self.light;
+        let size = light.xyz().abs().max_element();
+        if geometry.triangle(surface.triangle).side(light, size) * side <= 0.0 {
+            Class::Away
+        } else if light.w != 0.0 && surface.position.distance(light.xyz()) > self.range {
+            Class::OutOfRange
+        } else if geometry.blocked(surface, light) {
+            Class::Shadowed
+        } else {
+            Class::Lit
+        }
+    }
+}
+
+/// A pixel's class, its triangle and how far along its ray that is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pixel {
+    pub(super) class: Class,
+    triangle: u32,
+    distance: f64,
+}
+
+impl Pixel {
+    pub(super) fn cast(geometry: &Geometry, lighting: &Lighting, ray: &PixelRay) -> Self {
+        let mut pixel = Self {
+            class: Class::Background,
+            triangle: u32::MAX,
+            distance: f64::INFINITY,
+        };
+        if let Some((triangle, distance)) = geometry.nearest(ray.origin, ray.direction, ray.end) {
+            (pixel.triangle, pixel.distance) = (triangle, distance);
+            let seen = Seen::new(geometry, ray, &pixel);
+            pixel.class = lighting.class(geometry, &seen.surface, seen.side);
+        }
+        pixel
+    }
+}
+
+/// A pixel's surface in world space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    pub(super) ray: PixelRay,
+    pub(super) surface: SurfacePoint,
+    /// +1 if the viewer sees the triangle's corners counter-clockwise, else -1.
+    pub(super) side: f64,
+    /// Unit normal toward the viewer.
+    pub(super) normal: DVec3,
+}
+
+impl Seen {
+    fn new(geometry: &Geometry, ray: &PixelRay, pixel: &Pixel) -> Self {
+        let normal = geometry.triangle(pixel.triangle).normal().normalize();
+        let side = -normal.dot(ray.direction).signum();
+        let position = ray.at(pixel.distance);
+        let size = ray.origin.abs().max(position.abs()).max_element();
+        Self {
+            ray: *ray,
+            surface: SurfacePoint {
+                position,
+                triangle: pixel.triangle,
+                size,
+            },
+            side,
+            normal: normal * side,
+        }
+    }
+}
+
+/// Whether a pixel is in the interior, by radius on the cube face (as bits) and number.
+pub(super) type InteriorCache = Mutex<HashMap<(u64, usize), bool>>;
+
+/// The exact answer for one view and one light; made by
+/// [`ReferenceScene::render`](super::ReferenceScene::render).
+///
+/// Lists of pixels are row-major from the top left.
+pub struct ReferenceImage {
+    pub(super) geometry: Arc<Geometry>,
+    pub(super) camera: Camera,
+    pub(super) lighting: Lighting,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) pixels: Vec<Pixel>,
+    pub(super) seconds: f64,
+    pub(super) interiors: InteriorCache,
+}
+
+impl ReferenceImage {
+    /// Width in pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Wall-clock seconds the picture took.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// The class of each pixel.
+    pub fn classes(&self) -> impl ExactSizeIterator<Item = Class> + '_ {
+        self.pixels.iter().map(|pixel| pixel.class)
+    }
+
+    /// The number of pixels of one class.
+    pub fn count(&self, class: Class) -> usize {
+        self.classes().filter(|&other| other == class).count()
+    }
+
+    /// The number of pixels on which techniques are judged: [`Class::Lit`] and
+    /// [`Class::Shadowed`].
+    pub fn lit_facing(&self) -> usize {
+        self.classes().filter(|class| class.faces_light()).count()
+    }
+
+    /// What a pixel shows; `None` for the background and outside the picture.
+    pub fn hit(&self, x: u32, y: u32) -> Option<Hit> {
+        let seen = self.seen(x, y)?;
+        let [object, triangle] = self.geometry.triangle(seen.surface.triangle).source;
+        Some(Hit {
+            object,
+            triangle,
+            position: seen.surface.position,
+            normal: seen.normal,
+            distance: self.pixels[self.number(x, y)].distance,
+        })
+    }
+
+    /// One byte per pixel: 255 where the light arrives, 0 in shadow, where the surface faces away or
+    /// is out of range, and in the background.
+    pub fn visibility(&self) -> Vec<u8> {
+        self.classes()
+            .map(|class| if class == Class::Lit { 255 } else { 0 })
+            .collect()
+    }
+
+    /// One byte per pixel: 255 where a surface faces the light within range, lit or not, 128 where
+    /// it faces away or is out of range, 0 in the background.
+    pub fn coverage(&self) -> Vec<u8> {
+        self.classes()
+            .map(|class| match class {
+                Class::Background => 0,
+                Class::Away | Class::OutOfRange => 128,
+                Class::Lit | Class::Shadowed => 255,
+            })
+            .collect()
+    }
+
+    /// The row-major number of a pixel inside the picture.
+    pub(super) fn number(&self, x: u32, y: u32) -> usize {
+        y as usize * self.width as usize + x as usize
+    }
+
+    pub(super) fn class(&self, x: u32, y: u32) -> Class {
+        self.pixels[self.number(x, y)].class
+    }
+
+    pub(super) fn seen(&self, x: u32, y: u32) -> Option<Seen> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let pixel = &self.pixels[self.number(x, y)];
+        (pixel.class != Class::Background)
+            .then(|| Seen::new(&self.geometry, &self.camera.ray(x, y), pixel))
+    }
+}

@@ -1,0 +1,190 @@
+//! Which pixels are so far from any shadow edge that resolution is no excuse.
+
+use std::f64::consts::TAU;
+use std::sync::PoisonError;
+
+use glam::{DVec3, Vec4Swizzles};
+
+use super::geometry::SurfacePoint;
+use super::image::{Class, ReferenceImage, Seen};
+use crate::error::ReferenceError;
+
+/// How many pixel footprints apart two neighbouring surfaces must be to count as a depth edge.
+///
+/// On a smooth convex surface the neighbour lies at most one footprint off the tangent plane, on
+/// the silhouette itself; a diagonal neighbour's footprint is already longer. Twice that leaves
+/// room for the creases of a tessellation.
+const STEP: f64 = 2.0;
+
+/// Where an error counts as an interior error: no shadow edge is near enough to explain it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Interior {
+    /// For shadow volumes. Over the 3 x 3 pixels around (those inside the picture) the reference
+    /// says the same (only [`Class::Lit`] is lit), none is background, and no depth edge passes.
+    Screen,
+    /// For cube shadow maps of a point light. Beyond what [`Screen`](Self::Screen) asks, the
+    /// reference says the same wherever a light ray within 1.5 texels plus the kernel's radius of
+    /// the pixel's own meets the tangent plane. A ray that misses the plane is an edge.
+    Map {
+        /// Texels along the edge of a cube face; at least 1.
+        face_size: u32,
+        /// Largest offset of a tap in texels, from the middle of a face; 0 for one tap.
+        kernel_radius: f32,
+    },
+}
+
+impl Interior {
+    /// The radius in which the reference must agree, in units of a cube face at distance 1 (whose
+    /// edge is 2 long), with the same in texels; `None` where the screen alone decides.
+    pub(super) fn radius(self, directional: bool) -> Result<Option<Radius>, ReferenceError> {
+        let Self::Map {
+            face_size,
+            kernel_radius,
+        } = self
+        else {
+            return Ok(None);
+        };
+        let sound = face_size > 0 && kernel_radius.is_finite() && kernel_radius >= 0.0;
+        if directional || !sound {
+            return Err(ReferenceError::Interior {
+                face_size,
+                kernel_radius,
+            });
+        }
+        let texels = 1.5 + f64::from(kernel_radius);
+        let face = 2.0 * texels / f64::from(face_size);
+        Ok(Some(Radius { texels, face }))
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Radius {
+    texels: f64,
+    face: f64,
+}
+
+impl ReferenceImage {
+    /// Whether a pixel that faces the light is in the interior.
+    pub(super) fn is_interior(&self, pixel: usize, radius: Option<Radius>) -> bool {
+        let width = self.width as usize;
+        let (x, y) = ((pixel % width) as u32, (pixel / width) as u32);
+        let Some(seen) = self.seen(x, y) else {
+            return false;
+        };
+        self.screen_agrees(x, y, &seen)
+            && radius.is_none_or(|radius| self.remembered(pixel, radius, &seen))
+    }
+
+    fn screen_agrees(&self, x: u32, y: u32, seen: &Seen) -> bool {
+        let lit = self.class(x, y) == Class::Lit;
+        let columns = x.saturating_sub(1)..=(x + 1).min(self.width - 1);
+        let rows = y.saturating_sub(1)..=(y + 1).min(self.height - 1);
+        rows.flat_map(|row| columns.clone().map(move |column| (column, row)))
+            .all(|(column, row)| {
+                (self.class(column, row) == Class::Lit) == lit
+                    && self
+                        .seen(column, row)
+                        .is_some_and(|other| is_continuous(seen, &other))
+            })
+    }
+
+    fn remembered(&self, pixel: usize, radius: Radius, seen: &Seen) -> bool {
+        let cache = || {
+            self.interiors
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
+        let key = (radius.face.to_bits(), pixel);
+        if let Some(&known) = cache().get(&key) {
+            return known;
+        }
+        let lit = self.pixels[pixel].class == Class::Lit;
+        let agrees = self.light_agrees(seen, lit, radius);
+        cache().insert(key, agrees);
+        agrees
+    }
+
+    /// Whether the reference says `lit` for all light rays within the radius: on rings at most half
+    /// a texel apart, as are the rays on each, the outermost first since it most likely disagrees.
+    fn light_agrees(&self, seen: &Seen, lit: bool, radius: Radius) -> bool {
+        let toward = FaceDirection::new(seen.surface.position - self.lighting.light.xyz());
+        let rings = (2.0 * radius.texels).ceil();
+        (1..=rings as u32).rev().all(|ring| {
+            let fraction = f64::from(ring) / rings;
+            let rays = (2.0 * TAU * radius.texels * fraction).ceil().max(8.0);
+            (0..rays as u32).all(|ray| {
+                let angle = TAU * f64::from(ray) / rays;
+                let (v, u) = angle.sin_cos();
+                let length = radius.face * fraction;
+                self.lit_along(seen, toward.offset(length * u, length * v)) == Some(lit)
+            })
+        })
+    }
+
+    /// Whether the light reaches the pixel's tangent plane along a direction; `None` if the ray does
+    /// not meet the plane.
+    fn lit_along(&self, seen: &Seen, direction: DVec3) -> Option<bool> {
+        let light = self.lighting.light.xyz();
+        let normal = seen.normal;
+        // The light is on the side of the normal, or the pixel would face away.
+        let t = normal.dot(seen.surface.position - light) / normal.dot(direction);
+        if !(t > 0.0 && t.is_finite()) {
+            return None;
+        }
+        let position = light + t * direction;
+        let size = seen
+            .surface
+            .size
+            .max(light.abs().max(position.abs()).max_element());
+        let surface = SurfacePoint {
+            position,
+            size,
+            ..seen.surface
+        };
+        Some(self.lighting.class(&self.geometry, &surface, seen.side) == Class::Lit)
+    }
+}
+
+/// Whether two neighbouring pixels see one surface without a step: each lies on the other's tangent
+/// plane within [`STEP`] pixel footprints.
+fn is_continuous(a: &Seen, b: &Seen) -> bool {
+    if a.surface.triangle == b.surface.triangle {
+        return true;
+    }
+    let (p, q) = (a.surface.position, b.surface.position);
+    let footprint = b.ray.distance(p).min(a.ray.distance(q));
+    let step = a.normal.dot(q - p).abs().max(b.normal.dot(q - p).abs());
+    step <= STEP * footprint
+}
+
+/// A direction from the light with the axes of the cube face it goes through.
+struct FaceDirection {
+    /// Scaled to 1 along the major axis.
+    direction: DVec3,
+    u: DVec3,
+    v: DVec3,
+}
+
+impl FaceDirection {
+    fn new(direction: DVec3) -> Self {
+        let size = direction.abs();
+        let major = size.max_element();
+        let (u, v) = if size.x == major {
+            (DVec3::Y, DVec3::Z)
+        } else if size.y == major {
+            (DVec3::Z, DVec3::X)
+        } else {
+            (DVec3::X, DVec3::Y)
+        };
+        Self {
+            direction: direction / major,
+            u,
+            v,
+        }
+    }
+
+    fn offset(&self, u: f64, v: f64) -> DVec3 {
+        self.direction + u * self.u + v * self.v
+    }
+}

@@ -1,0 +1,244 @@
+//! The ground truth: exact visibility by casting rays in f64, and the error of a technique against it.
+//!
+//! For each pixel centre one ray from the near plane to the nearest surface, and one from there to
+//! the light (Whitted, "An Improved Illumination Model for Shaded Display", 1980). No bias, no
+//! absolute epsilon, no resolution: the answer for the triangles as they are, not for what they
+//! approximate. It takes seconds, and is for measuring, not for frames.
+//!
+//! ```
+//! use shadows::glam::camera::rh::{proj::directx as proj, view};
+//! use shadows::glam::{DAffine3, Vec3};
+//! use shadows::reference::{Class, Interior, ReferenceObject, ReferenceScene};
+//! use shadows::{DepthConvention, HomogeneousLight, View};
+//!
+//! // A square of 4 x 4 metres on the ground, one of 2 x 2 above it, the light above both.
+//! let square = |half: f32, y| {
+//!     [[-half, y, -half], [-half, y, half], [half, y, half], [half, y, -half]]
+//! };
+//! let (ground, roof) = (square(2.0, 0.0), square(1.0, 1.0));
+//! let object = |positions, casts| ReferenceObject {
+//!     positions,
+//!     indices: &[0, 1, 2, 0, 2, 3],
+//!     transform: DAffine3::IDENTITY,
+//!     casts,
+//! };
+//! let scene = ReferenceScene::new(&[object(&ground, false), object(&roof, true)])?;
+//!
+//! let projection = proj::perspective_infinite_reverse(1.0, 1.0, 0.1);
+//! let camera = view::look_at_mat4(Vec3::new(0.0, 3.0, 4.0), Vec3::ZERO, Vec3::Y);
+//! let view = View::new(projection * camera, DepthConvention::InfiniteReverse)?;
+//! let light = HomogeneousLight::point(Vec3::new(0.0, 5.0, 0.0));
+//! let image = scene.render(&view, 64, 64, light, None)?;
+//! assert!(image.count(Class::Shadowed) > 0);
+//!
+//! // A technique without shadows is wrong wherever the reference has one.
+//! let no_shadows = vec![1.0_f32; 64 * 64];
+//! let error = image.compare(&no_shadows, Interior::Screen)?;
+//! assert_eq!(error.false_lit, image.count(Class::Shadowed));
+//! assert_eq!(error.false_shadow, 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod camera;
+mod compare;
+mod geometry;
+mod image;
+mod interior;
+mod ray;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+pub use self::compare::{Comparison, Verdict, Visibility};
+pub use self::image::{Class, Hit, ReferenceImage};
+pub use self::interior::Interior;
+
+use self::camera::Camera;
+use self::geometry::{Geometry, Triangle};
+use self::image::{Lighting, Pixel};
+use crate::error::{LightError, ReferenceError};
+use crate::{HomogeneousLight, View};
+
+/// A mesh as the reference takes it: triangles of any kind, open, inconsistently wound, degenerate.
+#[derive(Clone, Copy, Debug)]
+pub struct ReferenceObject<'a> {
+    /// Vertex positions in object space.
+    pub positions: &'a [[f32; 3]],
+    /// Three indices into `positions` per triangle.
+    pub indices: &'a [u32],
+    /// World from object space; applied in f64.
+    pub transform: DAffine3,
+    /// Whether the object blocks light. Every object is seen and receives shadows.
+    pub casts: bool,
+}
+
+/// Triangles in world space, ready for rays. A clone shares them.
+#[derive(Clone)]
+pub struct ReferenceScene {
+    geometry: Arc<Geometry>,
+    progress: Option<Arc<dyn Fn(f64) + Send + Sync>>,
+}
+
+impl ReferenceScene {
+    /// Transforms the objects to world space and builds the bounding volume hierarchies.
+    ///
+    /// No objects, objects without triangles and triangles without area are allowed.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] names the object whose indices are no triangles or out of range, or whose
+    /// vertices are not finite in world space.
+    pub fn new(objects: &[ReferenceObject<'_>]) -> Result<Self, ReferenceError> {
+        number(objects.len())?;
+        let (mut casting, mut others) = (Vec::new(), Vec::new());
+        for (place, object) in objects.iter().enumerate() {
+            let list = if object.casts {
+                &mut casting
+            } else {
+                &mut others
+            };
+            list.extend(world_triangles(place, object)?);
+        }
+        number(casting.len() + others.len())?;
+        Ok(Self {
+            geometry: Arc::new(Geometry::new(casting, others)),
+            progress: None,
+        })
+    }
+
+    /// The same scene, which tells `progress` during [`render`](Self::render), from any thread, what
+    /// part of the picture is done: above 0, up to 1.
+    #[must_use]
+    pub fn with_progress(mut self, progress: impl Fn(f64) + Send + Sync + 'static) -> Self {
+        self.progress = Some(Arc::new(progress));
+        self
+    }
+
+    /// What the camera sees, and which of it the light reaches, at the centre of each pixel.
+    ///
+    /// `width` and `height` are in pixels. A point light (`w = 1`) reaches no farther than `range`,
+    /// in world units; a directional light has none and ignores it. The near and the far plane of
+    /// `view` clip what is seen, not what casts. Rows are computed in parallel; the result does not
+    /// depend on how many threads there are.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if the light or the range is not valid or the picture has no pixels.
+    pub fn render(
+        &self,
+        view: &View,
+        width: u32,
+        height: u32,
+        light: HomogeneousLight,
+        range: Option<f32>,
+    ) -> Result<ReferenceImage, ReferenceError> {
+        let start = Instant::now();
+        light.validate()?;
+        if let Some(range) = range.filter(|range| !(range.is_finite() && *range > 0.0)) {
+            return Err(LightError::Range(range).into());
+        }
+        if width == 0 || height == 0 {
+            return Err(ReferenceError::Size { width, height });
+        }
+        let camera = Camera::new(view, width, height);
+        let lighting = Lighting::new(light, range);
+        let done = AtomicUsize::new(0);
+        let row = |y: u32| -> Vec<Pixel> {
+            let pixels = (0..width)
+                .map(|x| Pixel::cast(&self.geometry, &lighting, &camera.ray(x, y)))
+                .collect();
+            if let Some(progress) = &self.progress {
+                let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
+                progress(rows as f64 / f64::from(height));
+            }
+            pixels
+        };
+        let pixels = (0..height).into_par_iter().map(row).flatten_iter();
+        Ok(ReferenceImage {
+            geometry: Arc::clone(&self.geometry),
+            camera,
+            lighting,
+            width,
+            height,
+            pixels: pixels.collect(),
+            seconds: start.elapsed().as_secs_f64(),
+            interiors: Default::default(),
+        })
+    }
+}
+
+/// A count as the hierarchies number it.
+fn number(count: usize) -> Result<u32, ReferenceError> {
+    u32::try_from(count)
+        .ok()
+        .filter(|&count| count < u32::MAX)
+        .ok_or(ReferenceError::TooLarge(count))
+}
+
+/// The triangles of an object that have an area, in world space.
+fn world_triangles(
+    object: usize,
+    mesh: &ReferenceObject<'_>,
+) -> Result<Vec<Triangle>, ReferenceError> {
+    let (faces, rest) = mesh.indices.as_chunks::<3>();
+    if !rest.is_empty() {
+        let count = mesh.indices.len();
+        return Err(ReferenceError::IndexCount { object, count });
+    }
+    let world = world_positions(object, mesh)?;
+    let corner = |index: u32| {
+        let vertices = world.len();
+        world
+            .get(index as usize)
+            .copied()
+            .ok_or(ReferenceError::IndexOutOfRange {
+                object,
+                index,
+                vertices,
+            })
+    };
+    let mut triangles = Vec::with_capacity(faces.len());
+    for (place, &[a, b, c]) in faces.iter().enumerate() {
+        let triangle = Triangle {
+            corners: [corner(a)?, corner(b)?, corner(c)?],
+            source: [number(object)?, number(place)?],
+        };
+        if triangle.normal() != DVec3::ZERO {
+            triangles.push(triangle);
+        }
+    }
+    Ok(triangles)
+}
+
+fn world_positions(
+    object: usize,
+    mesh: &ReferenceObject<'_>,
+) -> Result<Vec<DVec3>, ReferenceError> {
+    let place = |(vertex, position): (usize, &[f32; 3])| {
+        let position = DVec3::from_array(position.map(f64::from));
+        let world = mesh.transform.transform_point3(position);
+        match number(vertex)? {
+            _ if world.is_finite() => Ok(world),
+            vertex => Err(ReferenceError::Position { object, vertex }),
+        }
+    };
+    mesh.positions.iter().enumerate().map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_than_32_bits_can_count_is_refused() {
+        let most = u32::MAX as usize;
+        assert_eq!(number(most - 1), Ok(u32::MAX - 1));
+        assert_eq!(number(most), Err(ReferenceError::TooLarge(most)));
+        assert_eq!(
+            number(usize::MAX),
+            Err(ReferenceError::TooLarge(usize::MAX))
+        );
+    }
+}

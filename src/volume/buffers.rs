@@ -1,0 +1,207 @@
+//! The GPU memory of the renderer: grown when a frame needs more, kept between frames.
+
+use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
+use super::plan::{Plan, PlanLimits};
+use super::regions::NAMES;
+
+/// A buffer that grows.
+#[derive(Debug)]
+struct Grown {
+    label: String,
+    usage: wgpu::BufferUsages,
+    buffer: Option<wgpu::Buffer>,
+}
+
+impl Grown {
+    fn new(label: String, usage: wgpu::BufferUsages) -> Self {
+        Self {
+            label,
+            usage,
+            buffer: None,
+        }
+    }
+
+    /// The buffer, with room for at least `size` bytes; `made` is set if it had to be made anew.
+    fn get(
+        &mut self,
+        device: &wgpu::Device,
+        size: u64,
+        most: u64,
+        made: &mut bool,
+    ) -> &wgpu::Buffer {
+        // A frame that needs a little more than the last should not allocate again.
+        let room = size.max(256).next_power_of_two().min(most).max(size);
+        let kept = self.buffer.take().filter(|buffer| buffer.size() >= size);
+        *made |= kept.is_none();
+        self.buffer.insert(kept.unwrap_or_else(|| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(&self.label),
+                size: room,
+                usage: self.usage,
+                mapped_at_creation: false,
+            })
+        }))
+    }
+
+    fn size(&self) -> u64 {
+        self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
+    }
+}
+
+/// All buffers.
+#[derive(Debug)]
+pub(super) struct Buffers {
+    label: String,
+    batches: Grown,
+    instances: Grown,
+    template: Grown,
+    arguments: Grown,
+    casters: Grown,
+    chunks: Vec<[Grown; 3]>,
+    /// Grows by one whenever a buffer was made anew: bind groups of before are then stale.
+    generation: u64,
+}
+
+/// The buffers of one frame; there are none if nothing is drawn.
+pub(super) struct Bound<'a> {
+    pub batches: &'a wgpu::Buffer,
+    pub instances: &'a wgpu::Buffer,
+    pub template: &'a wgpu::Buffer,
+    pub arguments: &'a wgpu::Buffer,
+    pub casters: &'a wgpu::Buffer,
+}
+
+impl Buffers {
+    pub fn new(label: &str) -> Self {
+        use wgpu::BufferUsages as U;
+        let grown = |what: &str, usage| Grown::new(format!("{label} {what}"), usage);
+        Self {
+            label: label.to_owned(),
+            batches: grown("batches", U::UNIFORM | U::COPY_DST),
+            instances: grown("instances", U::STORAGE | U::COPY_DST),
+            template: grown("argument template", U::COPY_SRC | U::COPY_DST),
+            arguments: grown("arguments", U::STORAGE | U::INDIRECT | U::COPY_DST),
+            casters: grown("casters", U::UNIFORM | U::COPY_DST),
+            chunks: Vec::new(),
+            generation: 0,
+        }
+    }
+
+    /// Makes room for a plan and uploads it.
+    pub fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        plan: &Plan,
+        limits: &PlanLimits,
+    ) {
+        let mut made = false;
+        let most = device.limits().max_buffer_size;
+        let mut write = |grown: &mut Grown, bytes: &[u8]| {
+            let buffer = grown.get(device, bytes.len() as u64, most, &mut made);
+            queue.write_buffer(buffer, 0, bytes);
+        };
+        let batches: Vec<BatchParams> = plan.batches.iter().map(|batch| batch.params).collect();
+        write(&mut self.batches, &spread(&batches, device));
+        write(&mut self.casters, &spread(&plan.casters, device));
+        write(&mut self.instances, bytemuck::cast_slice(&plan.instances));
+        write(&mut self.template, bytemuck::cast_slice(&plan.arguments));
+        let arguments = size_of_val(&plan.arguments[..]) as u64;
+        self.arguments.get(device, arguments, most, &mut made);
+        while self.chunks.len() < plan.chunks.len() {
+            self.chunks.push(chunk(&self.label, self.chunks.len()));
+        }
+        for (chunk, words) in self.chunks.iter_mut().zip(&plan.chunks) {
+            for (grown, words) in chunk.iter_mut().zip(words) {
+                grown.get(device, words * 4, limits.storage_bytes, &mut made);
+            }
+        }
+        self.generation += u64::from(made);
+    }
+
+    /// Counts the times a buffer was made.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// The frame's buffers, once something was uploaded.
+    pub fn bound(&self) -> Option<Bound<'_>> {
+        Some(Bound {
+            batches: self.batches.buffer.as_ref()?,
+            instances: self.instances.buffer.as_ref()?,
+            template: self.template.buffer.as_ref()?,
+            arguments: self.arguments.buffer.as_ref()?,
+            casters: self.casters.buffer.as_ref()?,
+        })
+    }
+
+    /// Facings, caps and sides of a chunk.
+    pub fn chunk(&self, chunk: usize) -> Option<[&wgpu::Buffer; 3]> {
+        let [facings, caps, sides] = self.chunks.get(chunk)?;
+        Some([
+            facings.buffer.as_ref()?,
+            caps.buffer.as_ref()?,
+            sides.buffer.as_ref()?,
+        ])
+    }
+
+    /// Bytes of GPU memory held.
+    pub fn bytes(&self) -> u64 {
+        [
+            &self.batches,
+            &self.instances,
+            &self.template,
+            &self.arguments,
+            &self.casters,
+        ]
+        .into_iter()
+        .chain(self.chunks.iter().flatten())
+        .map(Grown::size)
+        .sum()
+    }
+}
+
+fn chunk(label: &str, place: usize) -> [Grown; 3] {
+    use wgpu::BufferUsages as U;
+    // Only caps are read as indices.
+    let usages = [U::STORAGE, U::STORAGE | U::INDEX, U::STORAGE];
+    std::array::from_fn(|i| Grown::new(format!("{label} {} {place}", NAMES[i]), usages[i]))
+}
+
+/// Bytes from one uniform window to the next.
+pub(super) fn window<T>(limits: &wgpu::Limits) -> u64 {
+    (size_of::<T>() as u64).next_multiple_of(u64::from(limits.min_uniform_buffer_offset_alignment))
+}
+
+fn spread<T: bytemuck::NoUninit>(items: &[T], device: &wgpu::Device) -> Vec<u8> {
+    let window = window::<T>(&device.limits()) as usize;
+    let mut bytes = vec![0; window * items.len()];
+    for (target, item) in bytes.chunks_exact_mut(window).zip(items) {
+        target[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
+    }
+    bytes
+}
+
+impl PlanLimits {
+    /// What the device's limits allow.
+    pub fn of(limits: &wgpu::Limits) -> Self {
+        let storage_bytes = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size);
+        // Dynamic offsets are 32 bits wide.
+        let uniform_bytes = limits.max_buffer_size.min(u64::from(u32::MAX));
+        let casters = [
+            uniform_bytes / window::<CasterParams>(limits),
+            uniform_bytes / window::<BatchParams>(limits),
+            storage_bytes / size_of::<InstanceParams>() as u64,
+            storage_bytes / size_of::<Arguments>() as u64,
+        ]
+        .into_iter()
+        .fold(u64::MAX, u64::min);
+        Self {
+            storage_bytes,
+            casters: usize::try_from(casters).unwrap_or(usize::MAX),
+            workgroups: limits.max_compute_workgroups_per_dimension,
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! What the host says about its passes and its frame, and what it gets to know.
+
+use crate::error::ShadowVolumeError;
+use crate::{Caster, DepthConvention, HomogeneousLight, View};
+
+/// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowVolumeDescriptor<'a> {
+    /// Names the renderer's GPU objects, after "shadows volume". Default `None`.
+    pub label: Option<&'a str>,
+    /// Format of the depth-stencil attachment: `Depth24PlusStencil8` (the default; every device
+    /// has it) or `Depth32FloatStencil8` (needs the feature of that name).
+    pub depth_stencil_format: wgpu::TextureFormat,
+    /// Samples per pixel of the pass, 1 (default) or 4. The stencil counts each sample by itself.
+    pub sample_count: u32,
+    /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
+    pub depth: DepthConvention,
+    /// Formats of the pass's colour attachments, which are left as they are. Default none.
+    pub color_formats: &'a [Option<wgpu::TextureFormat>],
+    /// How far light caps are pushed away from the viewer, in units of the depth format's last
+    /// place. Default 4.
+    ///
+    /// A light cap lies in a surface that the host draws, so "behind what is visible" is the right
+    /// answer wherever it is drawn. 0 is enough for a host that computes its positions with
+    /// [`wgsl::POSITION`](crate::wgsl::POSITION); more makes up for other arithmetic. It has no
+    /// effect on where shadows fall, except for casters that the host itself does not draw.
+    pub cap_bias_ulps: u32,
+}
+
+impl Default for ShadowVolumeDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+            sample_count: 1,
+            depth: DepthConvention::default(),
+            color_formats: &[],
+            cap_bias_ulps: 4,
+        }
+    }
+}
+
+/// Invocations in a workgroup of the extraction passes.
+pub(super) const WORKGROUP: u32 = 256;
+
+/// Workgroups in a dimension, so that two dimensions hold one invocation for each `u32`.
+const WORKGROUPS: u32 = 4096;
+
+/// Storage buffers in the largest of the passes.
+const STORAGE_BUFFERS: u32 = 6;
+
+impl ShadowVolumeDescriptor<'_> {
+    /// Whether the device can do what the descriptor asks for.
+    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+        let format = self.depth_stencil_format;
+        if !matches!(
+            format,
+            wgpu::TextureFormat::Depth24PlusStencil8 | wgpu::TextureFormat::Depth32FloatStencil8
+        ) {
+            return Err(ShadowVolumeError::Format(format));
+        }
+        if !matches!(self.sample_count, 1 | 4) {
+            return Err(ShadowVolumeError::SampleCount(self.sample_count));
+        }
+        check_feature(device, format.required_features(), || format!("{format:?}"))?;
+        if self.depth.clips_far() {
+            check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
+                format!("DepthConvention::{:?}", self.depth)
+            })?;
+        }
+        self.validate_colors(device)?;
+        validate_limits(&device.limits())
+    }
+
+    fn validate_colors(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+        for (place, format) in self.color_formats.iter().enumerate() {
+            let Some(format) = *format else { continue };
+            if !format.has_color_aspect() || format.is_compressed() {
+                return Err(ShadowVolumeError::ColorFormat { place, format });
+            }
+            check_feature(device, format.required_features(), || format!("{format:?}"))?;
+        }
+        check_limit(
+            "max_color_attachments",
+            self.color_formats.len() as u64,
+            u64::from(device.limits().max_color_attachments),
+        )
+    }
+}
+
+fn check_feature(
+    device: &wgpu::Device,
+    feature: wgpu::Features,
+    needed_by: impl FnOnce() -> String,
+) -> Result<(), ShadowVolumeError> {
+    let missing = feature - device.features();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    Err(ShadowVolumeError::MissingFeature {
+        feature: missing,
+        needed_by: needed_by(),
+    })
+}
+
+fn check_limit(name: &'static str, needed: u64, available: u64) -> Result<(), ShadowVolumeError> {
+    if needed <= available {
+        return Ok(());
+    }
+    Err(ShadowVolumeError::Limit {
+        name,
+        needed,
+        available,
+    })
+}
+
+fn validate_limits(limits: &wgpu::Limits) -> Result<(), ShadowVolumeError> {
+    for (name, needed, available) in [
+        (
+            "max_storage_buffers_per_shader_stage",
+            STORAGE_BUFFERS,
+            limits.max_storage_buffers_per_shader_stage,
+        ),
+        (
+            "max_compute_workgroup_size_x",
+            WORKGROUP,
+            limits.max_compute_workgroup_size_x,
+        ),
+        (
+            "max_compute_invocations_per_workgroup",
+            WORKGROUP,
+            limits.max_compute_invocations_per_workgroup,
+        ),
+        (
+            "max_compute_workgroups_per_dimension",
+            WORKGROUPS,
+            limits.max_compute_workgroups_per_dimension,
+        ),
+        (
+            "max_dynamic_uniform_buffers_per_pipeline_layout",
+            1,
+            limits.max_dynamic_uniform_buffers_per_pipeline_layout,
+        ),
+    ] {
+        check_limit(name, u64::from(needed), u64::from(available))?;
+    }
+    Ok(())
+}
+
+/// One frame, as [`prepare`](crate::ShadowVolumeRenderer::prepare) needs it.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowVolumeFrame<'a> {
+    /// The camera whose depth the pass holds.
+    pub view: &'a View,
+    /// The light, in world space: `w = 1` a point, `w = 0` a direction.
+    pub light: HomogeneousLight,
+    /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
+    /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
+    pub range: Option<f32>,
+    /// What casts shadows. The host must draw these surfaces into its depth buffer, too; a caster
+    /// that it does not draw still casts, if its triangles are wound outward.
+    pub casters: &'a [Caster],
+}
+
+/// What the last [`prepare`](crate::ShadowVolumeRenderer::prepare) came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct VolumeStatistics {
+    /// Casters whose volumes are drawn.
+    pub casters_drawn: u32,
+    /// Casters left out: beyond the light's range, or without triangles.
+    pub casters_skipped: u32,
+    /// Draw calls that `render` records.
+    pub draws: u32,
+    /// Dispatches that `encode` records.
+    pub dispatches: u32,
+    /// Bytes of GPU memory that the renderer holds (the meshes' own not counted).
+    pub gpu_bytes: u64,
+    /// Triangles whose facing `encode` decides, over all casters drawn.
+    pub triangles: u64,
+}

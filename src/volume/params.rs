@@ -1,0 +1,209 @@
+//! What the shaders read, byte for byte.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `Batch` in `volume_batch.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct BatchParams {
+    pub first_instance: u32,
+    pub triangle_count: u32,
+    pub edge_count: u32,
+    pub position_stride: u32,
+    pub position_offset: u32,
+    pub side_vertices: u32,
+    pub general: u32,
+    pub padding: u32,
+}
+
+/// `Instance` in `volume_batch.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct InstanceParams {
+    pub light: [f32; 4],
+    pub light_rest: [f32; 3],
+    pub both_sides: u32,
+    pub facing_base: u32,
+    pub cap_base: u32,
+    pub side_base: u32,
+    pub padding: u32,
+}
+
+/// `Caster` in `volume_draw.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct CasterParams {
+    pub clip_from_world: [[f32; 4]; 4],
+    pub world_from_object: [[f32; 4]; 4],
+    pub light: [f32; 4],
+    pub position_stride: u32,
+    pub position_offset: u32,
+    pub side_base: u32,
+    pub side_vertices: u32,
+}
+
+/// The indirect arguments of one instance, before anything is counted.
+///
+/// Two indexed draws (index count, instances, first index, base vertex, first instance), one plain
+/// draw (vertex count, instances, first vertex, first instance), and what fills 64 bytes.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(super) struct Arguments {
+    pub front: [u32; 5],
+    pub back: [u32; 5],
+    pub sides: [u32; 4],
+    pub padding: [u32; 2],
+}
+
+impl Arguments {
+    /// Bytes from an instance's arguments to those of its caps that count +1.
+    pub const FRONT: u64 = 0;
+    /// The same, caps that count -1.
+    pub const BACK: u64 = 20;
+    /// The same, sides.
+    pub const SIDES: u64 = 40;
+
+    /// Arguments of an empty volume whose caps will lie in `cap_base .. cap_end` (in indices).
+    pub fn new(cap_base: u32, cap_end: u32) -> Self {
+        Self {
+            front: [0, 1, cap_base, 0, 0],
+            back: [0, 1, cap_end, 0, 0],
+            sides: [0, 1, 0, 0],
+            padding: [0; 2],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::mem::offset_of;
+
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    use super::*;
+    use crate::volume::descriptor::WORKGROUP;
+    use crate::volume::{draw, silhouette};
+
+    fn parse(source: &str) -> naga::Module {
+        naga::front::wgsl::parse_str(source)
+            .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)))
+    }
+
+    fn sources() -> [String; 3] {
+        [
+            silhouette::facing_source(),
+            silhouette::edges_source(),
+            draw::source(),
+        ]
+    }
+
+    /// Name, offset and the struct's size, as naga lays it out.
+    fn layout(source: &str, name: &str) -> (Vec<(String, u32)>, u32) {
+        let module = parse(source);
+        let (_, found) = module
+            .types
+            .iter()
+            .find(|(_, t)| t.name.as_deref() == Some(name))
+            .expect("the struct is in the shader");
+        let naga::TypeInner::Struct { members, span } = &found.inner else {
+            panic!("{name} is no struct");
+        };
+        let members = members
+            .iter()
+            .map(|m| (m.name.clone().unwrap_or_default(), m.offset))
+            .collect();
+        (members, *span)
+    }
+
+    macro_rules! assert_layout {
+        ($source:expr, $name:expr, $rust:ty, $($field:ident),+) => {
+            let rust = vec![$((stringify!($field).to_string(), offset_of!($rust, $field) as u32)),+];
+            assert_eq!(layout(&$source, $name), (rust, size_of::<$rust>() as u32));
+        };
+    }
+
+    #[test]
+    fn every_shader_is_valid_without_any_capability() {
+        for source in sources() {
+            Validator::new(ValidationFlags::all(), Capabilities::empty())
+                .validate(&parse(&source))
+                .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
+        }
+    }
+
+    #[test]
+    fn rust_and_wgsl_agree_on_every_offset() {
+        let [facing, edges, draw] = sources();
+        for source in [facing, edges] {
+            assert_layout!(
+                source,
+                "Batch",
+                BatchParams,
+                first_instance,
+                triangle_count,
+                edge_count,
+                position_stride,
+                position_offset,
+                side_vertices,
+                general,
+                padding
+            );
+            assert_layout!(
+                source,
+                "Instance",
+                InstanceParams,
+                light,
+                light_rest,
+                both_sides,
+                facing_base,
+                cap_base,
+                side_base,
+                padding
+            );
+        }
+        assert_layout!(
+            draw,
+            "Caster",
+            CasterParams,
+            clip_from_world,
+            world_from_object,
+            light,
+            position_stride,
+            position_offset,
+            side_base,
+            side_vertices
+        );
+    }
+
+    #[test]
+    fn rust_and_wgsl_agree_on_the_constants() {
+        let constants = [
+            ("WORKGROUP", WORKGROUP),
+            ("ARGS_STRIDE", size_of::<Arguments>() as u32 / 4),
+            ("ARGS_FRONT", offset_of!(Arguments, front) as u32 / 4),
+            ("ARGS_BACK", offset_of!(Arguments, back) as u32 / 4),
+            ("ARGS_SIDES", offset_of!(Arguments, sides) as u32 / 4),
+        ];
+        assert_eq!(Arguments::FRONT, offset_of!(Arguments, front) as u64);
+        assert_eq!(Arguments::BACK, offset_of!(Arguments, back) as u64);
+        assert_eq!(Arguments::SIDES, offset_of!(Arguments, sides) as u64);
+        for source in [silhouette::facing_source(), silhouette::edges_source()] {
+            let module = parse(&source);
+            for (name, value) in constants {
+                let (_, constant) = module
+                    .constants
+                    .iter()
+                    .find(|(_, c)| c.name.as_deref() == Some(name))
+                    .unwrap_or_else(|| panic!("{name} is in the shader"));
+                let literal = &module.global_expressions[constant.init];
+                let naga::Expression::Literal(naga::Literal::U32(found)) = literal else {
+                    panic!("{name} is {literal:?}");
+                };
+                assert_eq!(*found, value, "{name}");
+            }
+            for entry in &module.entry_points {
+                assert_eq!(entry.workgroup_size, [WORKGROUP, 1, 1]);
+            }
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! What one frame needs, decided on the CPU: which casters, in which batches, drawn how.
+
+use std::collections::HashMap;
+
+use glam::Mat4;
+
+use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
+use super::regions::{Place, Regions, Words};
+use super::rule::{self, ObjectLight, WorldBox};
+use super::{ShadowVolumeFrame, VolumeStatistics};
+use crate::error::{CasterError, LightError, ShadowVolumeError};
+use crate::mesh::{CasterMesh, MeshKind};
+
+/// The three kinds of faces of a volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Faces {
+    LightCap,
+    DarkCap,
+    Sides,
+}
+
+/// One draw. Ordered so that draws of one pipeline follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Draw {
+    pub faces: Faces,
+    /// Whether faces that are clockwise on screen are the volume's front.
+    pub clockwise: bool,
+    /// Place in [`Plan::instances`].
+    pub instance: u32,
+    /// Whether the caps are those that count -1.
+    pub back: bool,
+}
+
+/// Instances of one mesh whose parts lie in one chunk: one dispatch for each extraction pass.
+#[derive(Clone, Debug)]
+pub(super) struct Batch {
+    pub mesh: CasterMesh,
+    pub chunk: usize,
+    pub params: BatchParams,
+    pub instance_count: u32,
+}
+
+/// Everything `prepare` uploads and `encode` and `render` walk through.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Plan {
+    pub batches: Vec<Batch>,
+    pub draws: Vec<Draw>,
+    /// Words used in each chunk of buffers.
+    pub chunks: Vec<Words>,
+    pub instances: Vec<InstanceParams>,
+    pub arguments: Vec<Arguments>,
+    pub casters: Vec<CasterParams>,
+    /// For each instance, its batch.
+    pub batch_of: Vec<u32>,
+    pub statistics: VolumeStatistics,
+}
+
+/// What of the device's limits the plan depends on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlanLimits {
+    /// Bytes of the largest buffer that can be made and bound as storage.
+    pub storage_bytes: u64,
+    /// Casters whose parameters fit the buffers.
+    pub casters: usize,
+    /// Workgroups in one dimension of a dispatch.
+    pub workgroups: u32,
+}
+
+/// A caster that is drawn.
+struct Subject {
+    light: ObjectLight,
+    both_sides: bool,
+    mirrored: bool,
+    index: usize,
+}
+
+impl Plan {
+    pub fn new(
+        frame: &ShadowVolumeFrame<'_>,
+        device: &wgpu::Device,
+        limits: &PlanLimits,
+    ) -> Result<Self, ShadowVolumeError> {
+        validate(frame, device)?;
+        let groups = subjects(frame)?;
+        let count = groups.iter().map(Vec::len).sum();
+        if count > limits.casters {
+            return Err(ShadowVolumeError::TooManyCasters {
+                count,
+                limit: limits.casters,
+            });
+        }
+        let mut plan = Self::default();
+        let mut regions = Regions::new(limits.storage_bytes);
+        for subject in groups.iter().flatten() {
+            plan.add(subject, frame, &mut regions, limits)?;
+        }
+        plan.chunks = regions.chunks().to_vec();
+        plan.draws.sort_unstable();
+        plan.statistics = VolumeStatistics {
+            casters_drawn: count as u32,
+            casters_skipped: (frame.casters.len() - count) as u32,
+            draws: plan.draws.len() as u32,
+            dispatches: 2 * plan.batches.len() as u32,
+            gpu_bytes: 0,
+            triangles: plan.batches.iter().map(Batch::triangles).sum(),
+        };
+        Ok(plan)
+    }
+
+    fn add(
+        &mut self,
+        subject: &Subject,
+        frame: &ShadowVolumeFrame<'_>,
+        regions: &mut Regions,
+        limits: &PlanLimits,
+    ) -> Result<(), ShadowVolumeError> {
+        let caster = &frame.casters[subject.index];
+        let mesh = &caster.mesh;
+        let need = words(mesh, subject.both_sides);
+        let place = regions
+            .place(need)
+            .map_err(|overflow| ShadowVolumeError::TooLarge {
+                index: subject.index,
+                what: overflow.what,
+                size: overflow.size,
+                limit: overflow.limit,
+            })?;
+        let instance = self.instances.len() as u32;
+        let batch = self.batch(mesh, &place, frame, limits.workgroups);
+        self.batch_of.push(batch);
+        self.instances.push(InstanceParams {
+            light: subject.light.light,
+            light_rest: subject.light.rest,
+            both_sides: u32::from(subject.both_sides),
+            facing_base: place.facing,
+            cap_base: place.cap,
+            side_base: place.side,
+            padding: 0,
+        });
+        // Caps are below the region's end, which the regions keep below 2^32.
+        let cap_end = place.cap + need[1] as u32;
+        self.arguments.push(Arguments::new(place.cap, cap_end));
+        let params = &self.batches[batch as usize].params;
+        self.casters.push(CasterParams {
+            clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
+            world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
+            light: rule::world_light(frame.light),
+            position_stride: params.position_stride,
+            position_offset: params.position_offset,
+            side_base: place.side,
+            side_vertices: params.side_vertices,
+        });
+        self.draw(subject, frame, instance);
+        Ok(())
+    }
+
+    /// The batch that the next instance belongs to.
+    fn batch(
+        &mut self,
+        mesh: &CasterMesh,
+        place: &Place,
+        frame: &ShadowVolumeFrame<'_>,
+        most: u32,
+    ) -> u32 {
+        let open = self.batches.last_mut().filter(|batch| {
+            batch.mesh.key() == mesh.key()
+                && batch.chunk == place.chunk
+                && batch.instance_count < most
+        });
+        match open {
+            Some(batch) => batch.instance_count += 1,
+            None => self.batches.push(Batch {
+                mesh: mesh.clone(),
+                chunk: place.chunk,
+                params: batch_params(mesh, self.instances.len() as u32, frame),
+                instance_count: 1,
+            }),
+        }
+        self.batches.len() as u32 - 1
+    }
+
+    fn draw(&mut self, subject: &Subject, frame: &ShadowVolumeFrame<'_>, instance: u32) {
+        // A cap that counts +1 is counter-clockwise seen from the light, in the mesh's own space.
+        let clockwise = subject.mirrored != rule::is_left_handed(frame.view);
+        let mut push = |faces, clockwise, back| {
+            self.draws.push(Draw {
+                faces,
+                clockwise,
+                instance,
+                back,
+            });
+        };
+        push(Faces::Sides, clockwise, false);
+        for back in [false, true] {
+            if back && !subject.both_sides {
+                continue;
+            }
+            push(Faces::LightCap, clockwise != back, back);
+            // With a directional light all sides meet in one point at infinity: no area is left.
+            if !frame.light.is_directional() {
+                push(Faces::DarkCap, clockwise == back, back);
+            }
+        }
+    }
+}
+
+impl Batch {
+    fn triangles(&self) -> u64 {
+        u64::from(self.params.triangle_count) * u64::from(self.instance_count)
+    }
+}
+
+fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+    frame.light.validate()?;
+    if let Some(range) = frame.range
+        && !(range.is_finite() && range > 0.0)
+    {
+        return Err(LightError::Range(range).into());
+    }
+    for (index, caster) in frame.casters.iter().enumerate() {
+        caster.validate(index, device)?;
+    }
+    Ok(())
+}
+
+/// The casters that are drawn, those of one mesh together, in the order of first appearance.
+fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterError> {
+    let mut groups: Vec<Vec<Subject>> = Vec::new();
+    let mut group_of = HashMap::new();
+    for (index, caster) in frame.casters.iter().enumerate() {
+        let map = caster.transform();
+        let light = ObjectLight::new(frame.light, &map, index)?;
+        let world = WorldBox::of(caster);
+        if caster.mesh.triangle_count() == 0 || !rule::in_range(&world, frame.light, frame.range) {
+            continue;
+        }
+        let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
+            groups.push(Vec::new());
+            groups.len() - 1
+        });
+        groups[group].push(Subject {
+            light,
+            both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
+            mirrored: map.matrix3.determinant() < 0.0,
+            index,
+        });
+    }
+    Ok(groups)
+}
+
+/// Words for facings, caps and sides, the worst case: they cannot overflow.
+///
+/// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its uses at
+/// most; where light-facing triangles alone count, a closed mesh's edge only once.
+fn words(mesh: &CasterMesh, both_sides: bool) -> Words {
+    let triangles = u64::from(mesh.triangle_count());
+    let sides = match (mesh.kind(), both_sides) {
+        (MeshKind::Closed, false) => u64::from(mesh.edge_count()),
+        (MeshKind::Closed, true) => 2 * u64::from(mesh.edge_count()),
+        (MeshKind::General, _) => u64::from(mesh.edge_use_count()),
+    };
+    [triangles, 3 * triangles, sides]
+}
+
+fn batch_params(
+    mesh: &CasterMesh,
+    first_instance: u32,
+    frame: &ShadowVolumeFrame<'_>,
+) -> BatchParams {
+    let (stride, offset) = mesh.layout();
+    BatchParams {
+        first_instance,
+        triangle_count: mesh.triangle_count(),
+        edge_count: mesh.edge_count(),
+        // In words they fit 32 bits: the positions lie in one storage binding.
+        position_stride: (stride / 4) as u32,
+        position_offset: (offset / 4) as u32,
+        side_vertices: if frame.light.is_directional() { 3 } else { 6 },
+        general: u32::from(mesh.kind() == MeshKind::General),
+        padding: 0,
+    }
+}

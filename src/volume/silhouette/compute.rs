@@ -1,0 +1,121 @@
+//! Extraction on the GPU: facings and caps, then sides, in two compute passes.
+
+use super::super::descriptor::WORKGROUP;
+use super::super::layout::{storage, uniform};
+use super::super::params::BatchParams;
+
+const BATCH: &str = include_str!("../../../shaders/volume_batch.wgsl");
+const FACING: &str = include_str!("../../../shaders/volume_facing.wgsl");
+const EDGES: &str = include_str!("../../../shaders/volume_edges.wgsl");
+
+/// The shader of the facing pass.
+pub(in super::super) fn facing_source() -> String {
+    [BATCH, FACING].join("\n")
+}
+
+/// The shader of the edge pass.
+pub(in super::super) fn edges_source() -> String {
+    [BATCH, EDGES].join("\n")
+}
+
+/// A compute pipeline and the layout of its only bind group.
+#[derive(Debug)]
+pub(in super::super) struct Pass {
+    pub layout: wgpu::BindGroupLayout,
+    pub pipeline: wgpu::ComputePipeline,
+}
+
+/// The two passes.
+#[derive(Debug)]
+pub(in super::super) struct Extraction {
+    /// Binds batch, instances, arguments, positions, triangles, facings, caps.
+    pub facing: Pass,
+    /// Binds batch, instances, arguments, edges, uses, facings, sides.
+    pub edges: Pass,
+}
+
+impl Extraction {
+    pub fn new(device: &wgpu::Device, label: &str) -> Self {
+        Self {
+            facing: Pass::new(
+                device,
+                &format!("{label} facing"),
+                facing_source(),
+                "shadows_volume_facing",
+                [true, false, true, true, false, false],
+            ),
+            edges: Pass::new(
+                device,
+                &format!("{label} edges"),
+                edges_source(),
+                "shadows_volume_edges",
+                [true, false, true, true, true, false],
+            ),
+        }
+    }
+}
+
+impl Pass {
+    fn new(
+        device: &wgpu::Device,
+        label: &str,
+        source: String,
+        entry_point: &str,
+        read_only: [bool; 6],
+    ) -> Self {
+        let label = Some(label);
+        let stage = wgpu::ShaderStages::COMPUTE;
+        let mut entries = vec![uniform(stage, size_of::<BatchParams>())];
+        entries.extend(
+            (1..)
+                .zip(read_only)
+                .map(|(n, read)| storage(n, stage, read)),
+        );
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label,
+            entries: &entries,
+        });
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label,
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label,
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label,
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        Self { layout, pipeline }
+    }
+}
+
+/// Workgroups for `count` elements of each of some instances: x first, folded into z.
+pub(in super::super) fn workgroups(count: u32, instances: u32, most: u32) -> [u32; 3] {
+    let groups = count.div_ceil(WORKGROUP);
+    let x = groups.min(most);
+    [x, instances, groups.div_ceil(x.max(1))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_meshes_are_folded_and_nothing_is_left_out() {
+        assert_eq!(workgroups(1, 7, 65_535), [1, 7, 1]);
+        assert_eq!(workgroups(257, 1, 65_535), [2, 1, 1]);
+        assert_eq!(workgroups(256 * 65_535 + 1, 1, 65_535), [65_535, 1, 2]);
+        for count in [1, 5_000, 1_000_000, u32::MAX] {
+            let [x, _, z] = workgroups(count, 1, 4_100);
+            assert!(x <= 4_100 && z <= 4_100);
+            assert!(u64::from(x) * u64::from(z) * 256 >= u64::from(count));
+        }
+    }
+}

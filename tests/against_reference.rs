@@ -1,0 +1,168 @@
+//! Whole scenes on the driver against exact ray casting: the promises of the README, and for each of
+//! them something broken that must not keep it.
+
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[allow(dead_code)] // compare reports more than is promised here
+#[path = "../examples/compare/stage.rs"]
+mod stage;
+#[allow(dead_code)]
+#[path = "../examples/compare/technique.rs"]
+mod technique;
+
+use shadows::glam::Vec4;
+use shadows::reference::{Comparison, ReferenceImage};
+use shadows::{Bias, Kernel};
+
+use host::gpu::Gpu;
+use host::scene::Scene;
+use stage::Stage;
+use technique::{Shadow, ShadowInputs, Technique};
+
+const SIZE: [u32; 2] = [1280, 720];
+const FACE: u32 = 1024;
+const CUBE: Technique = Technique::Cube(Kernel::Bilinear);
+
+/// A scene on the GPU with its exact answer.
+struct Studio {
+    gpu: Gpu,
+    stage: Stage,
+    reference: ReferenceImage,
+}
+
+impl Studio {
+    /// `None` where there is no driver.
+    fn new(scene: Scene) -> Option<Self> {
+        let gpu = Gpu::for_test()?;
+        let stage = Stage::new(&gpu, scene, SIZE).unwrap();
+        let reference = stage.reference(|_| ()).unwrap();
+        Some(Self {
+            gpu,
+            stage,
+            reference,
+        })
+    }
+
+    /// The error of a technique that is told what `falsify` makes of the truth.
+    fn error(
+        &self,
+        technique: Technique,
+        bias: Bias,
+        falsify: impl FnOnce(&mut ShadowInputs),
+    ) -> Comparison {
+        let (gpu, stage) = (&self.gpu, &self.stage);
+        let mut inputs = stage.inputs.clone();
+        falsify(&mut inputs);
+        let picture = gpu.checked(|| {
+            let mut shadow =
+                Shadow::with_bias(gpu, &stage.renderer, technique, FACE, bias).unwrap();
+            let interior = shadow.interior();
+            (stage.picture(gpu, &mut shadow, &inputs).unwrap(), interior)
+        });
+        self.reference
+            .compare(&picture.0.visibility, picture.1)
+            .unwrap()
+    }
+
+    fn true_error(&self, technique: Technique) -> Comparison {
+        self.error(technique, Bias::default(), |_| ())
+    }
+}
+
+fn interior(error: &Comparison) -> usize {
+    error.false_lit_interior + error.false_shadow_interior
+}
+
+fn wrong_percent(error: &Comparison) -> f64 {
+    100.0 * (error.false_lit + error.false_shadow) as f64 / error.lit_facing as f64
+}
+
+/// The technique believes the light to be 5 cm from where it is.
+fn move_light(inputs: &mut ShadowInputs) {
+    inputs.light.0 += Vec4::new(0.03, 0.0, 0.04, 0.0);
+}
+
+/// One caster is forgotten.
+fn forget_a_caster(inputs: &mut ShadowInputs) {
+    inputs.casters.swap_remove(0);
+}
+
+/// No interior error, and each broken twin has some.
+fn volumes_are_exact(studio: &Studio) -> Comparison {
+    let error = studio.true_error(Technique::Volume);
+    assert!(
+        error.lit_facing > 100_000,
+        "{} pixels count",
+        error.lit_facing
+    );
+    assert_eq!(interior(&error), 0, "interior errors");
+    for (what, falsify) in [
+        ("a moved light", move_light as fn(&mut ShadowInputs)),
+        ("a forgotten caster", forget_a_caster),
+    ] {
+        let broken = studio.error(Technique::Volume, Bias::default(), falsify);
+        assert!(interior(&broken) > 0, "{what} went unnoticed");
+        assert!(wrong_percent(&broken) > wrong_percent(&error), "{what}");
+    }
+    error
+}
+
+#[test]
+fn volumes_are_exact_to_the_pixel_on_the_spheres() {
+    let Some(studio) = Studio::new(host::scene::spheres()) else {
+        return;
+    };
+    let error = volumes_are_exact(&studio);
+    let wrong = wrong_percent(&error);
+    assert!(wrong <= 0.011, "{wrong} % of pixels are wrong");
+    let moved = studio.error(Technique::Volume, Bias::default(), move_light);
+    assert!(
+        wrong_percent(&moved) > 0.011,
+        "a moved light keeps the limit"
+    );
+}
+
+#[test]
+fn volumes_are_exact_in_the_courtyard() {
+    if let Some(studio) = Studio::new(host::scene::courtyard()) {
+        volumes_are_exact(&studio);
+    }
+}
+
+#[test]
+fn volumes_are_exact_on_the_open_teapot() {
+    if let Some(studio) = Studio::new(host::scene::teapot()) {
+        volumes_are_exact(&studio);
+    }
+}
+
+#[test]
+fn a_bilinear_cube_map_is_wrong_only_at_edges_on_the_spheres() {
+    const LIMIT: f64 = 0.25;
+    let Some(studio) = Studio::new(host::scene::spheres()) else {
+        return;
+    };
+    let error = studio.true_error(CUBE);
+    let wrong = wrong_percent(&error);
+    assert_eq!(interior(&error), 0, "interior errors");
+    assert!(wrong <= LIMIT, "{wrong} % of pixels are wrong");
+
+    let peter_panning = Bias {
+        normal_offset: 0.0,
+        constant: 20.0,
+    };
+    for (what, bias, falsify) in [
+        ("a moved light", Bias::default(), move_light as fn(&mut _)),
+        ("a forgotten caster", Bias::default(), forget_a_caster),
+        ("no bias", Bias::NONE, |_: &mut ShadowInputs| ()),
+        ("a huge bias", peter_panning, |_: &mut ShadowInputs| ()),
+    ] {
+        let broken = studio.error(CUBE, bias, falsify);
+        let wrong = wrong_percent(&broken);
+        eprintln!("{what}: {wrong} %, {} in the interior", interior(&broken));
+        assert!(
+            interior(&broken) > 0 || wrong > LIMIT,
+            "{what} went unnoticed: {wrong} %"
+        );
+    }
+}

@@ -1,0 +1,154 @@
+//! The command line of the comparison: defaults, what is accepted, and one line for each mistake.
+
+use std::path::PathBuf;
+
+use shadows::glam::{Vec3, Vec4};
+
+#[allow(dead_code)]
+#[path = "../examples/compare/args.rs"]
+mod args;
+
+use args::{Args, Ground, Technique};
+
+fn read(line: &str) -> Args {
+    let items = std::iter::once("compare").chain(line.split_whitespace());
+    args::try_parse_from(items).unwrap_or_else(|e| panic!("{line}: {e}"))
+}
+
+/// The line a user sees instead.
+fn mistake(line: &str) -> String {
+    let items = std::iter::once("compare").chain(line.split_whitespace());
+    let error = args::try_parse_from(items).expect_err(line);
+    assert_eq!(error.exit_code(), 2, "{line}");
+    let told = args::one_line(&error);
+    assert!(!told.contains('\n') && told.len() > 20, "{line}: {told:?}");
+    told
+}
+
+#[track_caller]
+fn assert_refused(line: &str, reason: &str) {
+    let told = mistake(line);
+    assert!(told.contains(reason), "{line}: {told}");
+}
+
+#[test]
+fn nothing_given_means_the_defaults() {
+    let args = read("");
+    assert_eq!(args.scenes, ["spheres"]);
+    assert_eq!((args.size, args.face), ([1280, 720], 1024));
+    assert_eq!((args.frames, args.seed), (8, 1));
+    assert_eq!(args.techniques.0, Technique::ALL);
+    assert_eq!(args.ground, Ground::Auto);
+    assert_eq!(args.out, PathBuf::from("target/compare"));
+    assert_eq!((args.light, args.range), (None, None));
+    assert_eq!(
+        (args.camera_override(), args.adapter, args.export),
+        (None, None, false)
+    );
+}
+
+#[test]
+fn every_option_is_read() {
+    let args = read(
+        "--scene a/bunny.obj --scene courtyard --ground none --light -1,2.5,-3 --range 12 \
+         --camera -1,2,3,0,0,0,60 --size 640x480 --technique volume,cube-16 --face 512 \
+         --frames 3 --seed 42 --adapter llvm --export --out x/y",
+    );
+    assert_eq!(args.scenes, ["a/bunny.obj", "courtyard"]);
+    assert_eq!(args.ground, Ground::None);
+    assert_eq!(args.light, Some(Vec4::new(-1.0, 2.5, -3.0, 1.0)));
+    assert_eq!(args.range, Some(12.0));
+    let camera = (
+        Vec3::new(-1.0, 2.0, 3.0),
+        Vec3::ZERO,
+        Some(60_f32.to_radians()),
+    );
+    assert_eq!(args.camera_override(), Some(camera));
+    assert_eq!((args.size, args.face), ([640, 480], 512));
+    assert_eq!(args.techniques.0, [Technique::Volume, Technique::Cube16]);
+    assert_eq!((args.frames, args.seed), (3, 42));
+    assert_eq!(args.adapter.as_deref(), Some("llvm"));
+    assert!(args.export);
+    assert_eq!(args.out, PathBuf::from("x/y"));
+}
+
+#[test]
+fn a_light_may_be_a_direction_and_a_camera_keep_its_field_of_view() {
+    assert_eq!(read("--light 0,1,0,0").light, Some(Vec4::Y));
+    assert_eq!(
+        read("--light=0,1,0,1").light,
+        Some(Vec4::new(0.0, 1.0, 0.0, 1.0))
+    );
+    assert_eq!(
+        read("--camera 1,1,1,0,0,0").camera_override().unwrap().2,
+        None
+    );
+}
+
+#[test]
+fn techniques_are_kept_once_in_the_order_given() {
+    let names = |line: &str| read(line).techniques.0;
+    let [hard, volume] = [Technique::CubeHard, Technique::Volume];
+    assert_eq!(names("--technique volume,cube-hard,volume"), [volume, hard]);
+    assert_eq!(names("--technique all,volume"), Technique::ALL);
+    for technique in Technique::ALL {
+        assert_eq!(
+            names(&format!("--technique {}", technique.name())),
+            [technique]
+        );
+    }
+    let told = mistake("--technique cube-8");
+    assert!(told.contains("\"cube-8\""), "{told}");
+    for technique in Technique::ALL {
+        assert!(told.contains(technique.name()), "{told}");
+    }
+}
+
+#[test]
+fn each_scene_gets_a_directory_of_its_own() {
+    let dirs = |line: &str| -> Vec<String> {
+        let args = read(line);
+        let dirs = args.scene_dirs().into_iter();
+        dirs.map(|(_, dir)| dir.display().to_string().replace('\\', "/"))
+            .collect()
+    };
+    assert_eq!(dirs("--out o --scene teapot"), ["o"]);
+    assert_eq!(dirs("--out o --scene teapot --scene teapot"), ["o"]);
+    let line = "--out o --scene teapot --scene a/x.obj --scene b/x.glb --scene x-2.obj";
+    assert_eq!(dirs(line), ["o/teapot", "o/x", "o/x-2", "o/x-2-2"]);
+}
+
+#[test]
+fn wrong_values_are_refused_with_the_reason() {
+    assert_refused("--scene nowhere", "spheres, courtyard, teapot");
+    assert_refused("--scene model.stl", ".glb");
+    assert_refused("--ground maybe", "auto");
+    assert_refused("--light 1,2", "got 2");
+    assert_refused("--light 1,2,3,0.5", "w is 0.5");
+    assert_refused("--light 0,0,0,0", "direction");
+    assert_refused("--light 1,NaN,3", "not finite");
+    assert_refused("--light 1,x,3", "\"x\" is not a number");
+    assert_refused("--range 0", "above 0");
+    assert_refused("--range -1", "above 0");
+    assert_refused("--range inf", "not finite");
+    assert_refused("--camera 1,2,3,1,2,3", "same point");
+    assert_refused("--camera 1,2,3,1,0,3", "straight above or below");
+    assert_refused("--camera 1,2,3,0,0,0,180", "field of view");
+    assert_refused("--camera 1,2,3", "got 3");
+    assert_refused("--size 1280", "WIDTHxHEIGHT");
+    assert_refused("--size 0x720", "from 1 to 8192");
+    assert_refused("--size 1280x8193", "from 1 to 8192");
+    assert_refused("--face 0", "1..=8192");
+    assert_refused("--frames 0", "1..=10000");
+    assert_refused("--seed -1", "--seed");
+}
+
+#[test]
+fn wrong_words_are_refused_and_help_is_not_a_mistake() {
+    assert_refused("--speed 3", "--speed");
+    assert_refused("courtyard", "courtyard");
+    assert_refused("--size", "--size");
+    let help = args::try_parse_from(["compare", "--help"]).expect_err("help");
+    assert_eq!(help.exit_code(), 0);
+    assert!(help.to_string().contains("--technique"));
+}

@@ -1,0 +1,372 @@
+//! The example `compare` as a user meets it: what it says, what it writes, how it exits.
+
+#[path = "../examples/compare/date.rs"]
+mod date;
+#[path = "../examples/host/mod.rs"]
+mod host;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const TECHNIQUES: [&str; 4] = ["cube-hard", "cube-2x2", "cube-16", "volume"];
+
+/// The example's binary: cargo puts it beside the folder of this test's own.
+fn binary() -> PathBuf {
+    let test = std::env::current_exe().unwrap();
+    let profile = test.parent().and_then(Path::parent).unwrap();
+    let name = format!("compare{}", std::env::consts::EXE_SUFFIX);
+    let binary = profile.join("examples").join(name);
+    assert!(
+        binary.exists(),
+        "{} is missing; `cargo test` builds it, `cargo test --test` needs `cargo build --example compare` before",
+        binary.display()
+    );
+    binary
+}
+
+/// A directory of its own for one test, empty, gone at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(test: &str) -> Self {
+        let dir = std::env::temp_dir().join(format!("shadows-{test}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&dir);
+        fs::create_dir_all(&dir).unwrap();
+        Self(dir)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+
+    fn files(&self, dir: &str) -> BTreeSet<String> {
+        let entries = fs::read_dir(self.0.join(dir)).unwrap();
+        entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect()
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn compare(args: &[&str]) -> Output {
+    Command::new(binary()).args(args).output().unwrap()
+}
+
+/// Exit code 2, one line that holds `part`, nothing written.
+fn assert_refused(args: &[&str], part: &str) {
+    let scratch = Scratch::new("refused");
+    let out = scratch.path("out");
+    let output = compare(&[args, &["--out", &out]].concat());
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{args:?}: {told}");
+    // Drivers may say things of their own before.
+    let last = told.lines().last().unwrap_or_default();
+    assert!(last.contains(part), "{args:?}: {told}");
+    assert_eq!(told.matches(last).count(), 1, "{args:?}: {told}");
+    assert!(!told.contains("panicked"), "{told}");
+    assert!(output.stdout.is_empty());
+    assert!(scratch.files("").is_empty(), "{args:?} wrote something");
+}
+
+#[test]
+fn bad_arguments_are_refused_in_one_line() {
+    for (args, part) in [
+        (&["--scene", "moon"][..], "spheres"),
+        (&["--technique", "cube-3x3"], "cube-2x2"),
+        (&["--light", "1,2"], "numbers"),
+        (&["--light", "1,2,3,0.5"], "w is 0.5"),
+        (&["--range", "0"], "above 0"),
+        (&["--camera", "1,2,3,1,2,3"], "same point"),
+        (&["--size", "0x10"], "WIDTHxHEIGHT"),
+        (&["--face", "0"], "--face"),
+        (&["--frames", "many"], "many"),
+        (&["--nonsense"], "--nonsense"),
+    ] {
+        assert_refused(args, part);
+    }
+}
+
+#[test]
+fn broken_models_are_refused_in_one_line() {
+    let models = Scratch::new("models");
+    assert_refused(&["--scene", &models.path("none.obj")], "none.obj");
+    for (name, content) in [
+        ("empty.obj", ""),
+        ("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+        ("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("broken.glb", "glTF but not really"),
+    ] {
+        let path = models.path(name);
+        fs::write(&path, content).unwrap();
+        assert_refused(&["--scene", &path], name);
+    }
+    // The first scene is fine, and is not written either.
+    let path = models.path("empty.obj");
+    assert_refused(&["--scene", "teapot", "--scene", &path], "empty.obj");
+}
+
+#[test]
+fn cube_maps_alone_are_refused_for_a_directional_light() {
+    let args = ["--light", "1,2,3,0", "--technique", "cube-hard,cube-16"];
+    assert_refused(&args, "directional");
+}
+
+#[test]
+fn an_adapter_that_is_not_there_is_named() {
+    assert_refused(&["--adapter", "no such adapter"], "adapter");
+}
+
+#[test]
+fn a_range_within_the_shadow_near_plane_is_refused() {
+    if host::gpu::Gpu::for_test().is_some() {
+        let args = [
+            "--range",
+            "1e-9",
+            "--size",
+            "8x8",
+            "--technique",
+            "cube-hard",
+        ];
+        assert_refused(&args, "near");
+    }
+}
+
+#[test]
+fn a_file_in_the_way_is_left_alone() {
+    let scratch = Scratch::new("in-the-way");
+    let out = scratch.path("out");
+    fs::write(&out, "mine").unwrap();
+    let output = compare(&["--out", &out, "--size", "16x9", "--frames", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&out).unwrap(), "mine");
+}
+
+#[test]
+fn help_is_no_error() {
+    let output = compare(&["--help"]);
+    assert!(output.status.success());
+    assert!(
+        String::from_utf8(output.stdout)
+            .unwrap()
+            .contains("--technique")
+    );
+}
+
+#[test]
+fn a_small_run_writes_everything() {
+    if host::gpu::Gpu::for_test().is_none() {
+        return;
+    }
+    let scratch = Scratch::new("small");
+    let out = scratch.path("made/on/the/way");
+    let output = compare(&[
+        "--size", "160x90", "--frames", "3", "--face", "128", "--export", "--out", &out,
+    ]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let mut expected: BTreeSet<String> = [
+        "report.json",
+        "report.md",
+        "speed-vs-error.svg",
+        "reference.visibility.png",
+        "coverage.png",
+        "scene.ply",
+    ]
+    .map(str::to_owned)
+    .into();
+    for technique in TECHNIQUES {
+        for picture in ["visibility", "shaded", "error"] {
+            expected.insert(format!("{technique}.{picture}.png"));
+        }
+    }
+    assert_eq!(scratch.files("made/on/the/way"), expected);
+    let dir = Path::new(&out);
+    let text = fs::read_to_string(dir.join("report.json")).unwrap();
+    check_report(&serde_json::from_str(&text).unwrap());
+    check_visibility(dir);
+    let markdown = fs::read_to_string(dir.join("report.md")).unwrap();
+    let svg = fs::read_to_string(dir.join("speed-vs-error.svg")).unwrap();
+    for technique in TECHNIQUES {
+        assert!(markdown.contains(&format!("| `{technique}` |")));
+        assert!(svg.contains(technique), "{technique} is not in the plot");
+    }
+}
+
+fn check_report(report: &Value) {
+    assert_eq!(report["size"], serde_json::json!([160, 90]));
+    let scene = host::scene::spheres();
+    let matrix = scene.camera.clip_from_world(160.0 / 90.0).to_cols_array();
+    let written: Vec<f32> = floats(&report["camera"]["clip_from_world"]);
+    assert_eq!(written, matrix, "not the same f32 numbers");
+    assert_eq!(floats(&report["light"]), scene.light.to_array());
+    assert_eq!(
+        floats(&report["camera"]["eye"]),
+        scene.camera.eye.to_array()
+    );
+    assert_eq!(
+        report["camera"]["fovy"].as_f64().unwrap() as f32,
+        scene.camera.fovy
+    );
+    assert_eq!(report["camera"]["depth"], "reverse-z-infinite");
+    for field in ["name", "backend", "driver"] {
+        assert!(report["adapter"][field].is_string(), "{field}");
+    }
+    let objects = report["scene"].as_array().unwrap();
+    assert_eq!(objects.len(), scene.objects.len());
+    assert!(
+        objects
+            .iter()
+            .any(|o| o["kind"] == "closed" && o["triangles"] == 1536)
+    );
+    assert!(objects.iter().any(|o| o["kind"] == "general"));
+    let facing = report["reference"]["lit_facing"].as_u64().unwrap();
+    assert_eq!(report["reference"]["pixels"], 160 * 90);
+    assert!(facing > 1000 && facing < 160 * 90);
+
+    let techniques = report["techniques"].as_array().unwrap();
+    let names: Vec<&str> = techniques
+        .iter()
+        .map(|t| t["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, TECHNIQUES);
+    for technique in techniques {
+        check_technique(technique, facing);
+    }
+}
+
+fn check_technique(technique: &Value, facing: u64) {
+    for work in ["prepare_ms", "generate_ms", "shade_ms"] {
+        let times = &technique[work];
+        assert_eq!(times["samples"], 3);
+        let (median, min) = (&times["median"], &times["min"]);
+        assert!(min.as_f64().unwrap() <= median.as_f64().unwrap(), "{work}");
+        assert!(times["clock"] == "wall" || times["clock"] == "gpu");
+    }
+    for work in ["prepare_ms", "generate_ms"] {
+        assert!(
+            technique[work]["min"].as_f64().unwrap() > 0.0,
+            "{technique}"
+        );
+    }
+    for wrong in ["false_lit", "false_shadow"] {
+        let pixels = technique[wrong].as_u64().unwrap();
+        let percent = technique[format!("{wrong}_percent")].as_f64().unwrap();
+        assert_eq!(percent, 100.0 * pixels as f64 / facing as f64);
+        let interior = technique[format!("{wrong}_interior")].as_u64().unwrap();
+        assert!(interior <= pixels && pixels < facing);
+    }
+    assert!(technique["rmse"].as_f64().unwrap() < 0.5);
+    for cost in ["bytes", "draws", "triangles_drawn"] {
+        assert!(technique[cost].as_u64().unwrap() > 0, "{cost}");
+    }
+    assert!(
+        technique["settings"]
+            .as_object()
+            .is_some_and(|s| !s.is_empty())
+    );
+}
+
+fn floats(list: &Value) -> Vec<f32> {
+    let numbers = list.as_array().unwrap().iter();
+    numbers.map(|n| n.as_f64().unwrap() as f32).collect()
+}
+
+/// The masks agree with the report: wrong pixels counted again from the pictures.
+fn check_visibility(dir: &Path) {
+    let read = |name: &str| {
+        let file = std::io::BufReader::new(fs::File::open(dir.join(name)).unwrap());
+        let mut reader = png::Decoder::new(file).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        assert_eq!((info.width, info.height), (160, 90), "{name}");
+        assert_eq!(info.color_type, png::ColorType::Grayscale, "{name}");
+        pixels
+    };
+    let text = fs::read_to_string(dir.join("report.json")).unwrap();
+    let report: Value = serde_json::from_str(&text).unwrap();
+    let (coverage, truth) = (read("coverage.png"), read("reference.visibility.png"));
+    for technique in report["techniques"].as_array().unwrap() {
+        let seen = read(&format!(
+            "{}.visibility.png",
+            technique["name"].as_str().unwrap()
+        ));
+        let wrong = |lit: bool| {
+            let pixels = coverage.iter().zip(&truth).zip(&seen);
+            pixels
+                .filter(|((c, t), s)| **c == 255 && (**t == 255) != lit && (**s >= 128) == lit)
+                .count() as u64
+        };
+        assert_eq!(technique["false_lit"], wrong(true));
+        assert_eq!(technique["false_shadow"], wrong(false));
+    }
+}
+
+#[test]
+fn several_scenes_get_a_directory_each_and_other_files_stay() {
+    if host::gpu::Gpu::for_test().is_none() {
+        return;
+    }
+    let scratch = Scratch::new("several");
+    fs::create_dir_all(scratch.0.join("out/teapot")).unwrap();
+    fs::write(scratch.0.join("out/teapot/notes.txt"), "mine").unwrap();
+    let out = scratch.path("out");
+    let output = compare(&[
+        "--scene",
+        "spheres",
+        "--scene",
+        "teapot",
+        "--light",
+        "1,2,0.5,0",
+        "--size",
+        "64x36",
+        "--frames",
+        "1",
+        "--out",
+        &out,
+    ]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    assert!(told.contains("cube-2x2 is left out"), "{told}");
+    for scene in ["spheres", "teapot"] {
+        let files = scratch.files(&format!("out/{scene}"));
+        assert!(files.contains("report.json") && files.contains("volume.error.png"));
+        assert!(!files.contains("cube-hard.error.png"));
+        assert!(!files.iter().any(|name| name.starts_with('.')), "{files:?}");
+    }
+    let notes = scratch.0.join("out/teapot/notes.txt");
+    assert_eq!(fs::read_to_string(notes).unwrap(), "mine");
+}
+
+#[test]
+fn days_are_found_across_leap_years() {
+    assert_eq!(date::date(0), "1970-01-01");
+    assert_eq!(date::date(951_782_400), "2000-02-29");
+    assert_eq!(date::date(951_868_800), "2000-03-01");
+    assert_eq!(date::date(1_798_761_599), "2026-12-31");
+}
+
+#[test]
+fn timestamps_grow_with_the_work() {
+    use host::timer::{Clock, Timer};
+    let Some(gpu) = host::gpu::Gpu::for_test() else {
+        return;
+    };
+    let inside = shadows::wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
+    if !gpu.device.features().contains(inside) {
+        eprintln!("skipped: no timestamps");
+        return;
+    }
+    let timer = Timer::with_timestamps(&gpu, true);
+    assert_eq!(timer.clock(), Clock::Gpu);
+    let nothing = gpu.checked(|| timer.time(&gpu, |_| ()));
+    assert!(nothing.is_finite() && nothing >= 0.0);
+}

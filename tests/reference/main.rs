@@ -1,0 +1,8 @@
+//! The reference against analytic answers, and its comparison against counts made by hand.
+
+mod comparison;
+mod input;
+mod published;
+mod robustness;
+mod scene;
+mod visibility;
