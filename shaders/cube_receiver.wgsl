@@ -11,6 +11,10 @@ struct ShadowsCubeLight {
     // Biases; a texel at distance 1 along the major axis is 2 / size wide.
     normal_offset: f32,
     depth_scale: f32,
+    // One step of the map's format.
+    quantum: f32,
+    // Which cube of the array; -1: no caster in range, -2: not drawn yet.
+    cube: i32,
 }
 
 // One face of the cube, seen from a receiver on it: directions are
@@ -45,6 +49,9 @@ struct ShadowsCubeReceiver {
     width: f32,
     // 1: surely lit, 0: surely unlit, -1: ask the map.
     known: f32,
+    cube: i32,
+    quantum: f32,
+    range_over_near: f32,
 }
 
 fn shadows_cube_face(direction: vec3f, size: f32) -> ShadowsCubeFace {
@@ -81,10 +88,13 @@ fn shadows_cube_receiver(
     let from_light = position - light.position;
     let distance = length(from_light);
     var receiver: ShadowsCubeReceiver;
-    if distance > light.range {
-        receiver.known = 0.0;
+    if distance > light.range || light.cube < 0 {
+        receiver.known = select(0.0, 1.0, distance <= light.range && light.cube == -1);
         return receiver;
     }
+    receiver.cube = light.cube;
+    receiver.quantum = light.quantum;
+    receiver.range_over_near = light.range / light.near;
     let face = shadows_cube_face(from_light, light.size);
     receiver.face = face;
     receiver.texel = face.texel;

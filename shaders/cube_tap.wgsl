@@ -23,7 +23,8 @@ fn shadows_cube_look(
     }
     let axes = receiver.face;
     let direction = mat3x3f(axes.forward, axes.right, axes.down) * coordinates;
-    let stored = textureSampleLevel(map, map_sampler, direction, 0.0).x;
+    let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
+    let stored = shadows_cube_depth(receiver, found, vec4f(dot(coordinates, coordinates))).x;
     return vec2f(clamp(dot(receiver.plane, coordinates), 0.0, receiver.bound), stored);
 }
 

@@ -25,6 +25,7 @@ fn shadows_cube_depths(
     }
     let face = receiver.face;
     let direction = mat3x3f(face.forward, face.right, face.down) * coordinates;
-    let stored = textureSampleLevel(map, map_sampler, direction, 0.0).x;
+    let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
+    let stored = shadows_cube_depth(receiver, found, vec4f(dot(coordinates, coordinates))).x;
     return vec2f(dot(receiver.plane, coordinates), stored);
 }

@@ -19,8 +19,7 @@ fn shadows_cube_four(
         + vec4f(-across, across, across, -across)
         + vec4f(down, down, -down, -down);
     if shadows_cube_gathers(size, corner) && all(reference > vec4f(receiver.horizon)) {
-        // Halfway between the texel centres, so no rounding of the address picks other texels.
-        let stored = shadows_cube_gather(map, map_sampler, receiver, size, corner);
+        let stored = shadows_cube_stored(map, map_sampler, receiver, size, corner);
         let bounded = clamp(reference, vec4f(0.0), vec4f(receiver.bound));
         return select(vec4f(0.0), vec4f(1.0), bounded >= stored);
     }

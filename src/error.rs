@@ -235,6 +235,41 @@ pub enum CubeShadowMapError {
         /// Bytes allowed.
         limit: u64,
     },
+    /// No light at all, or more than the texture's layers can hold.
+    #[error("a map for {lights} lights is out of range; 1 to {limit} (six layers each)")]
+    Slots {
+        /// Lights asked for.
+        lights: u32,
+        /// The most that work.
+        limit: u32,
+    },
+    /// The format is none that a map can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
+    /// A budget of no face at all.
+    #[error("max_faces_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
+    Budget,
+    /// A slope-scaled bias where the fragment shader writes the depth.
+    #[error(
+        "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
+    )]
+    SlopeScale,
+    /// More lights in a frame than the map was made for.
+    #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
+    TooManyLights {
+        /// Lights passed.
+        lights: usize,
+        /// Lights the map was made for.
+        slots: usize,
+    },
+    /// A pinned light that is not in the frame.
+    #[error("light {pinned} is pinned, but the frame has {lights} lights, counted from 0")]
+    Pinned {
+        /// The place that was passed.
+        pinned: usize,
+        /// Lights in the frame.
+        lights: usize,
+    },
 }
 
 /// What can be wrong with a [`PcfSampler`](crate::PcfSampler).
@@ -289,6 +324,21 @@ pub enum PcfError {
         made_for: crate::MapKind,
         /// What it was given.
         given: crate::MapKind,
+    },
+    /// The map's texels hold something else than the sampler's shader expects.
+    #[error("the map holds {map:?} depths, the sampler reads {sampler:?}; make both with the same")]
+    Encoding {
+        /// What the map holds.
+        map: crate::DepthEncoding,
+        /// What the sampler reads.
+        sampler: crate::DepthEncoding,
+    },
+    /// A sampler for many lights and a map with one texture for each.
+    #[error(
+        "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
+    )]
+    NoCubeArray,
+}
 
 /// What can be wrong with the input of [`reference`](crate::reference).
 #[cfg(feature = "reference")]

@@ -39,7 +39,6 @@
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
 //! let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
-//! let group = sampler.bind_group(&device, &map)?;
 //! let lighting = sampler.wgsl_module(1)
 //!     + "@fragment fn light(@location(0) world: vec3f) -> @location(0) vec4f {
 //!            return vec4f(shadows_visibility(world)); // times the light's colour
@@ -74,7 +73,9 @@
 //! #     .create_view(&Default::default());
 //!
 //! // Every frame: decide, then record into the host's own encoder and pass.
-//! map.prepare(&device, &queue, &CubeFrame { light: &light, casters: &casters })?;
+//! let frame = CubeFrame { lights: &[light], casters: &casters, ..Default::default() };
+//! map.prepare(&device, &queue, &frame)?;
+//! let group = sampler.bind_group(&device, &map)?; // again when `map.texture_revision()` changes
 //! volumes.prepare(
 //!     &device,
 //!     &queue,
@@ -142,7 +143,10 @@ pub mod volume;
 pub mod wgsl;
 
 pub use light::{HomogeneousLight, PointLight};
-pub use map::{Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics};
+pub use map::{
+    Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics,
+    DepthEncoding, FaceState, FaceStatistics,
+};
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
     AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,

@@ -150,6 +150,7 @@ fn a_bilinear_cube_map_is_wrong_only_at_edges_on_the_spheres() {
     let peter_panning = Bias {
         normal_offset: 0.0,
         constant: 20.0,
+        ..Bias::NONE
     };
     for (what, bias, falsify) in [
         ("a moved light", Bias::default(), move_light as fn(&mut _)),

@@ -53,8 +53,9 @@ fn bad_frames_are_refused_and_the_map_goes_on() {
     let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
     let good = [cuboid(Vec3::ONE).caster(&device, Affine3A::from_translation(Vec3::X * 4.0))];
     let frame = CubeFrame {
-        light: &light,
+        lights: &[light],
         casters: &good,
+        ..Default::default()
     };
     map.prepare(&device, &queue, &frame).unwrap();
     let before = map.statistics();
@@ -68,7 +69,7 @@ fn bad_frames_are_refused_and_the_map_goes_on() {
             &device,
             &queue,
             &CubeFrame {
-                light: &bad_light,
+                lights: &[bad_light],
                 ..frame
             },
         )
@@ -93,8 +94,8 @@ fn bad_frames_are_refused_and_the_map_goes_on() {
                 &device,
                 &queue,
                 &CubeFrame {
-                    light: &light,
                     casters: &casters,
+                    ..frame
                 },
             )
             .unwrap_err();
@@ -125,8 +126,9 @@ fn more_casters_than_a_buffer_holds_are_refused() {
             &device,
             &queue,
             &CubeFrame {
-                light: &light,
+                lights: &[light],
                 casters: &casters,
+                ..Default::default()
             },
         )
         .unwrap_err();
@@ -139,8 +141,9 @@ fn more_casters_than_a_buffer_holds_are_refused() {
         }
     );
     let frame = CubeFrame {
-        light: &light,
+        lights: &[light],
         casters: &casters[..85],
+        ..Default::default()
     };
     map.prepare(&device, &queue, &frame).unwrap();
 }

@@ -18,13 +18,17 @@ use shadows::{
 
 fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster]) -> CubeShadowMap {
     let descriptor = CubeShadowMapDescriptor {
-        label: None,
         size,
         bias,
+        ..Default::default()
     };
     gpu.checked(|| {
         let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-        let frame = CubeFrame { light, casters };
+        let frame = CubeFrame {
+            lights: std::slice::from_ref(light),
+            casters,
+            ..Default::default()
+        };
         map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
         gpu.run(|encoder| map.encode(encoder));
         map

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use shadows::reference::Interior;
 use shadows::{
     Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, HomogeneousLight, Kernel,
-    PcfDescriptor, PcfSampler, PointLight, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    PcfDescriptor, PcfSampler, PointLight, Radius, ShadowVolumeDescriptor, ShadowVolumeFrame,
     ShadowVolumeRenderer, View, wgpu,
 };
 
@@ -14,7 +14,7 @@ use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene_gpu::SceneGpu;
 
 /// A way to make shadows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Technique {
     /// A cube shadow map read through a kernel.
     Cube(Kernel),
@@ -99,7 +99,9 @@ pub struct Shadow {
 enum Means {
     Cube {
         map: Box<CubeShadowMap>,
-        group: wgpu::BindGroup,
+        sampler: Box<PcfSampler>,
+        /// The map's textures, and which of its revisions they are.
+        group: Option<(u64, wgpu::BindGroup)>,
         bias: Bias,
     },
     Volume {
@@ -143,9 +145,20 @@ impl Shadow {
                 label,
                 size: face,
                 bias,
+                // Every frame pays for its map, as a frame of a moving light does.
+                cache: false,
+                ..Default::default()
             },
         )?;
-        let sampler = PcfSampler::new(&gpu.device, &PcfDescriptor { label, kernel });
+        let sampler = PcfSampler::new(
+            &gpu.device,
+            &gpu.queue,
+            &PcfDescriptor {
+                label,
+                kernel,
+                ..Default::default()
+            },
+        )?;
         let lit = renderer.lit_pipeline(
             gpu,
             &ShadowAccess {
@@ -154,13 +167,13 @@ impl Shadow {
                 stencil: None,
             },
         );
-        let group = sampler.bind_group(&gpu.device, &map);
         Ok(Self {
             technique,
             lit,
             means: Means::Cube {
                 map: Box::new(map),
-                group,
+                sampler: Box::new(sampler),
+                group: None,
                 bias,
             },
         })
@@ -202,9 +215,22 @@ impl Shadow {
     pub fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()> {
         let casters = &inputs.casters;
         match &mut self.means {
-            Means::Cube { map, .. } => {
-                let light = &inputs.point_light()?;
-                map.prepare(&gpu.device, &gpu.queue, &CubeFrame { light, casters })?;
+            Means::Cube {
+                map,
+                sampler,
+                group,
+                ..
+            } => {
+                let frame = CubeFrame {
+                    lights: &[inputs.point_light()?],
+                    casters,
+                    ..Default::default()
+                };
+                map.prepare(&gpu.device, &gpu.queue, &frame)?;
+                let revision = map.texture_revision();
+                if group.as_ref().is_none_or(|(of, _)| *of != revision) {
+                    *group = Some((revision, sampler.bind_group(&gpu.device, map.as_ref())?));
+                }
             }
             Means::Volume { renderer, .. } => {
                 let frame = ShadowVolumeFrame {
@@ -233,7 +259,7 @@ impl Shadow {
     /// Records the lit pass.
     pub fn shade(&self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
         let group = match &self.means {
-            Means::Cube { group, .. } => Some(group),
+            Means::Cube { group, .. } => group.as_ref().map(|(_, group)| group),
             Means::Volume { .. } => None,
         };
         host.draw_lit(encoder, scene, &self.lit, group);
@@ -267,7 +293,7 @@ impl Shadow {
             (Means::Cube { map, bias, .. }, Technique::Cube(kernel)) => json!({
                 "face_texels": map.size(),
                 "kernel": format!("{kernel:?}"),
-                "kernel_radius_texels": kernel.radius(),
+                "kernel_radius_texels": radius_in_texels(kernel),
                 "bias_normal_offset_texels": bias.normal_offset,
                 "bias_constant_texels": bias.constant,
             }),
@@ -284,9 +310,19 @@ impl Shadow {
         match (&self.means, self.technique) {
             (Means::Cube { map, .. }, Technique::Cube(kernel)) => Interior::Map {
                 face_size: map.size(),
-                kernel_radius: kernel.radius(),
+                kernel_radius: radius_in_texels(kernel),
             },
             _ => Interior::Screen,
         }
+    }
+}
+
+/// How many texels a kernel reaches, at most: disks are measured on the surface, where texels are
+/// up to `sqrt(3)` smaller than straight ahead, and reach to the centre of the texel they hit.
+fn radius_in_texels(kernel: Kernel) -> f32 {
+    match kernel.radius() {
+        Radius::Texels(radius) if kernel.uses_pixel() => radius * 3.0_f32.sqrt() + 0.5,
+        Radius::Texels(radius) => radius,
+        Radius::World(_) => f32::INFINITY, // no pixel is safely interior
     }
 }

@@ -7,7 +7,7 @@ use crate::error::BiasError;
 /// Every tap is compared with the depth of the receiver's own plane in that tap's direction (see
 /// [`PcfSampler`](crate::PcfSampler)), so a bias has nothing to do with slope or kernel width. What
 /// is left for it is rounding, the rasteriser's snapping of vertices to 1/256 of a texel, and the
-/// bend from one triangle of a concave surface to the next. Both fields are in texels: one texel is
+/// bend from one triangle of a concave surface to the next. The first two fields are in texels: one texel is
 /// `2 d / size` wide at a distance `d` along the major axis. A scene at another scale needs no
 /// other numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,11 @@ pub struct Bias {
     pub normal_offset: f32,
     /// Distance toward the light, in texels at the receiver. Default 0.05. At least 0.
     pub constant: f32,
+    /// Slope-scaled bias of the rasteriser, away from the light, as a factor of how much a caster's
+    /// depth changes from one texel to the next. Default 0: receivers are compared with their own
+    /// plane, so casters need none. For hosts that sample the map with a comparison of their own.
+    /// At least 0.
+    pub slope_scale: f32,
 }
 
 impl Bias {
@@ -26,9 +31,10 @@ impl Bias {
     pub const NONE: Self = Self {
         normal_offset: 0.0,
         constant: 0.0,
+        slope_scale: 0.0,
     };
 
-    /// Checks that both fields are finite and at least 0.
+    /// Checks that every field is finite and at least 0.
     ///
     /// # Errors
     /// [`BiasError`] names the field.
@@ -36,6 +42,7 @@ impl Bias {
         for (field, value) in [
             ("normal_offset", self.normal_offset),
             ("constant", self.constant),
+            ("slope_scale", self.slope_scale),
         ] {
             if !(value.is_finite() && value >= 0.0) {
                 return Err(BiasError { field, value });
@@ -50,6 +57,7 @@ impl Default for Bias {
         Self {
             normal_offset: 0.1,
             constant: 0.05,
+            slope_scale: 0.0,
         }
     }
 }

@@ -1,189 +1,373 @@
 //! Omnidirectional shadow maps.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::Ordering;
 
 use glam::Mat4;
 
-use super::cull::{Group, INSTANCE_SIZE, sort_into_faces};
+use super::assign::assign;
+use super::descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
+use super::draws::{Draw, DrawLists};
 use super::face::CubeFace;
-use super::resources::{self, MATRIX_STRIDE};
+use super::light::{Depths, LightUniform};
+use super::plan::SlotPlan;
+use super::resources::{
+    self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind, UNIFORM_STRIDE,
+};
+use super::scene::Scene;
+use super::slot::Slot;
+use super::statistics::{Clock, CubeStatistics};
+use super::texture::Textures;
 use crate::error::CubeShadowMapError;
-use crate::mesh::{Caster, CasterMesh};
 use crate::{Bias, PointLight};
 
-/// A mask of all six faces.
-const ALL_FACES: u8 = 0b11_1111;
-/// How to make a [`CubeShadowMap`].
-#[derive(Clone, Debug)]
-pub struct CubeShadowMapDescriptor<'a> {
-    /// Name of the map in debuggers. Default none.
-    pub label: Option<&'a str>,
-    /// Texels along each side of a face. Default 1024. 1 to the device's
-    /// `max_texture_dimension_2d`. Memory: 24 bytes a texel (six faces of 4 bytes).
-    pub size: u32,
-    /// Bias for receivers. Default [`Bias::default`], which needs no tuning.
-    pub bias: Bias,
-}
-
-impl Default for CubeShadowMapDescriptor<'_> {
-    fn default() -> Self {
-        Self {
-            label: None,
-            size: 1024,
-            bias: Bias::default(),
-        }
-    }
-}
-
-/// What a [`CubeShadowMap`] is to show this frame.
-#[derive(Clone, Copy, Debug)]
-pub struct CubeFrame<'a> {
-    /// The light.
-    pub light: &'a PointLight,
-    /// Everything that may cast; what the light cannot reach is left out by the map itself.
-    pub casters: &'a [Caster],
-}
-
-/// What the last [`CubeShadowMap::prepare`] found and the next `encode` will do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct CubeStatistics {
-    /// Faces that will be drawn or cleared.
-    pub faces_rendered: u32,
-    /// Faces without a caster that are clear already and left alone.
-    pub faces_kept_clear: u32,
-    /// Casters that touch at least one face.
-    pub casters_drawn: u32,
-    /// Casters beyond the light's range.
-    pub casters_out_of_range: u32,
-    /// Draw calls.
-    pub draws: u32,
-    /// Triangles in those draws.
-    pub triangles: u64,
-    /// GPU memory held: texture and buffers.
-    pub bytes: u64,
-}
-
-/// An omnidirectional depth map for one point light: six faces, drawn only where a caster is.
+/// Omnidirectional depth maps for point lights: six faces each, drawn only where a caster is, and
+/// only when it has changed.
 ///
-/// `Depth32Float`, infinite reverse-Z: a texel holds `near / d`, where `d` is the distance along
-/// the face's major axis, and 0 where no caster is. That is linear over a face for any plane,
-/// which is what lets [`PcfSampler`](crate::PcfSampler) compare every tap with the receiver's own
-/// plane. (Cube maps for point lights: Gerasimov, "Omnidirectional Shadow Mapping", GPU Gems,
-/// 2004.)
+/// By default `Depth32Float`, infinite reverse-Z: a texel holds `near / d`, where `d` is the
+/// distance along the face's major axis, and 0 where no caster is. That is linear over a face for
+/// any plane, which is what lets [`PcfSampler`](crate::PcfSampler) compare every tap with the
+/// receiver's own plane. (Cube maps for point lights: Gerasimov, "Omnidirectional Shadow Mapping",
+/// GPU Gems, 2004.)
+///
+/// # What is drawn again
+///
+/// A face whose light, casters, transforms and mesh revisions are those it was drawn with is left
+/// alone. This is found by comparing, so there is no flag to set; only a mesh that the host deforms
+/// in its own buffer needs [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision). The
+/// order of the casters does not matter. A still scene costs one comparison of 80 bytes a caster
+/// and no GPU work; a caster that moves costs two culling tests a light, and the faces it left or
+/// entered their draws.
 #[derive(Debug)]
 pub struct CubeShadowMap {
-    size: u32,
+    pub(super) size: u32,
     bias: Bias,
     label: String,
-    texture: wgpu::Texture,
-    cube: wgpu::TextureView,
-    faces: [wgpu::TextureView; 6],
-    shader: wgpu::ShaderModule,
-    pipeline_layout: wgpu::PipelineLayout,
-    // One for each distance between positions that a mesh came with.
-    pipelines: HashMap<u64, wgpu::RenderPipeline>,
-    matrices: wgpu::Buffer,
-    matrix_group: wgpu::BindGroup,
-    light_uniform: wgpu::Buffer,
+    array: bool,
+    format: wgpu::TextureFormat,
+    encoding: DepthEncoding,
+    pub(super) allocation: Allocation,
+    pub(super) cache: bool,
+    pub(super) budget: Option<u32>,
+    pub(super) textures: Textures,
+    kind: PipelineKind,
+    pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
+    face_uniforms: wgpu::Buffer,
+    face_group: wgpu::BindGroup,
+    lights: resources::Lights,
     instances: wgpu::Buffer,
-    draws: [Vec<Draw>; 6],
-    light: Option<PointLight>,
+    pub(super) scene: Scene,
+    pub(super) slots: Vec<Slot>,
+    /// For each light of the frame its slot.
+    pub(super) order: Vec<usize>,
+    pub(super) plans: Vec<SlotPlan>,
+    draws: DrawLists,
+    // What the uniforms hold, by light and by slot.
+    written_lights: Vec<Option<LightUniform>>,
+    written_faces: Vec<Option<[f32; 2]>>,
     statistics: CubeStatistics,
-    // Faces that the next encode must draw, and faces that may hold something. They change in
-    // `encode` and `begin_face`, which borrow the map shared as a host's frame graph wants it.
-    pending: AtomicU8,
-    filled: AtomicU8,
-}
-
-/// One draw call: a mesh, and where its instances lie.
-#[derive(Clone, Debug)]
-struct Draw {
-    mesh: CasterMesh,
-    first_instance: u64,
-    instance_count: u32,
-}
-
-/// What receivers need to know of the light; `ShadowsCubeLight` in WGSL.
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-pub(crate) struct LightUniform {
-    pub position: [f32; 3],
-    pub near: f32,
-    pub range: f32,
-    pub size: f32,
-    pub normal_offset: f32,
-    pub depth_scale: f32,
+    reordered: u64,
 }
 
 impl CubeShadowMap {
-    /// Allocates a map.
+    /// Makes a map. It has no texture until a light casts ([`Allocation`]).
     ///
     /// # Errors
-    /// [`CubeShadowMapError`] if the size or the bias is out of range.
+    /// [`CubeShadowMapError`] if size, bias, lights, format or budget is out of range.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &CubeShadowMapDescriptor<'_>,
     ) -> Result<Self, CubeShadowMapError> {
-        let &CubeShadowMapDescriptor { label, size, bias } = descriptor;
-        let limit = device.limits().max_texture_dimension_2d;
-        if size == 0 || size > limit {
-            return Err(CubeShadowMapError::Size { size, limit });
-        }
-        bias.validate()?;
-        let label = match label {
+        descriptor.validate(device)?;
+        let &CubeShadowMapDescriptor {
+            size,
+            bias,
+            cube_array,
+            format,
+            encoding,
+            ..
+        } = descriptor;
+        let slots = descriptor.lights as usize;
+        let label = match descriptor.label {
             Some(label) => format!("shadows cube map {label}"),
             None => "shadows cube map".to_owned(),
         };
-        let texture = resources::texture(device, &label, size);
-        let (matrices, layout, matrix_group) = resources::matrices(device, &label);
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(&label),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
-        Ok(Self {
-            size,
-            bias,
-            cube: resources::cube_view(&texture, &label),
-            faces: CubeFace::ALL.map(|face| resources::face_view(&texture, &label, face)),
-            texture,
+        let (face_uniforms, layout, face_group) = resources::faces(device, &label, slots as u64);
+        let kind = PipelineKind {
+            layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(&label),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: 0,
+            }),
             shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(&label),
                 source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CASTER.into()),
             }),
-            pipeline_layout,
+            format,
+            encoding,
+            slope_scale: bias.slope_scale,
+        };
+        let mut textures = Textures::new(device, &label, size, format, slots, cube_array);
+        if descriptor.allocation == Allocation::AtOnce {
+            for slot in 0..slots {
+                textures.allocate(device, slot);
+            }
+        }
+        Ok(Self {
+            size,
+            bias,
+            array: cube_array,
+            format,
+            encoding,
+            allocation: descriptor.allocation,
+            cache: descriptor.cache,
+            budget: descriptor.max_faces_per_frame,
+            textures,
+            kind,
             pipelines: HashMap::new(),
-            matrices,
-            matrix_group,
-            light_uniform: resources::light_uniform(device, &label),
+            face_uniforms,
+            face_group,
+            lights: resources::lights(device, &label, slots as u64, cube_array),
             instances: resources::instances(device, &label, 1),
             label,
-            draws: Default::default(),
-            light: None,
+            scene: Scene::new(descriptor.cull_front_faces),
+            slots: (0..slots)
+                .map(|_| Slot::new(descriptor.cull_casters))
+                .collect(),
+            order: Vec::new(),
+            plans: Vec::new(),
+            draws: DrawLists::new(slots),
+            written_lights: vec![None; slots],
+            written_faces: vec![None; slots],
             statistics: CubeStatistics::default(),
-            pending: AtomicU8::new(0),
-            // A new texture's content is unknown until each face has been cleared once.
-            filled: AtomicU8::new(ALL_FACES),
+            reordered: 0,
         })
     }
 
-    /// Decides which casters go on which faces and uploads what drawing them needs.
+    /// Decides which casters go on which faces and which faces are drawn, and uploads what that
+    /// needs.
     ///
     /// # Errors
-    /// [`CubeShadowMapError`] if the light or a caster is out of range; the map is then as it was.
+    /// [`CubeShadowMapError`] if a light or a caster is out of range, or there are too many. What
+    /// an earlier `prepare` found then still stands.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         frame: &CubeFrame<'_>,
     ) -> Result<(), CubeShadowMapError> {
-        frame.light.validate()?;
-        for (index, caster) in frame.casters.iter().enumerate() {
-            caster.validate(index, device)?;
+        let clock = Clock::start();
+        frame.validate(self.slots.len())?;
+        self.scene.compare(frame.casters, device)?;
+        self.slots.iter_mut().for_each(Slot::catch_up);
+        self.take_over(frame);
+        self.allocate(device);
+        let plans = self.plan(frame);
+        self.reserve(device, &plans)?;
+        self.follow(&plans);
+        self.record_draws(device, queue, &plans, frame);
+        self.write_lights(queue, frame.lights);
+
+        let mut statistics = self.tally(&plans);
+        for draw in self.draws.iter() {
+            statistics.draws += 1;
+            statistics.triangles +=
+                u64::from(draw.mesh.triangle_count()) * u64::from(draw.instance_count);
         }
-        let (groups, mut statistics) = sort_into_faces(frame);
-        let count: usize = groups.iter().flat_map(|g| &g.faces).map(Vec::len).sum();
+        statistics.bytes = self.bytes();
+        statistics.prepare = clock.elapsed();
+        self.statistics = statistics;
+        Ok(())
+    }
+
+    /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
+    /// call before the next `prepare` records nothing. What is recorded must be submitted.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        for (index, slot) in self.slots.iter().enumerate() {
+            let pending = slot.pending.swap(0, Ordering::Relaxed);
+            for face in CubeFace::ALL {
+                if pending & face.bit() == 0 {
+                    continue;
+                }
+                let Some(mut pass) = self.begin_pass(encoder, index, face) else {
+                    continue; // prepare made the texture of every slot with pending faces
+                };
+                let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
+                pass.set_bind_group(0, &self.face_group, &[offset]);
+                for draw in self.draws.of(index, face.layer() as usize) {
+                    self.draw(&mut pass, draw);
+                }
+                slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Begins a pass that clears one face of a light, for a host that draws its own geometry
+    /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
+    /// one sample, the comparison and clear depth of its [`DepthEncoding`]. `None` if the light has
+    /// no texels (see [`Allocation::AtOnce`]) or the last frame had no such light.
+    ///
+    /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew on this face
+    /// is cleared, so pass such a host's other casters through its own draws too. The next
+    /// `prepare` takes the face's content for unknown and draws it again.
+    pub fn begin_face<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        light: usize,
+        face: CubeFace,
+    ) -> Option<wgpu::RenderPass<'encoder>> {
+        let &index = self.order.get(light)?;
+        let pass = self.begin_pass(encoder, index, face)?;
+        let slot = &self.slots[index];
+        slot.pending.fetch_and(!face.bit(), Ordering::Relaxed);
+        slot.touched.fetch_or(face.bit(), Ordering::Relaxed);
+        Some(pass)
+    }
+
+    /// The matrix of a face for a light of the last [`prepare`](Self::prepare), world space to clip
+    /// space; `None` if there was no such light. The frame is left-handed: triangles that are
+    /// counter-clockwise seen from the light are clockwise on the face. While a light that moved
+    /// waits for its faces, this is still the matrix of where it was.
+    pub fn clip_from_world(&self, light: usize, face: CubeFace) -> Option<Mat4> {
+        let slot = &self.slots[*self.order.get(light)?];
+        let light = slot.shown.or(slot.light)?;
+        Some(face.clip_from_light(light.near) * Mat4::from_translation(-light.position))
+    }
+
+    /// A light's texture and the first of its six layers, in the order of [`CubeFace::ALL`]; `None`
+    /// if it has no texels.
+    pub fn texture(&self, light: usize) -> Option<(&wgpu::Texture, u32)> {
+        let slot = self.textures.slot(*self.order.get(light)?)?;
+        Some((&slot.texture, slot.first_layer))
+    }
+
+    /// A light's map as a cube texture, for hosts that sample it themselves; a placeholder of one
+    /// texel a face if it has none.
+    pub fn view(&self, light: usize) -> &wgpu::TextureView {
+        self.textures.cube(self.slot_of(light))
+    }
+
+    /// One face of a light's map as a 2D texture; `None` if it has no texels.
+    pub fn face_view(&self, light: usize, face: CubeFace) -> Option<&wgpu::TextureView> {
+        let slot = self.textures.slot(*self.order.get(light)?)?;
+        Some(&slot.faces[face.layer() as usize])
+    }
+
+    /// Changes when a bind group of this map must be made again: when its texture came or went, or
+    /// (for bind groups of one light) when a light changed its place.
+    pub fn texture_revision(&self) -> u64 {
+        self.textures.revision() + self.reordered
+    }
+
+    /// Whether all lights are in one binding, so that one bind group serves them all.
+    pub fn lights_in_one_binding(&self) -> bool {
+        self.array
+    }
+
+    /// The most frames that a face which changed waits to be drawn while the view shows it:
+    /// `6 lights / (max_faces_per_frame / 2)`, both divisions rounded up; `None` without a budget.
+    ///
+    /// Half the budget goes to the faces that have waited longest, the rest to the most important:
+    /// those where most has changed (the solid angle of what did, seen from the light) for lights
+    /// that are nearest to the eye and whose range is largest on screen. A light that moved has its
+    /// faces drawn together; until then receivers see it, and its shadows, where it was. A new
+    /// light is dark until then. Pinned lights, and faces that turned visible and show another
+    /// position of their light, are drawn at once, outside the budget.
+    pub fn max_age(&self) -> Option<u32> {
+        let budget = self.budget?;
+        Some(super::schedule::longest_wait(self.slots.len(), budget))
+    }
+
+    /// Texels along each side of a face.
+    pub fn size(&self) -> u32 {
+        self.size
+    }
+
+    /// What texels hold.
+    pub fn encoding(&self) -> DepthEncoding {
+        self.encoding
+    }
+
+    /// What the last [`prepare`](Self::prepare) found.
+    pub fn statistics(&self) -> CubeStatistics {
+        self.statistics
+    }
+
+    pub(crate) fn light_uniform(&self, light: usize) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.lights.uniforms,
+            offset: light.min(self.slots.len() - 1) as u64 * UNIFORM_STRIDE,
+            size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+        })
+    }
+
+    /// The array of all cubes and the buffer of all lights, where they share a binding.
+    pub(crate) fn array(&self) -> Option<(&wgpu::TextureView, &wgpu::Buffer)> {
+        Some((self.textures.array()?, self.lights.all.as_ref()?))
+    }
+
+    fn slot_of(&self, light: usize) -> usize {
+        let same_place = light.min(self.slots.len() - 1);
+        self.order.get(light).copied().unwrap_or(same_place)
+    }
+
+    fn bytes(&self) -> u64 {
+        let all = self.lights.all.as_ref().map_or(0, wgpu::Buffer::size);
+        self.textures.bytes()
+            + self.instances.size()
+            + self.face_uniforms.size()
+            + self.lights.uniforms.size()
+            + all
+    }
+
+    /// Takes over the frame's lights and casters.
+    fn take_over(&mut self, frame: &CubeFrame<'_>) {
+        let order = match self.array {
+            true => assign(frame.lights, &self.slots, &self.order),
+            false => (0..frame.lights.len()).collect(),
+        };
+        let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
+        self.reordered += u64::from(moved);
+        let mut wanted = vec![None; self.slots.len()];
+        for (light, &slot) in frame.lights.iter().zip(&order) {
+            wanted[slot] = Some(*light);
+        }
+        self.order = order;
+        // Lights that change are sorted out once, after the casters.
+        let changes = |slot: &Slot, light: &Option<PointLight>| slot.light != *light;
+        let mut changed = vec![false; self.slots.len()];
+        for ((slot, light), changed) in self.slots.iter_mut().zip(&wanted).zip(&mut changed) {
+            *changed = changes(slot, light);
+            if *changed {
+                let shown = slot.shown;
+                slot.set_light(None, &[]);
+                slot.shown = shown.filter(|_| light.is_some());
+            }
+        }
+        if !self.scene.is_still(frame.casters) {
+            self.scene.update(frame.casters, &mut self.slots);
+        }
+        for ((slot, light), changed) in self.slots.iter_mut().zip(wanted).zip(changed) {
+            if changed && light.is_some() {
+                slot.set_light(light, self.scene.records());
+            }
+        }
+    }
+
+    /// Makes the instance buffer large enough.
+    fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        plans: &[SlotPlan],
+    ) -> Result<(), CubeShadowMapError> {
+        let mut count = 0;
+        for (slot, plan) in self.slots.iter().zip(plans) {
+            for face in CubeFace::ALL {
+                if plan.drawn & face.bit() != 0 {
+                    count += slot.faces[face.layer() as usize].content.casters as usize;
+                }
+            }
+        }
         let limit = device.limits().max_buffer_size;
         let size = count as u64 * INSTANCE_SIZE;
         if size > limit {
@@ -197,132 +381,113 @@ impl CubeShadowMap {
             let room = (count.next_power_of_two() as u64).min(limit / INSTANCE_SIZE);
             self.instances = resources::instances(device, &self.label, room);
         }
-        self.make_pipelines(device, &groups);
-        self.record_draws(queue, groups);
-        self.write_light(queue, frame.light);
-        let drawn = (0..6)
-            .filter(|&face| !self.draws[face].is_empty())
-            .fold(0, |mask, face| mask | 1 << face);
-        let pending = drawn | self.filled.load(Ordering::Relaxed);
-        self.pending.store(pending, Ordering::Relaxed);
-
-        statistics.faces_rendered = pending.count_ones();
-        statistics.faces_kept_clear = 6 - pending.count_ones();
-        for draw in self.draws.iter().flatten() {
-            statistics.draws += 1;
-            statistics.triangles +=
-                u64::from(draw.mesh.triangle_count()) * u64::from(draw.instance_count);
-        }
-        statistics.bytes = u64::from(self.size).pow(2) * 24
-            + self.instances.size()
-            + self.matrices.size()
-            + self.light_uniform.size();
-        self.statistics = statistics;
         Ok(())
     }
 
-    /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
-    /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        let pending = self.pending.swap(0, Ordering::Relaxed);
-        for face in CubeFace::ALL {
-            if pending & face.bit() == 0 {
+    fn record_draws(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        plans: &[SlotPlan],
+        frame: &CubeFrame<'_>,
+    ) {
+        self.draws.clear();
+        for (index, plan) in plans.iter().enumerate() {
+            if plan.drawn == 0 {
                 continue;
             }
-            let draws = &self.draws[face.layer() as usize];
-            let mut pass = self.begin_pass(encoder, face);
-            pass.set_bind_group(
-                0,
-                &self.matrix_group,
-                &[face.layer() * MATRIX_STRIDE as u32],
-            );
-            for draw in draws {
-                self.draw(&mut pass, draw);
+            let slot = &self.slots[index];
+            self.draws
+                .add(index, slot, plan.drawn, &self.scene, frame.casters);
+            if let Some(light) = slot.light {
+                self.write_faces(queue, index, &light);
             }
-            if draws.is_empty() {
-                self.filled.fetch_and(!face.bit(), Ordering::Relaxed);
-            } else {
-                self.filled.fetch_or(face.bit(), Ordering::Relaxed);
-            }
+        }
+        for draw in self.draws.iter() {
+            let key = key(draw);
+            self.pipelines
+                .entry(key)
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
+        }
+        if !self.draws.instances.is_empty() {
+            let bytes = bytemuck::cast_slice(&self.draws.instances);
+            queue.write_buffer(&self.instances, 0, bytes);
         }
     }
 
-    /// Begins a pass that clears one face, for a host that draws its own geometry (skinned,
-    /// alpha-tested) with [`clip_from_world`](Self::clip_from_world): `Depth32Float`, one sample,
-    /// depth compare `Greater`.
-    ///
-    /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew on this face
-    /// is cleared, so pass such a host's other casters through its own draws too.
-    pub fn begin_face<'encoder>(
-        &self,
-        encoder: &'encoder mut wgpu::CommandEncoder,
-        face: CubeFace,
-    ) -> wgpu::RenderPass<'encoder> {
-        self.pending.fetch_and(!face.bit(), Ordering::Relaxed);
-        self.filled.fetch_or(face.bit(), Ordering::Relaxed);
-        self.begin_pass(encoder, face)
+    fn write_faces(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
+        let content = Some([light.near, light.range]);
+        if self.written_faces[slot] == content {
+            return;
+        }
+        self.written_faces[slot] = content;
+        for face in CubeFace::ALL {
+            let uniform = FaceUniform {
+                clip_from_light: face.clip_from_light(light.near).to_cols_array(),
+                range: light.range,
+                padding: [0.0; 3],
+            };
+            let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
+            queue.write_buffer(&self.face_uniforms, offset, bytemuck::bytes_of(&uniform));
+        }
     }
 
-    /// The matrix of a face for the light of the last [`prepare`](Self::prepare), world space to
-    /// clip space; `None` before the first. The frame is left-handed: triangles that are
-    /// counter-clockwise seen from the light are clockwise on the face.
-    pub fn clip_from_world(&self, face: CubeFace) -> Option<Mat4> {
-        let light = self.light?;
-        Some(face.clip_from_light(light.near) * Mat4::from_translation(-light.position))
-    }
-
-    /// The texture: `Depth32Float`, six layers in the order of [`CubeFace::ALL`].
-    pub fn texture(&self) -> &wgpu::Texture {
-        &self.texture
-    }
-
-    /// The map as a cube texture, for hosts that sample it themselves.
-    pub fn view(&self) -> &wgpu::TextureView {
-        &self.cube
-    }
-
-    /// One face of the map, as a 2D texture.
-    pub fn face_view(&self, face: CubeFace) -> &wgpu::TextureView {
-        &self.faces[face.layer() as usize]
-    }
-
-    /// Texels along each side of a face.
-    pub fn size(&self) -> u32 {
-        self.size
-    }
-
-    /// What the last [`prepare`](Self::prepare) found.
-    pub fn statistics(&self) -> CubeStatistics {
-        self.statistics
-    }
-
-    pub(crate) fn light_uniform(&self) -> &wgpu::Buffer {
-        &self.light_uniform
+    fn write_lights(&mut self, queue: &wgpu::Queue, lights: &[PointLight]) {
+        for (place, wanted) in lights.iter().enumerate() {
+            let index = self.order[place];
+            let slot = &self.slots[index];
+            let depths = match (self.textures.slot(index), slot.shown) {
+                (None, _) => Depths::NoCaster,
+                (Some(_), Some(shown))
+                    if slot.casting == 0
+                        && shown == *wanted
+                        && self.allocation == Allocation::WithFirstCaster =>
+                {
+                    Depths::NoCaster
+                }
+                (Some(_), Some(_)) if self.array => Depths::Cube(index as i32),
+                (Some(_), Some(_)) => Depths::Cube(0),
+                (Some(_), None) => Depths::NotYet,
+            };
+            let light = slot.shown.unwrap_or(*wanted);
+            let uniform = LightUniform::new(&light, depths, self.size, &self.bias, self.format);
+            if self.written_lights[place] == Some(uniform) {
+                continue;
+            }
+            self.written_lights[place] = Some(uniform);
+            let bytes = bytemuck::bytes_of(&uniform);
+            queue.write_buffer(&self.lights.uniforms, place as u64 * UNIFORM_STRIDE, bytes);
+            if let Some(all) = &self.lights.all {
+                queue.write_buffer(all, place as u64 * bytes.len() as u64, bytes);
+            }
+        }
     }
 
     fn begin_pass<'encoder>(
         &self,
         encoder: &'encoder mut wgpu::CommandEncoder,
+        slot: usize,
         face: CubeFace,
-    ) -> wgpu::RenderPass<'encoder> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(&format!("{} {face:?}", self.label)),
+    ) -> Option<wgpu::RenderPass<'encoder>> {
+        let texture = self.textures.slot(slot)?;
+        Some(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&format!("{} {slot} {face:?}", self.label)),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: self.face_view(face),
+                view: &texture.faces[face.layer() as usize],
                 depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
+                    load: wgpu::LoadOp::Clear(self.encoding.clear_depth()),
                     store: wgpu::StoreOp::Store,
                 }),
                 stencil_ops: None,
             }),
             ..Default::default()
-        })
+        }))
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) {
-        let (stride, offset) = draw.mesh.layout();
-        let Some(pipeline) = self.pipelines.get(&stride) else {
-            return; // prepare made one for every stride
+        let (_, offset) = draw.mesh.layout();
+        let Some(pipeline) = self.pipelines.get(&key(draw)) else {
+            return; // prepare made one for every key
         };
         let size = u64::from(draw.instance_count) * INSTANCE_SIZE;
         let first = draw.first_instance * INSTANCE_SIZE;
@@ -333,98 +498,11 @@ impl CubeShadowMap {
         pass.set_index_buffer(draw.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..draw.mesh.triangle_count() * 3, 0, 0..draw.instance_count);
     }
-
-    fn make_pipelines(&mut self, device: &wgpu::Device, groups: &[Group]) {
-        for group in groups {
-            let (stride, _) = group.mesh.layout();
-            self.pipelines.entry(stride).or_insert_with(|| {
-                resources::pipeline(
-                    device,
-                    &self.label,
-                    &self.pipeline_layout,
-                    &self.shader,
-                    stride,
-                )
-            });
-        }
-    }
-
-    fn record_draws(&mut self, queue: &wgpu::Queue, groups: Vec<Group>) {
-        let mut instances = Vec::new();
-        self.draws = Default::default();
-        for group in groups {
-            for (draws, list) in self.draws.iter_mut().zip(group.faces) {
-                if list.is_empty() {
-                    continue;
-                }
-                draws.push(Draw {
-                    mesh: group.mesh.clone(),
-                    first_instance: instances.len() as u64,
-                    instance_count: list.len() as u32,
-                });
-                instances.extend(list);
-            }
-        }
-        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
-    }
-
-    fn write_light(&mut self, queue: &wgpu::Queue, light: &PointLight) {
-        if self.light == Some(*light) {
-            return;
-        }
-        self.light = Some(*light);
-        let texel = 2.0 / self.size as f32;
-        let uniform = LightUniform {
-            position: light.position.to_array(),
-            near: light.near,
-            range: light.range,
-            size: self.size as f32,
-            normal_offset: self.bias.normal_offset * texel,
-            depth_scale: 1.0 + self.bias.constant * texel,
-        };
-        queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&uniform));
-        for face in CubeFace::ALL {
-            queue.write_buffer(
-                &self.matrices,
-                u64::from(face.layer()) * MATRIX_STRIDE,
-                bytemuck::bytes_of(&face.clip_from_light(light.near)),
-            );
-        }
-    }
 }
 
-#[cfg(test)]
-mod tests {
-    use std::mem::offset_of;
-
-    use super::LightUniform;
-
-    #[test]
-    fn the_light_lies_in_memory_as_wgsl_has_it() {
-        let text = include_str!("../../shaders/cube_receiver.wgsl");
-        let module = naga::front::wgsl::parse_str(text).unwrap();
-        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
-            naga::TypeInner::Struct { members, span }
-                if ty.name.as_deref() == Some("ShadowsCubeLight") =>
-            {
-                Some((members.clone(), *span as usize))
-            }
-            _ => None,
-        });
-        let (members, span) = members.unwrap();
-        let theirs: Vec<(&str, usize)> = members
-            .iter()
-            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
-            .collect();
-        let ours = [
-            ("position", offset_of!(LightUniform, position)),
-            ("near", offset_of!(LightUniform, near)),
-            ("range", offset_of!(LightUniform, range)),
-            ("size", offset_of!(LightUniform, size)),
-            ("normal_offset", offset_of!(LightUniform, normal_offset)),
-            ("depth_scale", offset_of!(LightUniform, depth_scale)),
-        ];
-        assert_eq!(theirs, ours);
-        assert_eq!(span, size_of::<LightUniform>());
+fn key(draw: &Draw) -> PipelineKey {
+    PipelineKey {
+        stride: draw.mesh.layout().0,
+        mirrored: draw.mirrored,
     }
 }

@@ -1,12 +1,24 @@
 //! Shadow maps.
 
+mod assign;
 mod bias;
 mod cube;
-mod cull;
+mod descriptor;
+mod draws;
 mod face;
+mod light;
+mod plan;
 mod resources;
+mod scene;
+mod schedule;
+mod slot;
+mod statistics;
+mod texture;
+mod visible;
 
 pub use bias::Bias;
-pub(crate) use cube::LightUniform;
-pub use cube::{CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics};
+pub use cube::CubeShadowMap;
+pub use descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 pub use face::CubeFace;
+pub(crate) use light::LightUniform;
+pub use statistics::{CubeStatistics, FaceState, FaceStatistics};

@@ -1,58 +1,47 @@
-//! The GPU objects of a cube map.
+//! The GPU objects of a cube map that stay, whatever its lights do.
 
-use super::cube::LightUniform;
-use super::cull::INSTANCE_SIZE;
-use super::face::CubeFace;
+use super::descriptor::DepthEncoding;
+use super::light::LightUniform;
 
-/// Depth of the map's texels.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Bytes from one face's matrix to the next: the largest alignment a device may ask for.
-pub(super) const MATRIX_STRIDE: u64 = 256;
+/// The rows of a caster's map to positions relative to the light.
+pub(super) type Instance = [[f32; 4]; 3];
 
-pub(super) fn texture(device: &wgpu::Device, label: &str, size: u32) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width: size,
-            height: size,
-            depth_or_array_layers: 6,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
+/// Bytes of one [`Instance`].
+pub(super) const INSTANCE_SIZE: u64 = size_of::<Instance>() as u64;
+
+/// Bytes from one uniform to the next: the largest alignment a device may ask for.
+pub(super) const UNIFORM_STRIDE: u64 = 256;
+
+/// `ShadowsCubeFaceUniform` in WGSL.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct FaceUniform {
+    pub clip_from_light: [f32; 16],
+    pub range: f32,
+    pub padding: [f32; 3],
 }
 
-pub(super) fn cube_view(texture: &wgpu::Texture, label: &str) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        label: Some(label),
-        dimension: Some(wgpu::TextureViewDimension::Cube),
-        ..Default::default()
-    })
+/// What the lights look like to receivers, one by one and all together.
+#[derive(Debug)]
+pub(super) struct Lights {
+    /// One every [`UNIFORM_STRIDE`] bytes.
+    pub uniforms: wgpu::Buffer,
+    /// One after the other; only for maps that are cube arrays.
+    pub all: Option<wgpu::Buffer>,
 }
 
-pub(super) fn face_view(texture: &wgpu::Texture, label: &str, face: CubeFace) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        label: Some(&format!("{label} {face:?}")),
-        dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: face.layer(),
-        array_layer_count: Some(1),
-        ..Default::default()
-    })
-}
-
-pub(super) fn light_uniform(device: &wgpu::Device, label: &str) -> wgpu::Buffer {
-    buffer(
-        device,
-        &format!("{label} light"),
-        size_of::<LightUniform>() as u64,
-        wgpu::BufferUsages::UNIFORM,
-    )
+pub(super) fn lights(device: &wgpu::Device, label: &str, count: u64, array: bool) -> Lights {
+    let label = format!("{label} lights");
+    let size = size_of::<LightUniform>() as u64;
+    Lights {
+        uniforms: buffer(
+            device,
+            &label,
+            count * UNIFORM_STRIDE,
+            wgpu::BufferUsages::UNIFORM,
+        ),
+        all: array.then(|| buffer(device, &label, count * size, wgpu::BufferUsages::STORAGE)),
+    }
 }
 
 pub(super) fn instances(device: &wgpu::Device, label: &str, count: u64) -> wgpu::Buffer {
@@ -64,23 +53,24 @@ pub(super) fn instances(device: &wgpu::Device, label: &str, count: u64) -> wgpu:
     )
 }
 
-/// The matrices of the six faces, picked by dynamic offset.
-pub(super) fn matrices(
+/// The matrices of six faces for each light, picked by dynamic offset.
+pub(super) fn faces(
     device: &wgpu::Device,
     label: &str,
+    lights: u64,
 ) -> (wgpu::Buffer, wgpu::BindGroupLayout, wgpu::BindGroup) {
-    let matrices = buffer(
+    let faces = buffer(
         device,
-        &format!("{label} matrices"),
-        6 * MATRIX_STRIDE,
+        &format!("{label} faces"),
+        lights * 6 * UNIFORM_STRIDE,
         wgpu::BufferUsages::UNIFORM,
     );
-    let size = wgpu::BufferSize::new(size_of::<glam::Mat4>() as u64);
+    let size = wgpu::BufferSize::new(size_of::<FaceUniform>() as u64);
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
         entries: &[wgpu::BindGroupLayoutEntry {
             binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Uniform,
                 has_dynamic_offset: true,
@@ -95,32 +85,53 @@ pub(super) fn matrices(
         entries: &[wgpu::BindGroupEntry {
             binding: 0,
             resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &matrices,
+                buffer: &faces,
                 offset: 0,
                 size,
             }),
         }],
     });
-    (matrices, layout, group)
+    (faces, layout, group)
+}
+
+/// All that two draws must share to use the same pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct PipelineKey {
+    /// Bytes between positions.
+    pub stride: u64,
+    pub mirrored: Option<bool>,
+}
+
+/// What all pipelines of one map share.
+#[derive(Debug)]
+pub(super) struct PipelineKind {
+    pub layout: wgpu::PipelineLayout,
+    pub shader: wgpu::ShaderModule,
+    pub format: wgpu::TextureFormat,
+    pub encoding: DepthEncoding,
+    pub slope_scale: f32,
 }
 
 pub(super) fn pipeline(
     device: &wgpu::Device,
     label: &str,
-    layout: &wgpu::PipelineLayout,
-    shader: &wgpu::ShaderModule,
-    stride: u64,
+    kind: &PipelineKind,
+    key: PipelineKey,
 ) -> wgpu::RenderPipeline {
+    let (vertex, fragment) = match kind.encoding {
+        DepthEncoding::MajorAxis => ("vertex", None),
+        DepthEncoding::LinearDistance => ("vertex_distance", Some("fragment_distance")),
+    };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
-        layout: Some(layout),
+        layout: Some(&kind.layout),
         vertex: wgpu::VertexState {
-            module: shader,
-            entry_point: Some("vertex"),
+            module: &kind.shader,
+            entry_point: Some(vertex),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[
                 Some(wgpu::VertexBufferLayout {
-                    array_stride: stride,
+                    array_stride: key.stride,
                     step_mode: wgpu::VertexStepMode::Vertex,
                     attributes: &wgpu::vertex_attr_array![0 => Float32x3],
                 }),
@@ -133,17 +144,33 @@ pub(super) fn pipeline(
                 }),
             ],
         },
-        // Both sides cast: an open mesh has no back to cull.
-        primitive: wgpu::PrimitiveState::default(),
+        primitive: wgpu::PrimitiveState {
+            // The faces' frames are left-handed: what is counter-clockwise seen from the light is
+            // clockwise (a back face) on the map, unless the transform mirrors it once more.
+            cull_mode: key.mirrored.map(|mirrored| match mirrored {
+                false => wgpu::Face::Back,
+                true => wgpu::Face::Front,
+            }),
+            ..Default::default()
+        },
         depth_stencil: Some(wgpu::DepthStencilState {
-            format: FORMAT,
+            format: kind.format,
             depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
+            depth_compare: Some(kind.encoding.nearer()),
             stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
+            bias: wgpu::DepthBiasState {
+                // Away from the light is down in reverse-Z.
+                slope_scale: -kind.slope_scale,
+                ..Default::default()
+            },
         }),
         multisample: wgpu::MultisampleState::default(),
-        fragment: None,
+        fragment: fragment.map(|entry_point| wgpu::FragmentState {
+            module: &kind.shader,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[],
+        }),
         multiview_mask: None,
         cache: None,
     })

@@ -1,6 +1,7 @@
 //! The GPU side of a mesh that casts shadows, and a caster: such a mesh somewhere in the world.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
@@ -17,6 +18,8 @@ pub struct CasterMesh(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
+    id: u64,
+    revision: AtomicU64,
     device: wgpu::Device,
     positions: wgpu::Buffer,
     stride: u64,
@@ -189,7 +192,10 @@ impl CasterMesh {
             MeshKind::Closed => None,
             MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
         };
+        static NEXT_ID: AtomicU64 = AtomicU64::new(0);
         Ok(Self(Arc::new(Inner {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            revision: AtomicU64::new(0),
             device: device.clone(),
             positions: source.buffer,
             stride: source.stride,
@@ -236,6 +242,23 @@ impl CasterMesh {
     /// Number of vertices in the position buffer.
     pub fn vertex_count(&self) -> u32 {
         self.0.vertex_count
+    }
+
+    /// Says that the positions have changed since shadows were last drawn: the host calls it after
+    /// it deformed a mesh in its own position buffer. Faces of shadow maps that this mesh touches
+    /// are then drawn again. All clones share one revision.
+    pub fn bump_revision(&self) {
+        self.0.revision.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// How often [`bump_revision`](Self::bump_revision) was called.
+    pub fn revision(&self) -> u64 {
+        self.0.revision.load(Ordering::Relaxed)
+    }
+
+    /// A number that no other mesh of this process has or will have; clones share it.
+    pub(crate) fn id(&self) -> u64 {
+        self.0.id
     }
 
     pub(crate) fn device(&self) -> &wgpu::Device {

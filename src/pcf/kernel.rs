@@ -1,7 +1,7 @@
 //! The kernels, and the WGSL that each of them needs.
 
-use super::MapKind;
 use super::disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
+use super::map_kind::MapWgsl;
 use crate::error::PcfError;
 
 /// Which texels of the map a receiver looks at, and with what weights.
@@ -118,13 +118,20 @@ impl Kernel {
 
     /// The WGSL it is made of, and no other kernel's.
     ///
-    /// The files are written for cube maps, and are WGSL as they stand; a flat map's functions
-    /// differ in their names and in the texture's type.
-    pub(super) fn wgsl(self, map: MapKind) -> String {
-        let own = map.wgsl();
-        let texel = [own.receiver, own.texel, TEXEL];
-        let quad = [own.receiver, own.texel, TEXEL, own.gather, QUAD];
-        let disk = [own.receiver, own.tap, DISK];
+    /// It is written for one cube map; see `MapWgsl::adapt` for other maps.
+    pub(super) fn wgsl(self, own: &MapWgsl) -> String {
+        let texel = [own.receiver, own.depth, own.fetch, own.texel, TEXEL];
+        let quad = [
+            own.receiver,
+            own.depth,
+            own.fetch,
+            own.texel,
+            TEXEL,
+            own.gather,
+            own.four,
+            QUAD,
+        ];
+        let disk = [own.receiver, own.depth, own.fetch, own.tap, DISK];
         let (base, last): (&[&str], &[&str]) = match self {
             Self::Hard => (&texel, &[HARD]),
             Self::Bilinear => (&quad, &[BILINEAR]),
@@ -136,7 +143,7 @@ impl Kernel {
             Self::Vogel(_) => (&disk, &[NOISE, VOGEL]),
             Self::ContactHardening(_) => (&disk, &[NOISE, CONTACT]),
         };
-        map.rename(&[base, last].concat().join("\n"))
+        [base, last].concat().join("\n")
     }
 }
 
@@ -177,10 +184,15 @@ mod tests {
     use std::mem::offset_of;
 
     use super::*;
+    use crate::{DepthEncoding, MapKind};
 
     #[test]
     fn the_parameters_lie_in_memory_as_wgsl_has_them() {
-        let text = Kernel::Vogel(VogelDisk::default()).wgsl(MapKind::Cube);
+        let text = Kernel::Vogel(VogelDisk::default()).wgsl(&MapWgsl::new(
+            MapKind::Cube,
+            DepthEncoding::MajorAxis,
+            false,
+        ));
         let module = naga::front::wgsl::parse_str(&text).unwrap();
         let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
             naga::TypeInner::Struct { members, span }

@@ -1,6 +1,6 @@
 //! The kinds of shadow map that a sampler can read.
 
-use crate::CubeShadowMap;
+use crate::{CubeShadowMap, DepthEncoding};
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -19,12 +19,6 @@ pub enum AnyMap<'a> {
     Cube(&'a CubeShadowMap),
 }
 
-impl<'a> From<&'a CubeShadowMap> for AnyMap<'a> {
-    fn from(map: &'a CubeShadowMap) -> Self {
-        Self::Cube(map)
-    }
-}
-
 impl<'a> AnyMap<'a> {
     /// Which kind it is.
     pub fn kind(self) -> MapKind {
@@ -32,44 +26,67 @@ impl<'a> AnyMap<'a> {
             Self::Cube(_) => MapKind::Cube,
         }
     }
+}
 
-    pub(super) fn view(self) -> &'a wgpu::TextureView {
-        match self {
-            Self::Cube(map) => map.view(),
-        }
-    }
-
-    pub(super) fn light_uniform(self) -> &'a wgpu::Buffer {
-        match self {
-            Self::Cube(map) => map.light_uniform(),
-        }
+impl<'a> From<&'a CubeShadowMap> for AnyMap<'a> {
+    fn from(map: &'a CubeShadowMap) -> Self {
+        Self::Cube(map)
     }
 }
 
 /// The files that a kind of map brings along.
 pub(super) struct MapWgsl {
+    kind: MapKind,
+    many_lights: bool,
     pub receiver: &'static str,
-    pub texel: &'static str,
+    pub depth: &'static str,
+    pub fetch: &'static str,
     pub gather: &'static str,
+    pub texel: &'static str,
+    pub four: &'static str,
     pub tap: &'static str,
 }
 
-impl MapKind {
-    pub(super) fn wgsl(self) -> MapWgsl {
-        match self {
-            Self::Cube => MapWgsl {
-                receiver: include_str!("../../shaders/cube_receiver.wgsl"),
-                texel: include_str!("../../shaders/cube_texel.wgsl"),
-                gather: include_str!("../../shaders/cube_gather.wgsl"),
-                tap: include_str!("../../shaders/cube_tap.wgsl"),
-            },
+impl MapWgsl {
+    pub fn new(kind: MapKind, encoding: DepthEncoding, many_lights: bool) -> Self {
+        match kind {
+            MapKind::Cube => Self::cube(encoding, many_lights),
         }
     }
 
-    /// Kernels are written for cube maps; this makes them another kind's.
-    pub(super) fn rename(self, wgsl: &str) -> String {
-        match self {
-            Self::Cube => wgsl.to_owned(),
+    fn cube(encoding: DepthEncoding, many_lights: bool) -> Self {
+        let (fetch, gather) = match many_lights {
+            false => (
+                include_str!("../../shaders/cube_fetch.wgsl"),
+                include_str!("../../shaders/cube_gather.wgsl"),
+            ),
+            true => (
+                include_str!("../../shaders/cube_array_fetch.wgsl"),
+                include_str!("../../shaders/cube_array_gather.wgsl"),
+            ),
+        };
+        Self {
+            kind: MapKind::Cube,
+            many_lights,
+            receiver: include_str!("../../shaders/cube_receiver.wgsl"),
+            depth: match encoding {
+                DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
+                DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
+            },
+            fetch,
+            gather,
+            texel: include_str!("../../shaders/cube_texel.wgsl"),
+            four: include_str!("../../shaders/cube_four.wgsl"),
+            tap: include_str!("../../shaders/cube_tap.wgsl"),
+        }
+    }
+
+    /// Kernels are written for one cube map, and are WGSL as they stand. On other maps they differ
+    /// in the texture's type, and on flat ones in the names.
+    pub fn adapt(&self, wgsl: &str) -> String {
+        match (self.kind, self.many_lights) {
+            (MapKind::Cube, false) => wgsl.to_owned(),
+            (MapKind::Cube, true) => wgsl.replace("texture_cube<f32>", "texture_cube_array<f32>"),
         }
     }
 }

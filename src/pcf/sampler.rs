@@ -3,9 +3,11 @@
 use wgpu::util::DeviceExt as _;
 
 use super::kernel::KernelUniform;
+use super::map_kind::MapWgsl;
 use super::{AnyMap, Kernel, MapKind, offsets};
 use crate::error::PcfError;
 use crate::map::LightUniform;
+use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
 #[derive(Clone, Debug, Default)]
@@ -16,6 +18,16 @@ pub struct PcfDescriptor<'a> {
     pub kernel: Kernel,
     /// The kind of map it reads. Default [`MapKind::Cube`].
     pub map: MapKind,
+    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]. Cube maps.
+    pub encoding: DepthEncoding,
+    /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
+    /// a cube map. Such maps are made with `cube_array`. Default false: one light a bind group.
+    pub many_lights: bool,
+    /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
+    /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
+    /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). Default
+    /// false.
+    pub textbook: bool,
 }
 
 /// Reads a [`CubeShadowMap`](crate::CubeShadowMap) in the host's lighting shader.
@@ -33,6 +45,9 @@ pub struct PcfDescriptor<'a> {
 pub struct PcfSampler {
     kernel: Kernel,
     map: MapKind,
+    encoding: DepthEncoding,
+    many_lights: bool,
+    textbook: bool,
     label: String,
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
@@ -52,7 +67,14 @@ impl PcfSampler {
         queue: &wgpu::Queue,
         descriptor: &PcfDescriptor<'_>,
     ) -> Result<Self, PcfError> {
-        let &PcfDescriptor { label, kernel, map } = descriptor;
+        let &PcfDescriptor {
+            label,
+            kernel,
+            map,
+            encoding,
+            many_lights,
+            textbook,
+        } = descriptor;
         kernel.validate()?;
         let label = match label {
             Some(label) => format!("shadows pcf {label}"),
@@ -61,7 +83,10 @@ impl PcfSampler {
         Ok(Self {
             kernel,
             map,
-            layout: create_layout(device, &label, kernel),
+            encoding,
+            many_lights,
+            textbook,
+            layout: create_layout(device, &label, kernel, map_entries(many_lights)),
             // Nearest: texels are compared one by one, never blended as depths.
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(&label),
@@ -100,19 +125,23 @@ impl PcfSampler {
         }
     }
 
-    /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable), 1 a sampler
-    /// (non-filtering), 2 the light (uniform buffer of 32 bytes); for disks also 3, the kernel's
-    /// parameters (uniform buffer of 544 bytes), and for the random disk 4, its offsets
+    /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
+    /// `texture_cube_array<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
+    /// bytes; with `many_lights` a read-only storage buffer of all lights); for disks also 3, the
+    /// kernel's parameters (uniform buffer of 544 bytes), and for the random disk 4, its offsets
     /// (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
 
-    /// The bind group for a map. It stays right as long as the map lives, whatever light the map
-    /// is prepared for.
+    /// The bind group for a map: all its lights with `many_lights`, else its first. Maps of any
+    /// size may be read with one sampler.
+    ///
+    /// It stays right whatever light the map is prepared for, until
+    /// [`CubeShadowMap::texture_revision`] changes.
     ///
     /// # Errors
-    /// [`PcfError::Map`] if the sampler was made for another kind of map.
+    /// [`PcfError`] if the map is of another kind, has another encoding or is no cube array.
     pub fn bind_group<'a>(
         &self,
         device: &wgpu::Device,
@@ -123,26 +152,60 @@ impl PcfSampler {
             let (made_for, given) = (self.map, map.kind());
             return Err(PcfError::Map { made_for, given });
         }
+        match map {
+            AnyMap::Cube(map) => self.bind_group_of(device, map, 0),
+        }
+    }
+
+    /// The bind group for one light of a cube map that has a texture for each; `light` is its place
+    /// in the frame. With `many_lights` it holds all of them.
+    ///
+    /// # Errors
+    /// As [`bind_group`](Self::bind_group).
+    pub fn bind_group_of(
+        &self,
+        device: &wgpu::Device,
+        map: &CubeShadowMap,
+        light: usize,
+    ) -> Result<wgpu::BindGroup, PcfError> {
+        if map.encoding() != self.encoding {
+            return Err(PcfError::Encoding {
+                map: map.encoding(),
+                sampler: self.encoding,
+            });
+        }
+        let (view, lights) = match (self.many_lights, map.array()) {
+            (true, Some((view, lights))) => (view, lights.as_entire_binding()),
+            (true, None) => return Err(PcfError::NoCubeArray),
+            (false, _) => (map.view(light), map.light_uniform(light)),
+        };
+        Ok(self.group(device, view, lights))
+    }
+
+    fn group(
+        &self,
+        device: &wgpu::Device,
+        view: &wgpu::TextureView,
+        lights: wgpu::BindingResource<'_>,
+    ) -> wgpu::BindGroup {
+        let parameters = self.parameters.as_ref();
+        let offsets = self.offsets.as_ref();
         let resources = [
-            Some(wgpu::BindingResource::TextureView(map.view())),
+            Some(wgpu::BindingResource::TextureView(view)),
             Some(wgpu::BindingResource::Sampler(&self.sampler)),
-            Some(map.light_uniform().as_entire_binding()),
-            self.parameters
-                .as_ref()
-                .map(wgpu::Buffer::as_entire_binding),
-            self.offsets
-                .as_ref()
-                .map(wgpu::BindingResource::TextureView),
+            Some(lights),
+            parameters.map(wgpu::Buffer::as_entire_binding),
+            offsets.map(wgpu::BindingResource::TextureView),
         ];
         let entries: Vec<_> = (0..)
             .zip(resources.into_iter().flatten())
             .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
-        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
             entries: &entries,
-        }))
+        })
     }
 
     /// WGSL without bindings: textures and samplers are parameters. The function is named
@@ -160,8 +223,15 @@ impl PcfSampler {
     ///
     /// Disks take `kernel: ShadowsCubeKernel` after the light (the random disk then
     /// `offsets: texture_3d<f32>`) and `pixel: vec2f`, the pixel's coordinates, as the last.
+    ///
+    /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
     pub fn wgsl(&self) -> String {
-        self.kernel.wgsl(self.map)
+        let own = MapWgsl::new(self.map, self.encoding, self.many_lights);
+        let text = match self.textbook {
+            true => [own.receiver, own.fetch, TEXTBOOK].join("\n"),
+            false => self.kernel.wgsl(&own),
+        };
+        own.adapt(&text)
     }
 
     /// WGSL with the bindings of one group declared, to paste into a host's shader:
@@ -176,40 +246,65 @@ impl PcfSampler {
     ///
     /// Disks ([`Kernel::uses_pixel`]) take one more argument, `pixel: vec2f`: the x and y of
     /// `@builtin(position)`.
+    ///
+    /// With `many_lights` both take the light's place in the frame first, as `light: u32`.
     pub fn wgsl_module(&self, group: u32) -> String {
+        let (lights, index, light) = match self.many_lights {
+            false => ("uniform> shadows_light: ShadowsCubeLight", "", ""),
+            true => (
+                "storage, read> shadows_light: array<ShadowsCubeLight>",
+                "light: u32, ",
+                "light, ",
+            ),
+        };
+        let element = if self.many_lights { "[light]" } else { "" };
         let mut bindings = String::new();
-        let mut arguments = "shadows_map, shadows_map_sampler, shadows_light".to_owned();
+        let mut arguments = format!("shadows_map, shadows_map_sampler, shadows_light{element}");
         let (mut parameter, mut pixel) = ("", "");
-        if self.parameters.is_some() {
+        if self.takes_pixel() {
             bindings += &format!(
                 "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsCubeKernel;\n"
             );
             arguments += ", shadows_kernel";
             (parameter, pixel) = (", pixel: vec2f", ", pixel");
+            if self.offsets.is_some() {
+                bindings +=
+                    &format!("@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;\n");
+                arguments += ", shadows_offsets";
+            }
         }
-        if self.offsets.is_some() {
-            bindings +=
-                &format!("@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;\n");
-            arguments += ", shadows_offsets";
-        }
+        let function = match self.textbook {
+            true => "shadows_cube_textbook",
+            false => self.kernel.function(),
+        };
         let module = format!(
-            "@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
+            "
+@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
 @group({group}) @binding(1) var shadows_map_sampler: sampler;
-@group({group}) @binding(2) var<uniform> shadows_light: ShadowsCubeLight;
+@group({group}) @binding(2) var<{lights};
 {bindings}
-fn shadows_visibility_flat(position: vec3f, normal: vec3f{parameter}) -> f32 {{
+fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{
     return {function}({arguments}, position, normal{pixel});
 }}
 
-fn shadows_visibility(position: vec3f{parameter}) -> f32 {{
-    return shadows_visibility_flat(position, cross(dpdx(position), dpdy(position)){pixel});
+fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
+    let normal = cross(dpdx(position), dpdy(position));
+    return shadows_visibility_flat({light}position, normal{pixel});
 }}
-",
-            function = self.kernel.function(),
+"
         );
-        self.wgsl() + "\n" + &self.map.rename(&module)
+        let own = MapWgsl::new(self.map, self.encoding, self.many_lights);
+        self.wgsl() + &own.adapt(&module)
+    }
+
+    /// Whether the functions of [`wgsl_module`](Self::wgsl_module) take the pixel's coordinates:
+    /// [`Kernel::uses_pixel`], except for textbook receivers.
+    pub fn takes_pixel(&self) -> bool {
+        self.kernel.uses_pixel() && !self.textbook
     }
 }
+
+const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
 
 /// The random disk's texture; nothing for other kernels.
 fn create_offsets(
@@ -248,7 +343,33 @@ fn create_offsets(
     Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
-fn create_layout(device: &wgpu::Device, label: &str, kernel: Kernel) -> wgpu::BindGroupLayout {
+/// The kinds of binding that a map and its lights are.
+struct MapEntries {
+    dimension: wgpu::TextureViewDimension,
+    lights: wgpu::BufferBindingType,
+    light_size: usize,
+}
+
+fn map_entries(many_lights: bool) -> MapEntries {
+    MapEntries {
+        dimension: match many_lights {
+            false => wgpu::TextureViewDimension::Cube,
+            true => wgpu::TextureViewDimension::CubeArray,
+        },
+        lights: match many_lights {
+            false => wgpu::BufferBindingType::Uniform,
+            true => wgpu::BufferBindingType::Storage { read_only: true },
+        },
+        light_size: size_of::<LightUniform>(),
+    }
+}
+
+fn create_layout(
+    device: &wgpu::Device,
+    label: &str,
+    kernel: Kernel,
+    map: MapEntries,
+) -> wgpu::BindGroupLayout {
     let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
@@ -261,23 +382,24 @@ fn create_layout(device: &wgpu::Device, label: &str, kernel: Kernel) -> wgpu::Bi
         view_dimension,
         multisampled: false,
     };
-    let uniform = |size: usize| wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
+    let buffer = |ty, size: usize| wgpu::BindingType::Buffer {
+        ty,
         has_dynamic_offset: false,
         min_binding_size: wgpu::BufferSize::new(size as u64),
     };
     let mut entries = vec![
         // A float texture rather than a depth texture: depths are compared here, texel by texel,
         // and GL reads depth textures only through its own single comparison.
-        entry(0, texture(false, wgpu::TextureViewDimension::Cube)),
+        entry(0, texture(false, map.dimension)),
         entry(
             1,
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
         ),
-        entry(2, uniform(size_of::<LightUniform>())),
+        entry(2, buffer(map.lights, map.light_size)),
     ];
     if kernel.uses_pixel() {
-        entries.push(entry(3, uniform(size_of::<KernelUniform>())));
+        let ty = wgpu::BufferBindingType::Uniform;
+        entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
     }
     if let Kernel::RandomDisk(_) = kernel {
         entries.push(entry(4, texture(false, wgpu::TextureViewDimension::D3)));

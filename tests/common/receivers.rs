@@ -28,13 +28,17 @@ pub fn visibility<'a>(
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
     let map = map.into();
+    let encoding = match map {
+        AnyMap::Cube(map) => map.encoding(),
+        _ => Default::default(),
+    };
     let descriptor = PcfDescriptor {
         kernel,
         map: map.kind(),
+        encoding,
         ..Default::default()
     };
-    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
-    ask(gpu, map, &sampler, &sampler.wgsl_module(1), points)
+    ask(gpu, map, &descriptor, 0, points)
 }
 
 /// The pixel that point `i` is taken to be at.
@@ -42,15 +46,37 @@ pub fn pixel(i: usize) -> [f32; 2] {
     [(i % 64) as f32 + 0.5, (i / 64) as f32 + 0.5]
 }
 
-/// The same with a sampler's module that a test may have changed.
-pub fn ask(
+/// Visibility from one light of a map, by any sampler.
+pub fn ask<'a>(
     gpu: &Gpu,
-    map: AnyMap<'_>,
-    sampler: &PcfSampler,
-    module: &str,
+    map: impl Into<AnyMap<'a>>,
+    descriptor: &PcfDescriptor<'_>,
+    light: usize,
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
+    ask_changed(gpu, map.into(), descriptor, light, points, |module| module)
+}
+
+/// The same with the sampler's module changed, for tests of what must fail.
+pub fn ask_changed(
+    gpu: &Gpu,
+    map: AnyMap<'_>,
+    descriptor: &PcfDescriptor<'_>,
+    light: usize,
+    points: &[(Vec3, Vec3)],
+    change: impl FnOnce(String) -> String,
+) -> Vec<f32> {
     let device = &gpu.device;
+    let sampler = PcfSampler::new(device, &gpu.queue, descriptor).unwrap();
+    let call = match descriptor.many_lights {
+        false => "shadows_visibility_flat(".to_owned(),
+        true => format!("shadows_visibility_flat({light}u, "),
+    };
+    let pixel_argument = if sampler.takes_pixel() { ", pixel" } else { "" };
+    let shader = SHADER
+        .replace("shadows_visibility_flat(", &call)
+        .replace(" PIXEL", pixel_argument);
+    let module = change(sampler.wgsl_module(1));
     let data: Vec<[f32; 8]> = points
         .iter()
         .enumerate()
@@ -59,12 +85,6 @@ pub fn ask(
             [p.x, p.y, p.z, x, n.x, n.y, n.z, y]
         })
         .collect();
-    let argument = if sampler.kernel().uses_pixel() {
-        ", pixel"
-    } else {
-        ""
-    };
-    let shader = SHADER.replace(" PIXEL", argument);
     let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: None,
         contents: bytemuck::cast_slice(&data),
@@ -78,7 +98,7 @@ pub fn ask(
     });
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
-        source: wgpu::ShaderSource::Wgsl((module.to_owned() + &shader).into()),
+        source: wgpu::ShaderSource::Wgsl((module + &shader).into()),
     });
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
@@ -121,7 +141,10 @@ pub fn ask(
             },
         ],
     });
-    let map_group = sampler.bind_group(device, map).unwrap();
+    let map_group = match map {
+        AnyMap::Cube(map) => sampler.bind_group_of(device, map, light).unwrap(),
+        _ => sampler.bind_group(device, map).unwrap(),
+    };
     gpu.run(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);

@@ -1,0 +1,208 @@
+//! How a cube map is made, and what it is told each frame.
+
+use crate::error::CubeShadowMapError;
+use crate::mesh::Caster;
+use crate::{Bias, PointLight, View};
+
+/// What the texels of a [`CubeShadowMap`](crate::CubeShadowMap) hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DepthEncoding {
+    /// `near / d`, where `d` is the distance along the face's major axis: infinite reverse-Z, 0
+    /// where no caster is. Linear over a face for any plane, and needs no fragment shader.
+    #[default]
+    MajorAxis,
+    /// `distance / range` from light to caster, written by the fragment shader, 1 where no caster
+    /// is. Evenly spaced, so the better choice for `Depth16Unorm`; costs about a third more to draw
+    /// than [`MajorAxis`](Self::MajorAxis), since depths are not known before the fragment shader.
+    LinearDistance,
+}
+
+impl DepthEncoding {
+    /// The depth that means "no caster".
+    pub fn clear_depth(self) -> f32 {
+        match self {
+            Self::MajorAxis => 0.0,
+            Self::LinearDistance => 1.0,
+        }
+    }
+
+    /// The comparison by which the nearer caster stays.
+    pub fn nearer(self) -> wgpu::CompareFunction {
+        match self {
+            Self::MajorAxis => wgpu::CompareFunction::Greater,
+            Self::LinearDistance => wgpu::CompareFunction::Less,
+        }
+    }
+}
+
+/// When a [`CubeShadowMap`](crate::CubeShadowMap) takes its texture memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Allocation {
+    /// In the first `prepare` in which a light reaches a caster; given back in the first without
+    /// any light. Bind groups made before that must be made again
+    /// ([`CubeShadowMap::texture_revision`](crate::CubeShadowMap::texture_revision)).
+    #[default]
+    WithFirstCaster,
+    /// In `new`, for good. For hosts that draw their own geometry through
+    /// [`begin_face`](crate::CubeShadowMap::begin_face), which the map cannot foresee.
+    AtOnce,
+}
+
+/// How to make a [`CubeShadowMap`](crate::CubeShadowMap).
+#[derive(Clone, Debug)]
+pub struct CubeShadowMapDescriptor<'a> {
+    /// Name of the map in debuggers. Default none.
+    pub label: Option<&'a str>,
+    /// Texels along each side of a face. Default 1024. 1 to the device's
+    /// `max_texture_dimension_2d`. Memory: six faces of 4 bytes a texel (2 for `Depth16Unorm`) for
+    /// each light.
+    pub size: u32,
+    /// Bias for receivers. Default [`Bias::default`], which needs no tuning.
+    pub bias: Bias,
+    /// The most lights it will hold. Default 1. At least 1; six times as many layers must fit the
+    /// device's `max_texture_array_layers` if `cube_array` is set.
+    pub lights: u32,
+    /// Whether all lights share one cube array texture, which needs
+    /// [`Support::cube_arrays`](crate::Support). Default false: one cube texture for each light,
+    /// and one bind group for each.
+    pub cube_array: bool,
+    /// When the texture is made. Default [`Allocation::WithFirstCaster`].
+    pub allocation: Allocation,
+    /// What texels hold. Default [`DepthEncoding::MajorAxis`].
+    pub encoding: DepthEncoding,
+    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`. The last two round depths to one
+    /// part in 2^24 and 2^16 of their range, and receivers are given one such step as bias: with
+    /// `LinearDistance` that is `range / 65536` in world units, with `MajorAxis`
+    /// `d * d / (near * 65536)` at distance `d`.
+    pub format: wgpu::TextureFormat,
+    /// Whether casters go only on the faces they touch. Default true; false draws every caster on
+    /// every face, for measuring what culling is worth.
+    pub cull_casters: bool,
+    /// Whether faces whose content has not changed are left alone. Default true; false draws every
+    /// face every frame, for measuring what that is worth.
+    pub cache: bool,
+    /// Whether only the sides of closed meshes that look away from the light are drawn (mirrored
+    /// transforms are noticed; meshes that are not closed keep both sides). Default false. It needs
+    /// less bias and lets light in where thin casters touch receivers. Closed meshes must be
+    /// wound counter-clockwise seen from outside.
+    pub cull_front_faces: bool,
+    /// The most faces drawn in one `prepare`; default none. At least 1. See
+    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order and the longest wait.
+    pub max_faces_per_frame: Option<u32>,
+}
+
+impl CubeShadowMapDescriptor<'_> {
+    /// The method as textbooks have it: six passes with every caster in each, every frame,
+    /// `distance / range` written by the fragment shader. To be read with
+    /// [`PcfDescriptor::textbook`](crate::PcfDescriptor). For comparison, not for use.
+    pub fn textbook() -> Self {
+        Self {
+            bias: Bias::NONE,
+            encoding: DepthEncoding::LinearDistance,
+            cull_casters: false,
+            cache: false,
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), CubeShadowMapError> {
+        let limits = device.limits();
+        let limit = limits.max_texture_dimension_2d;
+        if self.size == 0 || self.size > limit {
+            return Err(CubeShadowMapError::Size {
+                size: self.size,
+                limit,
+            });
+        }
+        let most = match self.cube_array {
+            true => limits.max_texture_array_layers / 6,
+            false => u32::MAX / 6,
+        };
+        if self.lights == 0 || self.lights > most {
+            return Err(CubeShadowMapError::Slots {
+                lights: self.lights,
+                limit: most,
+            });
+        }
+        if quantum(self.format).is_none() {
+            return Err(CubeShadowMapError::Format(self.format));
+        }
+        if self.max_faces_per_frame == Some(0) {
+            return Err(CubeShadowMapError::Budget);
+        }
+        self.bias.validate()?;
+        if self.bias.slope_scale != 0.0 && self.encoding == DepthEncoding::LinearDistance {
+            return Err(CubeShadowMapError::SlopeScale);
+        }
+        Ok(())
+    }
+}
+
+/// One step of a format's depths, 0 for floats; `None` for formats that are not supported.
+pub(super) fn quantum(format: wgpu::TextureFormat) -> Option<f32> {
+    match format {
+        wgpu::TextureFormat::Depth32Float => Some(0.0),
+        wgpu::TextureFormat::Depth24Plus => Some(1.0 / 16_777_215.0),
+        wgpu::TextureFormat::Depth16Unorm => Some(1.0 / 65_535.0),
+        _ => None,
+    }
+}
+
+impl Default for CubeShadowMapDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            size: 1024,
+            bias: Bias::default(),
+            lights: 1,
+            cube_array: false,
+            allocation: Allocation::default(),
+            encoding: DepthEncoding::default(),
+            format: wgpu::TextureFormat::Depth32Float,
+            cull_casters: true,
+            cache: true,
+            cull_front_faces: false,
+            max_faces_per_frame: None,
+        }
+    }
+}
+
+/// What a [`CubeShadowMap`](crate::CubeShadowMap) is to show this frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CubeFrame<'a> {
+    /// The lights; shaders name them by their place here. Lights that were there last frame keep
+    /// their faces wherever they now stand in the slice (with
+    /// [`cube_array`](CubeShadowMapDescriptor::cube_array); without, where they stand is which
+    /// texture they have).
+    pub lights: &'a [PointLight],
+    /// Everything that may cast; what a light cannot reach is left out by the map itself. Their
+    /// order does not matter.
+    pub casters: &'a [Caster],
+    /// The host's camera: faces that can hold no visible receiver are put off until they can. `None`
+    /// (default): all faces count. With several cameras pass `None`.
+    pub view: Option<&'a View>,
+    /// Places of lights whose faces are drawn whatever the budget. Default none. The others share
+    /// `max_faces_per_frame`.
+    pub pinned: &'a [usize],
+}
+
+impl CubeFrame<'_> {
+    pub(super) fn validate(&self, slots: usize) -> Result<(), CubeShadowMapError> {
+        if self.lights.len() > slots {
+            return Err(CubeShadowMapError::TooManyLights {
+                lights: self.lights.len(),
+                slots,
+            });
+        }
+        for light in self.lights {
+            light.validate()?;
+        }
+        match self.pinned.iter().find(|&&at| at >= self.lights.len()) {
+            Some(&pinned) => Err(CubeShadowMapError::Pinned {
+                pinned,
+                lights: self.lights.len(),
+            }),
+            None => Ok(()),
+        }
+    }
+}

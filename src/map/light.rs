@@ -1,0 +1,99 @@
+//! What receivers are told of a light.
+
+use super::descriptor::quantum;
+use crate::{Bias, PointLight};
+
+/// Where a light's depths are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Depths {
+    /// In this cube of the array (0 if each light has a texture of its own).
+    Cube(i32),
+    /// Nowhere: no caster is in range, so receivers in range are lit.
+    NoCaster,
+    /// Not drawn yet: receivers are unlit.
+    NotYet,
+}
+
+/// `ShadowsCubeLight` in WGSL.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct LightUniform {
+    pub position: [f32; 3],
+    pub near: f32,
+    pub range: f32,
+    pub size: f32,
+    pub normal_offset: f32,
+    pub depth_scale: f32,
+    pub quantum: f32,
+    pub cube: i32,
+    padding: [f32; 2],
+}
+
+impl LightUniform {
+    pub(super) fn new(
+        light: &PointLight,
+        depths: Depths,
+        size: u32,
+        bias: &Bias,
+        format: wgpu::TextureFormat,
+    ) -> Self {
+        let texel = 2.0 / size as f32;
+        Self {
+            position: light.position.to_array(),
+            near: light.near,
+            range: light.range,
+            size: size as f32,
+            normal_offset: bias.normal_offset * texel,
+            depth_scale: 1.0 + bias.constant * texel,
+            quantum: quantum(format).unwrap_or(0.0),
+            cube: match depths {
+                Depths::Cube(index) => index,
+                Depths::NoCaster => -1,
+                Depths::NotYet => -2,
+            },
+            padding: [0.0; 2],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::mem::offset_of;
+
+    use super::LightUniform;
+
+    #[test]
+    fn the_light_lies_in_memory_as_wgsl_has_it() {
+        let text = concat!(
+            include_str!("../../shaders/cube_receiver.wgsl"),
+            include_str!("../../shaders/cube_fetch.wgsl"),
+            include_str!("../../shaders/cube_major.wgsl")
+        );
+        let module = naga::front::wgsl::parse_str(text).unwrap();
+        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
+            naga::TypeInner::Struct { members, span }
+                if ty.name.as_deref() == Some("ShadowsCubeLight") =>
+            {
+                Some((members.clone(), *span as usize))
+            }
+            _ => None,
+        });
+        let (members, span) = members.unwrap();
+        let theirs: Vec<(&str, usize)> = members
+            .iter()
+            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
+            .collect();
+        let ours = [
+            ("position", offset_of!(LightUniform, position)),
+            ("near", offset_of!(LightUniform, near)),
+            ("range", offset_of!(LightUniform, range)),
+            ("size", offset_of!(LightUniform, size)),
+            ("normal_offset", offset_of!(LightUniform, normal_offset)),
+            ("depth_scale", offset_of!(LightUniform, depth_scale)),
+            ("quantum", offset_of!(LightUniform, quantum)),
+            ("cube", offset_of!(LightUniform, cube)),
+        ];
+        assert_eq!(theirs, ours);
+        assert_eq!(span, size_of::<LightUniform>());
+    }
+}

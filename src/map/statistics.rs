@@ -1,0 +1,96 @@
+//! What a frame took, for a host to show.
+
+use std::time::Duration;
+
+/// What the last [`CubeShadowMap::prepare`](crate::CubeShadowMap::prepare) found and the next
+/// `encode` will do.
+///
+/// Each face of each light in the frame is one of rendered, kept, empty, hidden and postponed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CubeStatistics {
+    /// Faces that will be drawn, or cleared because their last caster left.
+    pub faces_rendered: u32,
+    /// Faces with casters whose content has not changed since they were drawn.
+    pub faces_kept: u32,
+    /// Faces without a caster, clear already or without texels.
+    pub faces_empty: u32,
+    /// Faces that changed but can hold no receiver that the view shows.
+    pub faces_hidden: u32,
+    /// Faces that changed and wait for a later frame's budget.
+    pub faces_postponed: u32,
+    /// Casters that touch a face, counted once for each light.
+    pub casters_in_range: u32,
+    /// Casters beyond the light's range, counted once for each light.
+    pub casters_out_of_range: u32,
+    /// Draw calls.
+    pub draws: u32,
+    /// Triangles in those draws.
+    pub triangles: u64,
+    /// GPU memory held: textures and buffers.
+    pub bytes: u64,
+    /// CPU time of `prepare`. Zero on the web, where the standard library has no clock.
+    pub prepare: Duration,
+}
+
+/// What became of a face in the last `prepare`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FaceState {
+    /// Will be drawn or cleared by the next `encode`.
+    Rendered,
+    /// Has casters and shows them already.
+    Kept,
+    /// Has no caster and is clear, or has no texels.
+    #[default]
+    Empty,
+    /// Changed, but can hold no receiver that the view shows.
+    Hidden,
+    /// Changed, and waits for a later frame's budget.
+    Postponed,
+}
+
+/// One face of one light after the last `prepare`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FaceStatistics {
+    /// What became of it.
+    pub state: FaceState,
+    /// Casters that touch it.
+    pub casters: u32,
+    /// Their triangles.
+    pub triangles: u64,
+    /// Frames that it has waited to be drawn, this one included.
+    pub age: u32,
+}
+
+impl CubeStatistics {
+    pub(super) fn count(&mut self, state: FaceState) {
+        *match state {
+            FaceState::Rendered => &mut self.faces_rendered,
+            FaceState::Kept => &mut self.faces_kept,
+            FaceState::Empty => &mut self.faces_empty,
+            FaceState::Hidden => &mut self.faces_hidden,
+            FaceState::Postponed => &mut self.faces_postponed,
+        } += 1;
+    }
+}
+
+/// Measures `prepare` where there is a clock.
+pub(super) struct Clock {
+    #[cfg(not(target_arch = "wasm32"))]
+    start: std::time::Instant,
+}
+
+impl Clock {
+    pub fn start() -> Self {
+        Self {
+            #[cfg(not(target_arch = "wasm32"))]
+            start: std::time::Instant::now(),
+        }
+    }
+
+    pub fn elapsed(&self) -> Duration {
+        #[cfg(not(target_arch = "wasm32"))]
+        return self.start.elapsed();
+        #[cfg(target_arch = "wasm32")]
+        return Duration::ZERO;
+    }
+}

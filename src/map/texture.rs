@@ -1,0 +1,187 @@
+//! The textures of a cube map, made when the first light casts.
+
+use super::face::CubeFace;
+
+/// One light's six layers.
+#[derive(Debug)]
+pub(super) struct SlotTexture {
+    pub texture: wgpu::Texture,
+    pub first_layer: u32,
+    pub cube: wgpu::TextureView,
+    pub faces: [wgpu::TextureView; 6],
+}
+
+/// A texture for all lights, or one for each, or none yet.
+#[derive(Debug)]
+pub(super) struct Textures {
+    label: String,
+    size: u32,
+    format: wgpu::TextureFormat,
+    slots: Vec<Option<SlotTexture>>,
+    array: Option<Array>,
+    /// A texel for each face, bound as long as there is nothing else.
+    placeholder: wgpu::TextureView,
+    revision: u64,
+}
+
+#[derive(Debug)]
+struct Array {
+    placeholder: wgpu::TextureView,
+    view: Option<wgpu::TextureView>,
+}
+
+impl Textures {
+    pub fn new(
+        device: &wgpu::Device,
+        label: &str,
+        size: u32,
+        format: wgpu::TextureFormat,
+        slots: usize,
+        array: bool,
+    ) -> Self {
+        let placeholder = create(device, label, 1, format, 6);
+        Self {
+            label: label.to_owned(),
+            size,
+            format,
+            slots: (0..slots).map(|_| None).collect(),
+            array: array.then(|| Array {
+                placeholder: array_view(&placeholder, label),
+                view: None,
+            }),
+            placeholder: cube_view(&placeholder, label, 0),
+            revision: 0,
+        }
+    }
+
+    /// Makes what a slot needs. Gives the slots whose texels are new.
+    pub fn allocate(&mut self, device: &wgpu::Device, slot: usize) -> std::ops::Range<usize> {
+        if self.slots[slot].is_some() {
+            return 0..0;
+        }
+        self.revision += 1;
+        let label = self.label.clone();
+        let Some(array) = &mut self.array else {
+            let texture = create(device, &label, self.size, self.format, 6);
+            self.slots[slot] = Some(SlotTexture::new(texture, &label, 0));
+            return slot..slot + 1;
+        };
+        let layers = self.slots.len() as u32 * 6;
+        let texture = create(device, &label, self.size, self.format, layers);
+        array.view = Some(array_view(&texture, &label));
+        for (slot, first_layer) in self.slots.iter_mut().zip((0..).step_by(6)) {
+            *slot = Some(SlotTexture::new(texture.clone(), &label, first_layer));
+        }
+        0..self.slots.len()
+    }
+
+    /// Gives all texels back.
+    pub fn free(&mut self) {
+        if self.slots.iter().any(Option::is_some) {
+            self.revision += 1;
+            self.slots.iter_mut().for_each(|slot| *slot = None);
+            if let Some(array) = &mut self.array {
+                array.view = None;
+            }
+        }
+    }
+
+    pub fn slot(&self, slot: usize) -> Option<&SlotTexture> {
+        self.slots.get(slot)?.as_ref()
+    }
+
+    /// A light's cube, or a placeholder.
+    pub fn cube(&self, slot: usize) -> &wgpu::TextureView {
+        self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube)
+    }
+
+    /// All lights' cubes, or a placeholder; `None` if each has a texture of its own.
+    pub fn array(&self) -> Option<&wgpu::TextureView> {
+        let array = self.array.as_ref()?;
+        Some(array.view.as_ref().unwrap_or(&array.placeholder))
+    }
+
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    pub fn bytes(&self) -> u64 {
+        let texel = match self.format {
+            wgpu::TextureFormat::Depth16Unorm => 2,
+            _ => 4,
+        };
+        let cubes = self.slots.iter().flatten().count() as u64;
+        (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel
+    }
+}
+
+impl SlotTexture {
+    fn new(texture: wgpu::Texture, label: &str, first_layer: u32) -> Self {
+        Self {
+            cube: cube_view(&texture, label, first_layer),
+            faces: CubeFace::ALL.map(|face| face_view(&texture, label, first_layer, face)),
+            texture,
+            first_layer,
+        }
+    }
+}
+
+fn create(
+    device: &wgpu::Device,
+    label: &str,
+    size: u32,
+    format: wgpu::TextureFormat,
+    layers: u32,
+) -> wgpu::Texture {
+    let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+    if format != wgpu::TextureFormat::Depth24Plus {
+        usage |= wgpu::TextureUsages::COPY_SRC;
+    }
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: size,
+            height: size,
+            depth_or_array_layers: layers,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+fn cube_view(texture: &wgpu::Texture, label: &str, first_layer: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some(label),
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        base_array_layer: first_layer,
+        array_layer_count: Some(6),
+        ..Default::default()
+    })
+}
+
+fn array_view(texture: &wgpu::Texture, label: &str) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some(label),
+        dimension: Some(wgpu::TextureViewDimension::CubeArray),
+        ..Default::default()
+    })
+}
+
+fn face_view(
+    texture: &wgpu::Texture,
+    label: &str,
+    first_layer: u32,
+    face: CubeFace,
+) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some(&format!("{label} {face:?}")),
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: first_layer + face.layer(),
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
+}
