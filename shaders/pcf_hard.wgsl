@@ -11,6 +11,5 @@ fn shadows_cube_hard(
     if receiver.known >= 0.0 {
         return receiver.known;
     }
-    let texel = clamp(floor(receiver.texel), vec2f(0.0), vec2f(light.size - 1.0));
-    return shadows_cube_texel(map, map_sampler, receiver, light.size, texel);
+    return shadows_cube_texel(map, map_sampler, receiver, light.size, floor(receiver.texel));
 }

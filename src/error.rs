@@ -86,6 +86,9 @@ pub enum LightError {
     /// A directional light without a direction.
     #[error("a directional light needs a direction; (0, 0, 0) was passed")]
     Direction,
+    /// The cone of a spot light is none.
+    #[error("spot half_angle {0} is out of range; pass radians, 0 < half_angle < pi / 2")]
+    HalfAngle(f32),
 }
 
 /// What can be wrong with the host's camera.
@@ -494,5 +497,49 @@ pub enum ShadowVolumeError {
         count: usize,
         /// The largest count that works.
         limit: usize,
+    },
+}
+
+/// What can be wrong with a [`ShadowMap`](crate::ShadowMap).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowMapError {
+    /// The size of the map is 0 or over the device's limit.
+    #[error("a map of {size} texels is out of range; 1 to {limit} (max_texture_dimension_2d)")]
+    Size {
+        /// Texels along a side.
+        size: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The light is out of range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// The distance up to which a view shows shadows is out of range.
+    #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
+    Distance(f32),
+    /// The bounds of the receivers are no box.
+    #[error("receivers from {min:?} to {max:?} are no box; pass finite corners, min <= max")]
+    Receivers {
+        /// The smallest corner passed.
+        min: [f32; 3],
+        /// The largest corner passed.
+        max: [f32; 3],
+    },
+    /// More casters than one buffer of the device can hold.
+    #[error("{casters} casters need {size} bytes, max_buffer_size is {limit}")]
+    TooManyCasters {
+        /// Casters on the map.
+        casters: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
     },
 }

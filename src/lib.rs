@@ -8,6 +8,7 @@
 //! | | what it is | what it is for |
 //! |---|---|---|
 //! | [`CubeShadowMap`] | depth of the casters on six cube faces | point lights, soft edges, many receivers |
+//! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
 //! | [`PcfSampler`] | the kernels by which receivers read a map | one tap to sixteen texels, no acne, no seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | exact to the pixel, point and directional lights |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes need to know of a mesh; any triangles will do |
@@ -142,10 +143,11 @@ pub mod view;
 pub mod volume;
 pub mod wgsl;
 
-pub use light::{HomogeneousLight, PointLight};
+pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{
     Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics,
-    DepthEncoding, FaceState, FaceStatistics,
+    DepthEncoding, FaceState, FaceStatistics, FlatLight, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, ShadowMapStatistics, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{

@@ -7,7 +7,7 @@ use glam::Mat4;
 
 use super::assign::assign;
 use super::descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
-use super::draws::{Draw, DrawLists};
+use super::draws::DrawLists;
 use super::face::CubeFace;
 use super::light::{Depths, LightUniform};
 use super::plan::SlotPlan;
@@ -106,6 +106,8 @@ impl CubeShadowMap {
             format,
             encoding,
             slope_scale: bias.slope_scale,
+            // A point light has no plane to pull casters onto.
+            unclipped_depth: false,
         };
         let mut textures = Textures::new(device, &label, size, format, slots, cube_array);
         if descriptor.allocation == Allocation::AtOnce {
@@ -195,7 +197,7 @@ impl CubeShadowMap {
                 let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
                 pass.set_bind_group(0, &self.face_group, &[offset]);
                 for draw in self.draws.of(index, face.layer() as usize) {
-                    self.draw(&mut pass, draw);
+                    draw.record(&mut pass, &self.pipelines, &self.instances);
                 }
                 slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
             }
@@ -404,7 +406,7 @@ impl CubeShadowMap {
             }
         }
         for draw in self.draws.iter() {
-            let key = key(draw);
+            let key = draw.key();
             self.pipelines
                 .entry(key)
                 .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
@@ -482,27 +484,5 @@ impl CubeShadowMap {
             }),
             ..Default::default()
         }))
-    }
-
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) {
-        let (_, offset) = draw.mesh.layout();
-        let Some(pipeline) = self.pipelines.get(&key(draw)) else {
-            return; // prepare made one for every key
-        };
-        let size = u64::from(draw.instance_count) * INSTANCE_SIZE;
-        let first = draw.first_instance * INSTANCE_SIZE;
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, draw.mesh.positions().slice(offset..));
-        // Sliced rather than drawn from a first instance, which GL does not have.
-        pass.set_vertex_buffer(1, self.instances.slice(first..first + size));
-        pass.set_index_buffer(draw.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..draw.mesh.triangle_count() * 3, 0, 0..draw.instance_count);
-    }
-}
-
-fn key(draw: &Draw) -> PipelineKey {
-    PipelineKey {
-        stride: draw.mesh.layout().0,
-        mirrored: draw.mirrored,
     }
 }

@@ -1,8 +1,10 @@
 //! Instanced draws: one for each mesh on each face.
 
+use std::collections::HashMap;
+
 use glam::DAffine3;
 
-use super::resources::Instance;
+use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
 use super::scene::Scene;
 use super::slot::Slot;
 use crate::mesh::{Caster, CasterMesh};
@@ -14,6 +16,37 @@ pub(super) struct Draw {
     pub mirrored: Option<bool>,
     pub first_instance: u64,
     pub instance_count: u32,
+}
+
+impl Draw {
+    /// The pipeline it needs.
+    pub fn key(&self) -> PipelineKey {
+        PipelineKey {
+            stride: self.mesh.layout().0,
+            mirrored: self.mirrored,
+        }
+    }
+
+    /// Records it into a depth pass.
+    pub fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &HashMap<PipelineKey, wgpu::RenderPipeline>,
+        instances: &wgpu::Buffer,
+    ) {
+        let (_, offset) = self.mesh.layout();
+        let Some(pipeline) = pipelines.get(&self.key()) else {
+            return; // prepare made one for every key
+        };
+        let size = u64::from(self.instance_count) * INSTANCE_SIZE;
+        let first = self.first_instance * INSTANCE_SIZE;
+        pass.set_pipeline(pipeline);
+        pass.set_vertex_buffer(0, self.mesh.positions().slice(offset..));
+        // Sliced rather than drawn from a first instance, which GL does not have.
+        pass.set_vertex_buffer(1, instances.slice(first..first + size));
+        pass.set_index_buffer(self.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+    }
 }
 
 /// The draws of all faces that the next encode draws.
@@ -85,7 +118,7 @@ impl DrawLists {
     }
 }
 
-fn instance(light_from_object: &DAffine3) -> Instance {
+pub(super) fn instance(light_from_object: &DAffine3) -> Instance {
     let linear = light_from_object.matrix3.transpose();
     let offset = light_from_object.translation;
     [

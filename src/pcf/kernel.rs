@@ -184,15 +184,17 @@ mod tests {
     use std::mem::offset_of;
 
     use super::*;
+    use crate::pcf::map_kind::Reads;
     use crate::{DepthEncoding, MapKind};
 
     #[test]
     fn the_parameters_lie_in_memory_as_wgsl_has_them() {
-        let text = Kernel::Vogel(VogelDisk::default()).wgsl(&MapWgsl::new(
-            MapKind::Cube,
-            DepthEncoding::MajorAxis,
-            false,
-        ));
+        let text = Kernel::Vogel(VogelDisk::default()).wgsl(&MapWgsl::new(Reads {
+            map: MapKind::Cube,
+            encoding: DepthEncoding::MajorAxis,
+            many_lights: false,
+            border: false,
+        }));
         let module = naga::front::wgsl::parse_str(&text).unwrap();
         let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
             naga::TypeInner::Struct { members, span }

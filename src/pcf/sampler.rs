@@ -3,10 +3,10 @@
 use wgpu::util::DeviceExt as _;
 
 use super::kernel::KernelUniform;
-use super::map_kind::MapWgsl;
+use super::map_kind::{MapWgsl, Reads};
 use super::{AnyMap, Kernel, MapKind, offsets};
 use crate::error::PcfError;
-use crate::map::LightUniform;
+use crate::map::{FlatLightUniform, LightUniform};
 use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
@@ -26,11 +26,11 @@ pub struct PcfDescriptor<'a> {
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). Default
-    /// false.
+    /// false. Cube maps.
     pub textbook: bool,
 }
 
-/// Reads a [`CubeShadowMap`](crate::CubeShadowMap) in the host's lighting shader.
+/// Reads a [`CubeShadowMap`] or a [`ShadowMap`](crate::ShadowMap) in the host's lighting shader.
 ///
 /// Gives three things: a bind group layout, a bind group for a map, and WGSL, either as functions
 /// without bindings ([`wgsl`](Self::wgsl)) or as a module for a group number
@@ -44,9 +44,7 @@ pub struct PcfDescriptor<'a> {
 #[derive(Debug)]
 pub struct PcfSampler {
     kernel: Kernel,
-    map: MapKind,
-    encoding: DepthEncoding,
-    many_lights: bool,
+    reads: Reads,
     textbook: bool,
     label: String,
     layout: wgpu::BindGroupLayout,
@@ -76,20 +74,35 @@ impl PcfSampler {
             textbook,
         } = descriptor;
         kernel.validate()?;
+        let border = map == MapKind::Flat
+            && device
+                .features()
+                .contains(wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER);
+        let address_mode = match border {
+            true => wgpu::AddressMode::ClampToBorder,
+            false => wgpu::AddressMode::ClampToEdge,
+        };
+        let reads = Reads {
+            map,
+            encoding,
+            many_lights: many_lights && map == MapKind::Cube,
+            border,
+        };
         let label = match label {
             Some(label) => format!("shadows pcf {label}"),
             None => "shadows pcf".to_owned(),
         };
         Ok(Self {
             kernel,
-            map,
-            encoding,
-            many_lights,
-            textbook,
-            layout: create_layout(device, &label, kernel, map_entries(many_lights)),
+            reads,
+            textbook: textbook && map == MapKind::Cube,
+            layout: create_layout(device, &label, kernel, map_entries(reads)),
             // Nearest: texels are compared one by one, never blended as depths.
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(&label),
+                address_mode_u: address_mode,
+                address_mode_v: address_mode,
+                border_color: border.then_some(wgpu::SamplerBorderColor::TransparentBlack),
                 ..Default::default()
             }),
             parameters: kernel.parameters().map(|parameters| {
@@ -111,7 +124,7 @@ impl PcfSampler {
 
     /// The kind of map it reads.
     pub fn map(&self) -> MapKind {
-        self.map
+        self.reads.map
     }
 
     /// Moves the noise of turned disks on to a frame, for hosts whose temporal anti-aliasing
@@ -126,8 +139,8 @@ impl PcfSampler {
     }
 
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
-    /// `texture_cube_array<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
-    /// bytes; with `many_lights` a read-only storage buffer of all lights); for disks also 3, the
+    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
+    /// bytes, for flat maps 80; with `many_lights` a read-only storage buffer of all lights); for disks also 3, the
     /// kernel's parameters (uniform buffer of 544 bytes), and for the random disk 4, its offsets
     /// (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
@@ -148,12 +161,16 @@ impl PcfSampler {
         map: impl Into<AnyMap<'a>>,
     ) -> Result<wgpu::BindGroup, PcfError> {
         let map = map.into();
-        if map.kind() != self.map {
-            let (made_for, given) = (self.map, map.kind());
+        if map.kind() != self.map() {
+            let (made_for, given) = (self.map(), map.kind());
             return Err(PcfError::Map { made_for, given });
         }
         match map {
             AnyMap::Cube(map) => self.bind_group_of(device, map, 0),
+            AnyMap::Flat(map) => {
+                let light = map.light_uniform().as_entire_binding();
+                Ok(self.group(device, map.view(), light))
+            }
         }
     }
 
@@ -168,13 +185,17 @@ impl PcfSampler {
         map: &CubeShadowMap,
         light: usize,
     ) -> Result<wgpu::BindGroup, PcfError> {
-        if map.encoding() != self.encoding {
+        if self.map() != MapKind::Cube {
+            let (made_for, given) = (self.map(), MapKind::Cube);
+            return Err(PcfError::Map { made_for, given });
+        }
+        if map.encoding() != self.reads.encoding {
             return Err(PcfError::Encoding {
                 map: map.encoding(),
-                sampler: self.encoding,
+                sampler: self.reads.encoding,
             });
         }
-        let (view, lights) = match (self.many_lights, map.array()) {
+        let (view, lights) = match (self.reads.many_lights, map.array()) {
             (true, Some((view, lights))) => (view, lights.as_entire_binding()),
             (true, None) => return Err(PcfError::NoCubeArray),
             (false, _) => (map.view(light), map.light_uniform(light)),
@@ -221,12 +242,13 @@ impl PcfSampler {
     /// ) -> f32             // 1 lit, 0 in shadow; 0 beyond the light's range
     /// ```
     ///
-    /// Disks take `kernel: ShadowsCubeKernel` after the light (the random disk then
+    /// For flat maps `flat` takes the place of `cube` in all names, and the map is a
+    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` after the light (the random disk then
     /// `offsets: texture_3d<f32>`) and `pixel: vec2f`, the pixel's coordinates, as the last.
     ///
     /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
     pub fn wgsl(&self) -> String {
-        let own = MapWgsl::new(self.map, self.encoding, self.many_lights);
+        let own = MapWgsl::new(self.reads);
         let text = match self.textbook {
             true => [own.receiver, own.fetch, TEXTBOOK].join("\n"),
             false => self.kernel.wgsl(&own),
@@ -247,9 +269,12 @@ impl PcfSampler {
     /// Disks ([`Kernel::uses_pixel`]) take one more argument, `pixel: vec2f`: the x and y of
     /// `@builtin(position)`.
     ///
-    /// With `many_lights` both take the light's place in the frame first, as `light: u32`.
+    /// With `many_lights` both take the light's place in the frame first, as `light: u32`. For flat
+    /// maps the names begin with `shadows_flat_`: `shadows_flat_visibility` and
+    /// `shadows_flat_visibility_flat`, so that a shader may hold a cube sampler's module and a flat
+    /// one's.
     pub fn wgsl_module(&self, group: u32) -> String {
-        let (lights, index, light) = match self.many_lights {
+        let (lights, index, light) = match self.reads.many_lights {
             false => ("uniform> shadows_light: ShadowsCubeLight", "", ""),
             true => (
                 "storage, read> shadows_light: array<ShadowsCubeLight>",
@@ -257,7 +282,11 @@ impl PcfSampler {
                 "light, ",
             ),
         };
-        let element = if self.many_lights { "[light]" } else { "" };
+        let element = if self.reads.many_lights {
+            "[light]"
+        } else {
+            ""
+        };
         let mut bindings = String::new();
         let mut arguments = format!("shadows_map, shadows_map_sampler, shadows_light{element}");
         let (mut parameter, mut pixel) = ("", "");
@@ -293,8 +322,7 @@ fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
 }}
 "
         );
-        let own = MapWgsl::new(self.map, self.encoding, self.many_lights);
-        self.wgsl() + &own.adapt(&module)
+        self.wgsl() + &MapWgsl::new(self.reads).adapt_module(&module)
     }
 
     /// Whether the functions of [`wgsl_module`](Self::wgsl_module) take the pixel's coordinates:
@@ -350,17 +378,21 @@ struct MapEntries {
     light_size: usize,
 }
 
-fn map_entries(many_lights: bool) -> MapEntries {
+fn map_entries(reads: Reads) -> MapEntries {
     MapEntries {
-        dimension: match many_lights {
-            false => wgpu::TextureViewDimension::Cube,
-            true => wgpu::TextureViewDimension::CubeArray,
+        dimension: match (reads.map, reads.many_lights) {
+            (MapKind::Cube, false) => wgpu::TextureViewDimension::Cube,
+            (MapKind::Cube, true) => wgpu::TextureViewDimension::CubeArray,
+            (MapKind::Flat, _) => wgpu::TextureViewDimension::D2,
         },
-        lights: match many_lights {
+        lights: match reads.many_lights {
             false => wgpu::BufferBindingType::Uniform,
             true => wgpu::BufferBindingType::Storage { read_only: true },
         },
-        light_size: size_of::<LightUniform>(),
+        light_size: match reads.map {
+            MapKind::Cube => size_of::<LightUniform>(),
+            MapKind::Flat => size_of::<FlatLightUniform>(),
+        },
     }
 }
 

@@ -2,7 +2,7 @@
 //! no rasteriser between the point that is asked for and the answer.
 
 use shadows::glam::Vec3;
-use shadows::{AnyMap, Kernel, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{AnyMap, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
 use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
@@ -76,6 +76,10 @@ pub fn ask_changed(
     let shader = SHADER
         .replace("shadows_visibility_flat(", &call)
         .replace(" PIXEL", pixel_argument);
+    let shader = match descriptor.map {
+        MapKind::Flat => shader.replace("shadows_visibility", "shadows_flat_visibility"),
+        _ => shader,
+    };
     let module = change(sampler.wgsl_module(1));
     let data: Vec<[f32; 8]> = points
         .iter()
