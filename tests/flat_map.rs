@@ -294,7 +294,7 @@ fn grid_motion(gpu: &Gpu, casters: &[Caster], turn: f32) -> f32 {
         map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
         let matrix: Mat4 = map.texture_from_world().unwrap();
         widths.push(matrix.row(0).truncate().length());
-        places.push(matrix.project_point3(Vec3::ZERO) * 1024.0);
+        places.push(matrix.project_point3(Vec3::new(3.3, 0.7, -2.1)) * 1024.0);
     }
     let same = |w: &[f32]| (w[0] / w[1] - 1.0).abs() < 0.01;
     let changes = widths.windows(2).filter(|w| !same(w)).count();
