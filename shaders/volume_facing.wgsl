@@ -16,36 +16,6 @@ fn position(vertex: u32) -> vec3f {
     return vec3f(positions[word], positions[word + 1u], positions[word + 2u]);
 }
 
-// A power of two that brings the largest component into [1, 2): exact, and no product of three
-// such vectors can leave the range of f32 however small or large the mesh is.
-fn exact_scale(v: vec3f) -> f32 {
-    let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    let exponent = bitcast<u32>(largest) & 0x7f800000u;
-    return bitcast<f32>(0x7f000000u - min(exponent, 0x7e800000u));
-}
-
-// sign(det(b - a, c - a, light - w a)), and 0 where rounding could have changed the sign.
-//
-// Nine roundings lie on the longest path (differences 1 + 1 + 2, products 2, sums 3), so the error
-// is below 10 * 2^-24 times the determinant's permanent (the bound of Shewchuk, "Adaptive Precision
-// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, with one more difference).
-fn light_side(a: vec3f, b: vec3f, c: vec3f, light: vec4f, rest: vec3f) -> i32 {
-    var u = b - a;
-    var v = c - a;
-    let toward = light.xyz - light.w * a;
-    var r = toward + rest;
-    u *= exact_scale(u);
-    v *= exact_scale(v);
-    let scale = exact_scale(r);
-    let r_bound = (abs(toward) + abs(rest)) * scale;
-    r *= scale;
-    let p = u.yzx * v.zxy;
-    let q = u.zxy * v.yzx;
-    let det = dot(p - q, r);
-    let bound = dot(abs(p) + abs(q), r_bound) * (10.0 / 16777216.0);
-    return select(0, 1, det > bound) - select(0, 1, det < -bound);
-}
-
 @compute @workgroup_size(256)
 fn shadows_volume_facing(
     @builtin(workgroup_id) group: vec3u,

@@ -481,12 +481,20 @@ pub enum ShadowVolumeError {
     TooLarge {
         /// Place in the slice of casters.
         index: usize,
-        /// `"facings"`, `"caps"` or `"sides"`.
+        /// `"facings"`, `"caps"`, `"sides"` or `"edge records"`.
         what: &'static str,
         /// Bytes needed.
         size: u64,
         /// Bytes possible.
         limit: u64,
+    },
+    /// The positions lie in a buffer of the host, where the CPU cannot read them.
+    #[error(
+        "caster {index}: its positions are in the host's buffer, and only Silhouettes::Compute reads them there; make the mesh with CasterMesh::new or a renderer that may use compute"
+    )]
+    HostPositions {
+        /// Place in the slice of casters.
+        index: usize,
     },
     /// More casters than the device's buffers can describe.
     #[error(

@@ -29,7 +29,18 @@
 //! use shadows::{wgpu, *};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let (device, queue) = wgpu::Device::noop(&Default::default());
+//! # // wgpu 30's check of indirect draws trips over the driverless device's limits.
+//! # let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+//! #     backends: wgpu::Backends::NOOP,
+//! #     flags: wgpu::InstanceFlags::empty(),
+//! #     backend_options: wgpu::BackendOptions {
+//! #         noop: wgpu::NoopBackendOptions::enabled(),
+//! #         ..Default::default()
+//! #     },
+//! #     ..wgpu::InstanceDescriptor::new_without_display_handle()
+//! # });
+//! # let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
+//! # let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
 //! // Once a mesh: who is whose neighbour, then the GPU's copy.
 //! let positions = [[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
@@ -145,9 +156,10 @@ pub mod wgsl;
 
 pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{
-    Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics,
-    DepthEncoding, FaceState, FaceStatistics, FlatLight, ShadowFrame, ShadowMap,
-    ShadowMapDescriptor, ShadowMapStatistics, texture_from_clip,
+    Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
+    FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
+    texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
@@ -157,5 +169,5 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, VolumeStatistics,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
 };

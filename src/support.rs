@@ -63,6 +63,9 @@ const MULTIVIEW: Features = Features::MULTIVIEW.union(Features::SELECTIVE_MULTIV
 const COMPUTE: DownlevelFlags =
     DownlevelFlags::COMPUTE_SHADERS.union(DownlevelFlags::INDIRECT_EXECUTION);
 
+/// Storage buffers in the largest of the crate's shader stages.
+pub(crate) const STORAGE_BUFFERS: u32 = 6;
+
 impl Support {
     /// Asks an adapter, before the host creates its device.
     pub fn of_adapter(adapter: &wgpu::Adapter) -> Self {
@@ -81,7 +84,7 @@ impl Support {
             multiview: features.contains(MULTIVIEW) && limits.max_multiview_view_count >= 6,
             float32_blending: features.contains(Features::FLOAT32_BLENDABLE),
             vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
-                && limits.max_storage_buffers_per_shader_stage >= 4,
+                && limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS,
             compute: downlevel.contains(COMPUTE),
             clamp_to_border: features.contains(Features::ADDRESS_MODE_CLAMP_TO_BORDER),
             limits,

@@ -10,3 +10,6 @@ pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 
 /// Depth of casters on the faces of a cube map.
 pub(crate) const CUBE_CASTER: &str = include_str!("../shaders/cube_caster.wgsl");
+
+/// A cube map unfolded as a cross.
+pub(crate) const CUBE_CROSS: &str = include_str!("../shaders/cube_cross.wgsl");

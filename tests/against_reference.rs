@@ -50,12 +50,23 @@ impl Studio {
         bias: Bias,
         falsify: impl FnOnce(&mut ShadowInputs),
     ) -> Comparison {
+        self.error_at(FACE, technique, bias, falsify)
+    }
+
+    /// The same with another size of cube faces.
+    fn error_at(
+        &self,
+        face: u32,
+        technique: Technique,
+        bias: Bias,
+        falsify: impl FnOnce(&mut ShadowInputs),
+    ) -> Comparison {
         let (gpu, stage) = (&self.gpu, &self.stage);
         let mut inputs = stage.inputs.clone();
         falsify(&mut inputs);
         let picture = gpu.checked(|| {
             let mut shadow =
-                Shadow::with_bias(gpu, &stage.renderer, technique, FACE, bias).unwrap();
+                Shadow::with_bias(gpu, &stage.renderer, technique, face, bias).unwrap();
             let interior = shadow.interior();
             (stage.picture(gpu, &mut shadow, &inputs).unwrap(), interior)
         });
@@ -82,9 +93,13 @@ fn move_light(inputs: &mut ShadowInputs) {
     inputs.light.0 += Vec4::new(0.03, 0.0, 0.04, 0.0);
 }
 
-/// One caster is forgotten.
-fn forget_a_caster(inputs: &mut ShadowInputs) {
-    inputs.casters.swap_remove(0);
+/// Every second caster is forgotten, the first of them included.
+fn forget_casters(inputs: &mut ShadowInputs) {
+    let mut keep = true;
+    inputs.casters.retain(|_| {
+        keep = !keep;
+        keep
+    });
 }
 
 /// No interior error, and each broken twin has some.
@@ -98,7 +113,7 @@ fn volumes_are_exact(studio: &Studio) -> Comparison {
     assert_eq!(interior(&error), 0, "interior errors");
     for (what, falsify) in [
         ("a moved light", move_light as fn(&mut ShadowInputs)),
-        ("a forgotten caster", forget_a_caster),
+        ("forgotten casters", forget_casters),
     ] {
         let broken = studio.error(Technique::Volume, Bias::default(), falsify);
         assert!(interior(&broken) > 0, "{what} went unnoticed");
@@ -138,29 +153,33 @@ fn volumes_are_exact_on_the_open_teapot() {
 
 #[test]
 fn a_bilinear_cube_map_is_wrong_only_at_edges_on_the_spheres() {
-    const LIMIT: f64 = 0.25;
+    // A quarter more than exact depths at the texel centres and no bias at all would give.
+    const LIMIT: f64 = 0.18;
     let Some(studio) = Studio::new(host::scene::spheres()) else {
         return;
     };
-    let error = studio.true_error(CUBE);
-    let wrong = wrong_percent(&error);
-    assert_eq!(interior(&error), 0, "interior errors");
-    assert!(wrong <= LIMIT, "{wrong} % of pixels are wrong");
+    for (face, limit) in [(512, 0.36), (FACE, LIMIT), (2048, 0.09)] {
+        let error = studio.error_at(face, CUBE, Bias::default(), |_| ());
+        let wrong = wrong_percent(&error);
+        eprintln!("{face} texels a face: {wrong} %");
+        assert_eq!(interior(&error), 0, "interior errors at {face}");
+        assert!(wrong <= limit, "{wrong} % of pixels are wrong at {face}");
+    }
+    // What textbooks do with the same texels.
+    let textbook = wrong_percent(&studio.true_error(Technique::CubeTextbook));
+    eprintln!("textbook: {textbook} %");
+    assert!(
+        textbook > wrong_percent(&studio.true_error(CUBE)),
+        "{textbook}"
+    );
 
-    let peter_panning = Bias {
-        normal_offset: 0.0,
-        constant: 20.0,
-        ..Bias::NONE
-    };
     for (what, bias, falsify) in [
         ("a moved light", Bias::default(), move_light as fn(&mut _)),
-        ("a forgotten caster", Bias::default(), forget_a_caster),
+        ("forgotten casters", Bias::default(), forget_casters),
         ("no bias", Bias::NONE, |_: &mut ShadowInputs| ()),
-        ("a huge bias", peter_panning, |_: &mut ShadowInputs| ()),
     ] {
         let broken = studio.error(CUBE, bias, falsify);
         let wrong = wrong_percent(&broken);
-        eprintln!("{what}: {wrong} %, {} in the interior", interior(&broken));
         assert!(
             interior(&broken) > 0 || wrong > LIMIT,
             "{what} went unnoticed: {wrong} %"

@@ -7,7 +7,8 @@ use common::{noop, noop_with, two_noop_devices};
 use glam::{Affine3A, Vec3};
 use shadows::error::{CasterError, CubeShadowMapError, LightError};
 use shadows::{
-    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, glam, wgpu,
+    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, PointLight,
+    glam, wgpu,
 };
 
 fn descriptor(size: u32) -> CubeShadowMapDescriptor<'static> {
@@ -146,4 +147,88 @@ fn more_casters_than_a_buffer_holds_are_refused() {
         ..Default::default()
     };
     map.prepare(&device, &queue, &frame).unwrap();
+}
+
+#[test]
+fn descriptors_out_of_range_are_refused() {
+    let (device, _) = noop();
+    let good = descriptor(64);
+    let refused = |descriptor| CubeShadowMap::new(&device, &descriptor).unwrap_err();
+    let none = CubeShadowMapDescriptor {
+        lights: 0,
+        ..good.clone()
+    };
+    assert!(matches!(
+        refused(none),
+        CubeShadowMapError::Slots { lights: 0, .. }
+    ));
+    let many = CubeShadowMapDescriptor {
+        lights: 43,
+        cube_array: true,
+        ..good.clone()
+    };
+    let expected = CubeShadowMapError::Slots {
+        lights: 43,
+        limit: 42, // 256 layers
+    };
+    assert_eq!(refused(many), expected);
+    for format in [
+        wgpu::TextureFormat::Rgba8Unorm,
+        wgpu::TextureFormat::Stencil8,
+        wgpu::TextureFormat::Depth24PlusStencil8,
+    ] {
+        let wrong = CubeShadowMapDescriptor {
+            format,
+            ..good.clone()
+        };
+        assert_eq!(refused(wrong), CubeShadowMapError::Format(format));
+    }
+    let idle = CubeShadowMapDescriptor {
+        max_faces_per_frame: Some(0),
+        ..good.clone()
+    };
+    assert_eq!(refused(idle), CubeShadowMapError::Budget);
+    let sloped = CubeShadowMapDescriptor {
+        bias: Bias {
+            slope_scale: 1.0,
+            ..Bias::default()
+        },
+        encoding: DepthEncoding::LinearDistance,
+        ..good.clone()
+    };
+    assert_eq!(refused(sloped), CubeShadowMapError::SlopeScale);
+    CubeShadowMap::new(&device, &good).unwrap();
+}
+
+#[test]
+fn frames_with_too_many_lights_are_refused_and_the_map_goes_on() {
+    let (device, queue) = noop();
+    let mut map = CubeShadowMap::new(&device, &descriptor(64)).unwrap();
+    let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
+    let one = CubeFrame {
+        lights: &[light],
+        ..Default::default()
+    };
+    map.prepare(&device, &queue, &one).unwrap();
+    let two = CubeFrame {
+        lights: &[light, light],
+        ..Default::default()
+    };
+    let error = map.prepare(&device, &queue, &two).unwrap_err();
+    let expected = CubeShadowMapError::TooManyLights {
+        lights: 2,
+        slots: 1,
+    };
+    assert_eq!(error, expected);
+    let pinned = CubeFrame {
+        pinned: &[0, 1],
+        ..one
+    };
+    let error = map.prepare(&device, &queue, &pinned).unwrap_err();
+    let expected = CubeShadowMapError::Pinned {
+        pinned: 1,
+        lights: 1,
+    };
+    assert_eq!(error, expected);
+    map.prepare(&device, &queue, &one).unwrap();
 }

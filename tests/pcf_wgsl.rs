@@ -246,3 +246,64 @@ fn a_host_pipeline_accepts_layout_and_module() {
         assert_eq!(error, None);
     }
 }
+
+/// Every way to make a sampler for cubes but its kernel.
+fn ways() -> Vec<PcfDescriptor<'static>> {
+    let mut ways = Vec::new();
+    for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
+        for many_lights in [false, true] {
+            for textbook in [false, true] {
+                ways.push(PcfDescriptor {
+                    encoding,
+                    many_lights,
+                    textbook,
+                    ..Default::default()
+                });
+            }
+        }
+    }
+    ways
+}
+
+/// Parses and validates WGSL as a device with cube arrays would.
+fn validate_arrays(wgsl: &str) -> Result<naga::Module, String> {
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
+    Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
+        .validate(&module)
+        .map_err(|e| e.emit_to_string(wgsl))?;
+    Ok(module)
+}
+
+#[test]
+fn every_encoding_number_of_lights_and_method_is_valid() {
+    let (device, queue) = noop();
+    for kernel in Kernel::ALL {
+        for way in ways() {
+            let sampler = made(&device, &queue, &PcfDescriptor { kernel, ..way });
+            // Textbook receivers are one tap, whatever the kernel.
+            let called = if way.textbook { Kernel::Hard } else { kernel };
+            let host = |many_lights| {
+                host(&PcfDescriptor {
+                    kernel: called,
+                    many_lights,
+                    ..way
+                })
+            };
+            let text = sampler.wgsl_module(2) + &host(way.many_lights);
+            let module = validate_arrays(&text).unwrap();
+            for (_, function) in module.functions.iter() {
+                let name = function.name.as_deref().unwrap_or_default();
+                assert!(name.starts_with("shadows_"), "{name}");
+            }
+            assert_eq!(
+                validate(&text).is_ok(),
+                !way.many_lights,
+                "arrays cost a capability"
+            );
+            // The broken twin: a host that calls as for the other number of lights.
+            let wrong = sampler.wgsl_module(2) + &host(!way.many_lights);
+            assert!(validate_arrays(&wrong).is_err());
+        }
+    }
+}

@@ -100,13 +100,27 @@ pub enum Technique {
     Cube2x2,
     /// Cube shadow map, 16 taps in a disk.
     Cube16,
+    /// Cube shadow map of 1024 texels a face, 2 x 2 comparison.
+    Cube1024,
+    /// Cube shadow map, 2 x 2 comparison, unchanged faces kept.
+    CubeCached,
+    /// Cube shadow map as textbooks have it.
+    CubeTextbook,
     /// Stencil shadow volumes.
     Volume,
 }
 
 impl Technique {
     /// All of them, in the order of a report.
-    pub const ALL: [Self; 4] = [Self::CubeHard, Self::Cube2x2, Self::Cube16, Self::Volume];
+    pub const ALL: [Self; 7] = [
+        Self::CubeHard,
+        Self::Cube2x2,
+        Self::Cube16,
+        Self::Cube1024,
+        Self::CubeCached,
+        Self::CubeTextbook,
+        Self::Volume,
+    ];
 
     /// Name on the command line, in file names and in reports.
     pub const fn name(self) -> &'static str {
@@ -114,6 +128,9 @@ impl Technique {
             Self::CubeHard => "cube-hard",
             Self::Cube2x2 => "cube-2x2",
             Self::Cube16 => "cube-16",
+            Self::Cube1024 => "cube-1024",
+            Self::CubeCached => "cube-cached",
+            Self::CubeTextbook => "cube-textbook",
             Self::Volume => "volume",
         }
     }

@@ -163,6 +163,9 @@ impl From<args::Technique> for Technique {
             args::Technique::CubeHard => Self::Cube(Kernel::Hard),
             args::Technique::Cube2x2 => Self::Cube(Kernel::Bilinear),
             args::Technique::Cube16 => Self::Cube(Kernel::FourTaps),
+            args::Technique::Cube1024 => Self::Cube1024,
+            args::Technique::CubeCached => Self::CubeCached,
+            args::Technique::CubeTextbook => Self::CubeTextbook,
             args::Technique::Volume => Self::Volume,
         }
     }

@@ -13,24 +13,23 @@ use crate::host::gpu::Gpu;
 use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene_gpu::SceneGpu;
 
-/// A way to make shadows.
+/// A way to make shadows. Maps are drawn anew every frame unless said otherwise, as if everything
+/// moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Technique {
     /// A cube shadow map read through a kernel.
     Cube(Kernel),
+    /// The same with the default kernel, whatever the size asked for, at 1024 texels a face.
+    Cube1024,
+    /// The same with the default kernel; faces that have not changed are not drawn again.
+    CubeCached,
+    /// A cube map as textbooks have it.
+    CubeTextbook,
     /// Stencil shadow volumes.
     Volume,
 }
 
 impl Technique {
-    /// Every technique, in the order of reports.
-    pub const ALL: [Self; 4] = [
-        Self::Cube(Kernel::Hard),
-        Self::Cube(Kernel::Bilinear),
-        Self::Cube(Kernel::FourTaps),
-        Self::Volume,
-    ];
-
     /// The name on the command line, in reports and of files.
     pub fn name(self) -> &'static str {
         match self {
@@ -38,6 +37,9 @@ impl Technique {
             Self::Cube(Kernel::Bilinear) => "cube-2x2",
             Self::Cube(Kernel::FourTaps) => "cube-16",
             Self::Cube(_) => "cube",
+            Self::Cube1024 => "cube-1024",
+            Self::CubeCached => "cube-cached",
+            Self::CubeTextbook => "cube-textbook",
             Self::Volume => "volume",
         }
     }
@@ -45,8 +47,53 @@ impl Technique {
     /// Whether it can shadow this light.
     pub fn applies_to(self, light: HomogeneousLight) -> bool {
         match self {
-            Self::Cube(_) => !light.is_directional(),
             Self::Volume => true,
+            _ => !light.is_directional(),
+        }
+    }
+
+    /// The map and what reads it.
+    fn cube(
+        self,
+        face: u32,
+        bias: Bias,
+    ) -> (CubeShadowMapDescriptor<'static>, PcfDescriptor<'static>) {
+        let label = Some(self.name());
+        let ours = CubeShadowMapDescriptor {
+            label,
+            size: face,
+            bias,
+            cache: false,
+            ..Default::default()
+        };
+        let map = match self {
+            Self::Cube1024 => CubeShadowMapDescriptor { size: 1024, ..ours },
+            Self::CubeCached => CubeShadowMapDescriptor {
+                cache: true,
+                ..ours
+            },
+            Self::CubeTextbook => CubeShadowMapDescriptor {
+                label,
+                size: face,
+                ..CubeShadowMapDescriptor::textbook()
+            },
+            Self::Cube(_) | Self::Volume => ours,
+        };
+        let sampler = PcfDescriptor {
+            label,
+            kernel: self.kernel(),
+            encoding: map.encoding,
+            textbook: self == Self::CubeTextbook,
+            ..Default::default()
+        };
+        (map, sampler)
+    }
+
+    fn kernel(self) -> Kernel {
+        match self {
+            Self::Cube(kernel) => kernel,
+            Self::CubeTextbook => Kernel::Hard,
+            _ => Kernel::default(),
         }
     }
 }
@@ -99,9 +146,9 @@ pub struct Shadow {
 enum Means {
     Cube {
         map: Box<CubeShadowMap>,
-        sampler: Box<PcfSampler>,
-        /// The map's textures, and which of its revisions they are.
-        group: Option<(u64, wgpu::BindGroup)>,
+        sampler: PcfSampler,
+        /// With the revision of the map's texture that it is for.
+        group: (u64, wgpu::BindGroup),
         bias: Bias,
     },
     Volume {
@@ -131,34 +178,22 @@ impl Shadow {
         bias: Bias,
     ) -> Result<Self> {
         match technique {
-            Technique::Cube(kernel) => Self::cube(gpu, renderer, kernel, face, bias),
             Technique::Volume => Self::volume(gpu, renderer),
+            _ => Self::cube(gpu, renderer, technique, face, bias),
         }
     }
 
-    fn cube(gpu: &Gpu, renderer: &Renderer, kernel: Kernel, face: u32, bias: Bias) -> Result<Self> {
-        let technique = Technique::Cube(kernel);
-        let label = Some(technique.name());
-        let map = CubeShadowMap::new(
-            &gpu.device,
-            &CubeShadowMapDescriptor {
-                label,
-                size: face,
-                bias,
-                // Every frame pays for its map, as a frame of a moving light does.
-                cache: false,
-                ..Default::default()
-            },
-        )?;
-        let sampler = PcfSampler::new(
-            &gpu.device,
-            &gpu.queue,
-            &PcfDescriptor {
-                label,
-                kernel,
-                ..Default::default()
-            },
-        )?;
+    fn cube(
+        gpu: &Gpu,
+        renderer: &Renderer,
+        technique: Technique,
+        face: u32,
+        bias: Bias,
+    ) -> Result<Self> {
+        let (map, sampler) = technique.cube(face, bias);
+        let bias = map.bias;
+        let map = CubeShadowMap::new(&gpu.device, &map)?;
+        let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &sampler)?;
         let lit = renderer.lit_pipeline(
             gpu,
             &ShadowAccess {
@@ -167,13 +202,17 @@ impl Shadow {
                 stencil: None,
             },
         );
+        let group = (
+            map.texture_revision(),
+            sampler.bind_group(&gpu.device, &map)?,
+        );
         Ok(Self {
             technique,
             lit,
             means: Means::Cube {
                 map: Box::new(map),
-                sampler: Box::new(sampler),
-                group: None,
+                sampler,
+                group,
                 bias,
             },
         })
@@ -228,8 +267,8 @@ impl Shadow {
                 };
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
                 let revision = map.texture_revision();
-                if group.as_ref().is_none_or(|(of, _)| *of != revision) {
-                    *group = Some((revision, sampler.bind_group(&gpu.device, map.as_ref())?));
+                if group.0 != revision {
+                    *group = (revision, sampler.bind_group(&gpu.device, &**map)?);
                 }
             }
             Means::Volume { renderer, .. } => {
@@ -259,7 +298,7 @@ impl Shadow {
     /// Records the lit pass.
     pub fn shade(&self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
         let group = match &self.means {
-            Means::Cube { group, .. } => group.as_ref().map(|(_, group)| group),
+            Means::Cube { group, .. } => Some(&group.1),
             Means::Volume { .. } => None,
         };
         host.draw_lit(encoder, scene, &self.lit, group);
@@ -289,32 +328,38 @@ impl Shadow {
 
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
-        match (&self.means, self.technique) {
-            (Means::Cube { map, bias, .. }, Technique::Cube(kernel)) => json!({
+        let kernel = self.technique.kernel();
+        match &self.means {
+            Means::Cube { map, bias, .. } => json!({
                 "face_texels": map.size(),
+                "encoding": format!("{:?}", map.encoding()),
                 "kernel": format!("{kernel:?}"),
-                "kernel_radius_texels": radius_in_texels(kernel),
-                "bias_normal_offset_texels": bias.normal_offset,
-                "bias_constant_texels": bias.constant,
+                "kernel_radius_texels": decimal(radius_in_texels(kernel)),
+                "bias_normal_offset_texels": decimal(bias.normal_offset),
+                "bias_constant_texels": decimal(bias.constant),
             }),
-            (Means::Volume { cap_bias_ulps, .. }, _) => json!({
+            Means::Volume { cap_bias_ulps, .. } => json!({
                 "stencil": "z-fail, 8 bits, wrapping",
                 "cap_bias_ulps": cap_bias_ulps,
             }),
-            (Means::Cube { .. }, Technique::Volume) => Value::Null,
         }
     }
 
     /// Where resolution is no excuse for this technique's errors.
     pub fn interior(&self) -> Interior {
-        match (&self.means, self.technique) {
-            (Means::Cube { map, .. }, Technique::Cube(kernel)) => Interior::Map {
+        match &self.means {
+            Means::Cube { map, .. } => Interior::Map {
                 face_size: map.size(),
-                kernel_radius: radius_in_texels(kernel),
+                kernel_radius: radius_in_texels(self.technique.kernel()),
             },
-            _ => Interior::Screen,
+            Means::Volume { .. } => Interior::Screen,
         }
     }
+}
+
+/// The number as one would write it: 0.1 rather than the f64 nearest to the f32 nearest to 0.1.
+fn decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
 }
 
 /// How many texels a kernel reaches, at most: disks are measured on the surface, where texels are

@@ -1,8 +1,9 @@
 //! A small host: what the examples, the tests and the benches share. Not part of the library.
-#![allow(dead_code)] // each of them uses its own part
+#![allow(dead_code, unused_imports)] // each of them uses its own part
 
 pub mod gpu;
 pub mod image;
+pub mod pipelines;
 pub mod ply;
 pub mod renderer;
 pub mod scene;

@@ -132,7 +132,7 @@ impl CubeShadowMap {
             lights: resources::lights(device, &label, slots as u64, cube_array),
             instances: resources::instances(device, &label, 1),
             label,
-            scene: Scene::new(descriptor.cull_front_faces),
+            scene: Scene::new(descriptor.sides),
             slots: (0..slots)
                 .map(|_| Slot::new(descriptor.cull_casters))
                 .collect(),
@@ -342,7 +342,7 @@ impl CubeShadowMap {
             *changed = changes(slot, light);
             if *changed {
                 let shown = slot.shown;
-                slot.set_light(None, &[]);
+                slot.set_light(None, &self.scene);
                 slot.shown = shown.filter(|_| light.is_some());
             }
         }
@@ -351,7 +351,7 @@ impl CubeShadowMap {
         }
         for ((slot, light), changed) in self.slots.iter_mut().zip(wanted).zip(changed) {
             if changed && light.is_some() {
-                slot.set_light(light, self.scene.records());
+                slot.set_light(light, &self.scene);
             }
         }
     }

@@ -35,6 +35,28 @@ impl DepthEncoding {
     }
 }
 
+/// Which sides of casters are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CasterSides {
+    /// The sides that face the light, where that shows the same as both: for closed meshes each of
+    /// whose surfaces encloses a positive volume (found when the mesh is made; never for meshes in
+    /// the host's own buffer), under any transform, if the light is outside the mesh's bounds. Both
+    /// sides of all others. Takes about a third off the time of drawing.
+    ///
+    /// On outlines, where a near and a far side meet within a texel, depths may differ from
+    /// [`Both`](Self::Both) by the depth of that texel. A surface that passes through itself and is
+    /// inside out there casts from the far side of that part.
+    #[default]
+    Nearest,
+    /// Both sides of every mesh.
+    Both,
+    /// Of closed meshes only the sides that look away from the light; meshes that are not closed
+    /// keep both. It hides acne where receivers are compared without their plane, and lets light in
+    /// where thin casters touch receivers. Closed meshes must be wound counter-clockwise seen from
+    /// outside.
+    Far,
+}
+
 /// When a [`CubeShadowMap`](crate::CubeShadowMap) takes its texture memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Allocation {
@@ -81,11 +103,8 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// Whether faces whose content has not changed are left alone. Default true; false draws every
     /// face every frame, for measuring what that is worth.
     pub cache: bool,
-    /// Whether only the sides of closed meshes that look away from the light are drawn (mirrored
-    /// transforms are noticed; meshes that are not closed keep both sides). Default false. It needs
-    /// less bias and lets light in where thin casters touch receivers. Closed meshes must be
-    /// wound counter-clockwise seen from outside.
-    pub cull_front_faces: bool,
+    /// Which sides of casters are drawn. Default [`CasterSides::Nearest`].
+    pub sides: CasterSides,
     /// The most faces drawn in one `prepare`; default none. At least 1. See
     /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order and the longest wait.
     pub max_faces_per_frame: Option<u32>,
@@ -101,6 +120,7 @@ impl CubeShadowMapDescriptor<'_> {
             encoding: DepthEncoding::LinearDistance,
             cull_casters: false,
             cache: false,
+            sides: CasterSides::Both,
             ..Self::default()
         }
     }
@@ -161,7 +181,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             format: wgpu::TextureFormat::Depth32Float,
             cull_casters: true,
             cache: true,
-            cull_front_faces: false,
+            sides: CasterSides::default(),
             max_faces_per_frame: None,
         }
     }

@@ -4,16 +4,17 @@ use std::collections::HashMap;
 
 use glam::DAffine3;
 
+use super::descriptor::CasterSides;
 use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
-use super::scene::Scene;
-use super::slot::Slot;
+use super::scene::{Record, Scene, Winding};
+use super::slot::{Slot, bounds};
 use crate::mesh::{Caster, CasterMesh};
 
 /// One draw call: a mesh, and where its instances lie.
 #[derive(Clone, Debug)]
 pub(super) struct Draw {
     pub mesh: CasterMesh,
-    pub mirrored: Option<bool>,
+    pub cull: Option<wgpu::Face>,
     pub first_instance: u64,
     pub instance_count: u32,
 }
@@ -23,7 +24,7 @@ impl Draw {
     pub fn key(&self) -> PipelineKey {
         PipelineKey {
             stride: self.mesh.layout().0,
-            mirrored: self.mirrored,
+            cull: self.cull,
         }
     }
 
@@ -49,13 +50,46 @@ impl Draw {
     }
 }
 
+/// Which triangles of a caster the rasteriser drops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Cull {
+    None,
+    Front,
+    Back,
+}
+
+impl Cull {
+    /// `clear`: the light is outside the caster's bounds and the near plane does not cut them.
+    pub fn of(sides: CasterSides, record: &Record, clear: bool) -> Self {
+        let far = sides == CasterSides::Far;
+        if !far && !clear {
+            return Self::None; // the light may be inside, or the near plane cut the nearest side
+        }
+        // The faces' frames are left-handed: what is counter-clockwise seen from the light is
+        // clockwise (a back face) on the map, unless the transform mirrors it once more.
+        match (record.winding, far) {
+            (Winding::Any, _) => Self::None,
+            (Winding::Sound, false) | (Winding::Mirrored, true) => Self::Front,
+            (Winding::Sound, true) | (Winding::Mirrored, false) => Self::Back,
+        }
+    }
+
+    pub fn face(self) -> Option<wgpu::Face> {
+        match self {
+            Self::None => None,
+            Self::Front => Some(wgpu::Face::Front),
+            Self::Back => Some(wgpu::Face::Back),
+        }
+    }
+}
+
 /// The draws of all faces that the next encode draws.
 #[derive(Debug, Default)]
 pub(super) struct DrawLists {
     faces: Vec<[Vec<Draw>; 6]>,
     pub instances: Vec<Instance>,
-    // Kept only for its memory: group and row of each caster on the face at hand.
-    members: [Vec<(u32, u32)>; 6],
+    // Kept only for its memory: group, culling and row of each caster on each face.
+    members: [Vec<(u32, Cull, u32)>; 6],
     rows: Vec<Instance>,
 }
 
@@ -86,14 +120,14 @@ impl DrawLists {
         let light_from_world = DAffine3::from_translation(-light.position.as_dvec3());
         self.rows.clear();
         self.members.iter_mut().for_each(Vec::clear);
-        for ((touched, caster), record) in slot.masks().iter().zip(casters).zip(scene.records()) {
-            let on = touched & mask;
-            if on == 0 {
-                continue;
-            }
+        for at in touching(slot.masks(), mask) {
+            let (caster, record) = (&casters[at], &scene.records()[at]);
+            let on = slot.masks()[at] & mask;
+            let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
+            let cull = Cull::of(scene.sides(), record, clear);
             for (bit, members) in self.members.iter_mut().enumerate() {
                 if on & 1 << bit != 0 {
-                    members.push((record.group, self.rows.len() as u32));
+                    members.push((record.group, cull, self.rows.len() as u32));
                 }
             }
             self.rows
@@ -101,21 +135,37 @@ impl DrawLists {
         }
         for (members, draws) in self.members.iter_mut().zip(&mut self.faces[index]) {
             members.sort_unstable();
-            for run in members.chunk_by(|a, b| a.0 == b.0) {
+            for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
                 let Some(group) = scene.group(run[0].0) else {
                     continue; // every record's group exists
                 };
                 draws.push(Draw {
                     mesh: group.mesh.clone(),
-                    mirrored: group.mirrored,
+                    cull: run[0].1.face(),
                     first_instance: self.instances.len() as u64,
                     instance_count: run.len() as u32,
                 });
-                let rows = run.iter().map(|&(_, row)| self.rows[row as usize]);
+                let rows = run.iter().map(|&(.., row)| self.rows[row as usize]);
                 self.instances.extend(rows);
             }
         }
     }
+}
+
+/// The casters that touch any face of a mask. Most casters touch none, so sixteen at a time are
+/// looked at.
+fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
+    masks
+        .chunks(16)
+        .enumerate()
+        .filter(move |(_, chunk)| chunk.iter().fold(0, |all, &one| all | one) & mask != 0)
+        .flat_map(move |(number, chunk)| {
+            let touches = chunk
+                .iter()
+                .enumerate()
+                .filter(move |&(_, on)| on & mask != 0);
+            touches.map(move |(at, _)| number * 16 + at)
+        })
 }
 
 pub(super) fn instance(light_from_object: &DAffine3) -> Instance {

@@ -91,6 +91,12 @@ impl LightBounds {
             .fold(0, |mask, face| mask | face.bit())
     }
 
+    /// Whether the light, and what lies before the near planes of its faces, is surely outside.
+    pub fn clear_of_near(&self, near: f64) -> bool {
+        let gap = self.centre.abs() - self.half;
+        gap.max_element() > near * (1.0 + 1e-6)
+    }
+
     /// Whether any point may satisfy `|right| <= forward` and `|up| <= forward`.
     fn touches(&self, face: CubeFace) -> bool {
         let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
@@ -161,6 +167,18 @@ mod tests {
             }
         }
         assert!(culled > 2000, "culls next to nothing: {culled}");
+    }
+
+    #[test]
+    fn bounds_that_reach_the_near_cube_are_not_clear_of_it() {
+        let at = |x: f64| LightBounds {
+            centre: DVec3::new(x, 0.0, 0.0),
+            half: DVec3::ONE,
+            radius: 1.8,
+        };
+        assert!(at(1.2).clear_of_near(0.1));
+        assert!(!at(1.05).clear_of_near(0.1));
+        assert!(!at(0.0).clear_of_near(0.1));
     }
 
     #[test]

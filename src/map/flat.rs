@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::{DAffine3, Mat4, Vec4};
 
 use super::descriptor::DepthEncoding;
-use super::draws::{Draw, instance};
+use super::draws::{Cull, Draw, instance};
 use super::flat_descriptor::{
     FlatLight, FlatLightUniform, ShadowFrame, ShadowMapDescriptor, ShadowMapStatistics,
 };
@@ -132,7 +132,7 @@ impl ShadowMap {
                 wgpu::BufferUsages::UNIFORM,
             ),
             instances: resources::instances(device, &label, 1),
-            scene: Scene::new(descriptor.cull_front_faces),
+            scene: Scene::new(descriptor.sides),
             frame: None,
             width: None,
             draws: Vec::new(),
@@ -288,20 +288,24 @@ impl ShadowMap {
         self.draws.clear();
         let frame = self.frame?;
         let light_from_world = DAffine3::from_translation(-frame.origin.as_dvec3());
+        let sides = self.scene.sides();
         let records = self.scene.records().iter().zip(casters).enumerate();
         let mut members: Vec<_> = records
             .filter(|(_, (record, _))| record.triangles > 0 && frame.touches(record))
-            .map(|(index, (record, caster))| (record.group, index, record.digest, caster))
+            .map(|(index, (record, caster))| {
+                let cull = Cull::of(sides, record, frame.is_clear_of(record));
+                (record.group, cull, index, record.digest, caster)
+            })
             .collect();
-        members.sort_unstable_by_key(|&(group, index, ..)| (group, index));
+        members.sort_unstable_by_key(|&(group, cull, index, ..)| (group, cull, index));
         let mut rows = Vec::with_capacity(members.len());
-        for run in members.chunk_by(|a, b| a.0 == b.0) {
+        for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             let Some(group) = self.scene.group(run[0].0) else {
                 continue; // every record's group exists
             };
             self.draws.push(Draw {
                 mesh: group.mesh.clone(),
-                mirrored: group.mirrored,
+                cull: run[0].1.face(),
                 first_instance: rows.len() as u64,
                 instance_count: run.len() as u32,
             });
@@ -318,7 +322,7 @@ impl ShadowMap {
                 .entry(key)
                 .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
         }
-        let digests = members.iter().map(|member| member.2);
+        let digests = members.iter().map(|member| member.3);
         Some(Content {
             frame,
             casters: digests.fold(0, u128::wrapping_add),

@@ -1,5 +1,6 @@
 //! What a flat map is made from and told each frame.
 
+use super::descriptor::CasterSides;
 use super::flat_frame::FlatFrame;
 use crate::error::ShadowMapError;
 use crate::mesh::{Bounds, Caster};
@@ -16,10 +17,9 @@ pub struct ShadowMapDescriptor<'a> {
     /// Bias for receivers, in texels. Default [`Bias::default`], which needs no tuning. Its
     /// `slope_scale` is the rasteriser's.
     pub bias: Bias,
-    /// Whether only the sides of closed meshes that look away from the light are drawn (mirrored
-    /// transforms are noticed; meshes that are not closed keep both sides). Default false. Closed
-    /// meshes must be wound counter-clockwise seen from outside.
-    pub cull_front_faces: bool,
+    /// Which sides of casters are drawn; [`CasterSides::Far`] culls front faces. Default
+    /// [`CasterSides::Nearest`].
+    pub sides: CasterSides,
     /// Whether casters before the near plane are pulled onto it, on devices with
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL). Default true. On others a
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
@@ -46,7 +46,7 @@ impl Default for ShadowMapDescriptor<'_> {
             label: None,
             size: 2048,
             bias: Bias::default(),
-            cull_front_faces: false,
+            sides: CasterSides::default(),
             unclipped_depth: true,
             cache: true,
         }

@@ -60,6 +60,14 @@ impl FlatFrame {
         Mat4::from_cols(across(self.right), across(self.up), depth, w).transpose()
     }
 
+    /// Whether the light is outside a caster's bounds and the near plane does not cut them.
+    pub fn is_clear_of(&self, record: &Record) -> bool {
+        let centre = record.centre - self.origin.as_dvec3();
+        let forward = self.forward.as_dvec3();
+        let room = forward.abs().dot(record.half).min(record.radius);
+        !self.perspective || forward.dot(centre) - room > f64::from(self.near)
+    }
+
     /// Whether a caster may show on the map.
     pub fn touches(&self, record: &Record) -> bool {
         let centre = record.centre - self.origin.as_dvec3();

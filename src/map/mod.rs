@@ -2,6 +2,7 @@
 
 mod assign;
 mod bias;
+mod cross;
 mod cube;
 mod descriptor;
 mod draws;
@@ -20,8 +21,9 @@ mod texture;
 mod visible;
 
 pub use bias::Bias;
+pub use cross::{CubeCross, CubeCrossDescriptor};
 pub use cube::CubeShadowMap;
-pub use descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
+pub use descriptor::{Allocation, CasterSides, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 pub use face::CubeFace;
 pub use flat::{ShadowMap, texture_from_clip};
 pub(crate) use flat_descriptor::FlatLightUniform;

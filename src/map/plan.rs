@@ -34,7 +34,8 @@ impl CubeShadowMap {
                 Some(frustum) => frustum.faces(light, self.size),
                 None => ALL_FACES,
             };
-            let stale = if self.cache { slot.stale() } else { ALL_FACES };
+            let again = if self.cache { 0 } else { !slot.empty() };
+            let stale = slot.stale() | again & ALL_FACES;
             let plan = &mut plans[index];
             plan.wanted = stale & visible;
             plan.hidden = stale & !visible;

@@ -99,7 +99,7 @@ pub(super) fn faces(
 pub(super) struct PipelineKey {
     /// Bytes between positions.
     pub stride: u64,
-    pub mirrored: Option<bool>,
+    pub cull: Option<wgpu::Face>,
 }
 
 /// What all pipelines of one map share.
@@ -147,12 +147,7 @@ pub(super) fn pipeline(
             ],
         },
         primitive: wgpu::PrimitiveState {
-            // The faces' frames are left-handed: what is counter-clockwise seen from the light is
-            // clockwise (a back face) on the map, unless the transform mirrors it once more.
-            cull_mode: key.mirrored.map(|mirrored| match mirrored {
-                false => wgpu::Face::Back,
-                true => wgpu::Face::Front,
-            }),
+            cull_mode: key.cull,
             unclipped_depth: kind.unclipped_depth,
             ..Default::default()
         },

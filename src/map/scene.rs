@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use glam::{Affine3A, DVec3};
+use glam::{Affine3A, DVec3, DVec4};
 
+use super::descriptor::CasterSides;
 use super::slot::Slot;
 use crate::error::CasterError;
 use crate::mesh::{Caster, CasterMesh, MeshKind};
@@ -38,14 +39,24 @@ pub(super) struct Record {
     pub triangles: u32,
     /// Index of its [`Group`].
     pub group: u32,
+    pub winding: Winding,
 }
 
-/// Casters that can go out in one draw call.
+/// What a caster's winding says of its sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Winding {
+    /// Nothing; both sides count.
+    Any,
+    /// Counter-clockwise seen from outside.
+    Sound,
+    /// Clockwise, after a transform that mirrors.
+    Mirrored,
+}
+
+/// The casters of one mesh, which can go out in one draw call.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub mesh: CasterMesh,
-    /// Whether the winding is to be heeded, and then whether it is turned around.
-    pub mirrored: Option<bool>,
     casters: usize,
 }
 
@@ -53,10 +64,12 @@ pub(super) struct Group {
 pub(super) struct Scene {
     seen: Vec<Seen>,
     records: Vec<Record>,
+    /// Centre and radius of each record, by themselves: what a light that moved looks through.
+    spheres: Vec<DVec4>,
     groups: Vec<Option<Group>>,
-    group_of_mesh: HashMap<(u64, Option<bool>), u32>,
+    group_of_mesh: HashMap<u64, u32>,
     changed: Vec<u32>,
-    heed_winding: bool,
+    sides: CasterSides,
 }
 
 impl std::fmt::Debug for Scene {
@@ -68,16 +81,23 @@ impl std::fmt::Debug for Scene {
 }
 
 impl Scene {
-    /// An empty scene; `heed_winding` keeps mirrored casters of closed meshes apart.
-    pub fn new(heed_winding: bool) -> Self {
+    pub fn new(sides: CasterSides) -> Self {
         Self {
-            heed_winding,
+            sides,
             ..Self::default()
         }
     }
 
+    pub fn sides(&self) -> CasterSides {
+        self.sides
+    }
+
     pub fn records(&self) -> &[Record] {
         &self.records
+    }
+
+    pub fn spheres(&self) -> &[DVec4] {
+        &self.spheres
     }
 
     pub fn group(&self, index: u32) -> Option<&Group> {
@@ -113,6 +133,7 @@ impl Scene {
             self.leave_group(old.group);
         }
         self.records.truncate(casters.len());
+        self.spheres.truncate(casters.len());
         self.seen.truncate(casters.len());
         for changed in std::mem::take(&mut self.changed) {
             let index = changed as usize;
@@ -125,11 +146,13 @@ impl Scene {
                         .for_each(|slot| slot.replace(index, &old, &new));
                     self.leave_group(old.group);
                     self.records[index] = new;
+                    self.spheres[index] = new.centre.extend(new.radius);
                     self.seen[index] = Seen::of(caster);
                 }
                 None => {
                     slots.iter_mut().for_each(|slot| slot.push(&new));
                     self.records.push(new);
+                    self.spheres.push(new.centre.extend(new.radius));
                     self.seen.push(Seen::of(caster));
                 }
             }
@@ -146,20 +169,31 @@ impl Scene {
             digest: digest(&Seen::of(caster)),
             triangles: caster.mesh.triangle_count(),
             group: self.join_group(caster),
+            winding: self.winding(caster),
+        }
+    }
+
+    fn winding(&self, caster: &Caster) -> Winding {
+        let heeded = match self.sides {
+            CasterSides::Both => false,
+            CasterSides::Nearest => caster.mesh.is_solid(),
+            CasterSides::Far => caster.mesh.kind() == MeshKind::Closed,
+        };
+        match heeded {
+            false => Winding::Any,
+            true if caster.world_from_object.matrix3.determinant() < 0.0 => Winding::Mirrored,
+            true => Winding::Sound,
         }
     }
 
     fn join_group(&mut self, caster: &Caster) -> u32 {
-        let mirrored = (self.heed_winding && caster.mesh.kind() == MeshKind::Closed)
-            .then(|| caster.world_from_object.matrix3.determinant() < 0.0);
         let groups = &mut self.groups;
         let index = *self
             .group_of_mesh
-            .entry((caster.mesh.id(), mirrored))
+            .entry(caster.mesh.id())
             .or_insert_with(|| {
                 let group = Some(Group {
                     mesh: caster.mesh.clone(),
-                    mirrored,
                     casters: 0,
                 });
                 match groups.iter().position(Option::is_none) {
@@ -185,8 +219,7 @@ impl Scene {
         let Some(group) = place else { return };
         group.casters -= 1;
         if group.casters == 0 {
-            self.group_of_mesh
-                .remove(&(group.mesh.id(), group.mirrored));
+            self.group_of_mesh.remove(&group.mesh.id());
             *place = None;
         }
     }

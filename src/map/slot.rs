@@ -2,8 +2,10 @@
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
+use glam::Vec4Swizzles as _;
+
 use super::face::{CubeFace, LightBounds};
-use super::scene::Record;
+use super::scene::{Record, Scene};
 use crate::PointLight;
 
 /// A mask of all six faces.
@@ -51,6 +53,15 @@ pub(super) struct Face {
     /// How much has changed since it was drawn: the sum of (radius / distance)^2 of the casters
     /// that did.
     pub change: f64,
+}
+
+/// Bounds of a caster relative to a light.
+pub(super) fn bounds(light: &PointLight, record: &Record) -> LightBounds {
+    LightBounds {
+        centre: record.centre - light.position.as_dvec3(),
+        half: record.half,
+        radius: record.radius,
+    }
 }
 
 #[derive(Debug, Default)]
@@ -105,7 +116,7 @@ impl Slot {
     }
 
     /// Takes another light (or none) and sorts all casters anew.
-    pub fn set_light(&mut self, light: Option<PointLight>, records: &[Record]) {
+    pub fn set_light(&mut self, light: Option<PointLight>, scene: &Scene) {
         self.light = light;
         self.casting = 0;
         self.masks.clear();
@@ -113,10 +124,18 @@ impl Slot {
             face.content = Content::default();
             face.change = 1.0;
         }
-        if light.is_none() {
+        let Some(light) = light else {
             self.shown = None;
-        } else {
-            records.iter().for_each(|record| self.push(record));
+            return;
+        };
+        let (centre, range) = (light.position.as_dvec3(), f64::from(light.range));
+        for (sphere, record) in scene.spheres().iter().zip(scene.records()) {
+            let reach = range + sphere.w;
+            if self.cull && sphere.xyz().distance_squared(centre) > reach * reach {
+                self.masks.push(0);
+            } else {
+                self.push(record);
+            }
         }
     }
 
@@ -149,12 +168,7 @@ impl Slot {
         if !self.cull {
             return ALL_FACES;
         }
-        LightBounds {
-            centre: record.centre - light.position.as_dvec3(),
-            half: record.half,
-            radius: record.radius,
-        }
-        .faces(f64::from(light.range))
+        bounds(light, record).faces(f64::from(light.range))
     }
 
     fn enter(&mut self, mask: u8, light: &PointLight, record: &Record) {

@@ -1,11 +1,14 @@
 //! The GPU side of a mesh that casts shadows, and a caster: such a mesh somewhere in the world.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use glam::{Affine3A, DAffine3, DMat3, Vec3};
 use wgpu::util::DeviceExt as _;
 
+use super::data::{MeshData, edge_records};
+use super::records::VertexRecords;
+use super::solid::is_solid;
 use super::{Adjacency, Bounds, MeshKind};
 use crate::error::{CasterError, CasterMeshError};
 
@@ -32,8 +35,13 @@ struct Inner {
     edge_uses: Option<wgpu::Buffer>,
     edge_use_count: u32,
     kind: MeshKind,
+    solid: bool,
     bounds: Bounds,
     radius: f32,
+    /// The same in main memory, if the positions were uploaded from there.
+    data: Option<MeshData>,
+    /// Made when a renderer first asks for them.
+    records: OnceLock<VertexRecords>,
 }
 
 /// Positions that already lie in a vertex buffer of the host, read in place every frame.
@@ -58,13 +66,17 @@ struct Source {
     offset: u64,
     bounds: Bounds,
     radius: f32,
+    solid: bool,
+    /// In main memory, if they are known there.
+    packed: Option<Vec<[f32; 3]>>,
 }
 
 impl CasterMesh {
     /// Uploads a mesh. `positions` are those the adjacency was built from.
     ///
     /// GPU memory: 12 bytes a vertex, 12 a triangle, 16 an edge, and for
-    /// [`MeshKind::General`] 4 for each use of an edge.
+    /// [`MeshKind::General`] 4 for each use of an edge. Main memory: the same, and 4 bytes for each
+    /// use of an edge in any case, for shadow volumes whose silhouettes are found on the CPU.
     ///
     /// # Errors
     /// [`CasterMeshError`] if the counts differ, a position is not finite or a buffer would be
@@ -91,13 +103,15 @@ impl CasterMesh {
             min: Vec3::ZERO,
             max: Vec3::ZERO,
         });
-        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let usage = wgpu::BufferUsages::VERTEX | storage_usage(device);
         let source = Source {
             buffer: upload(device, "positions", &packed, usage)?,
             stride: POSITION_SIZE,
             offset: 0,
             bounds,
             radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+            solid: is_solid(&packed, adjacency),
+            packed: Some(packed),
         };
         Self::assemble(device, source, adjacency)
     }
@@ -155,6 +169,9 @@ impl CasterMesh {
             offset,
             bounds,
             radius: bounds.radius_of([bounds.min, bounds.max]),
+            // The host may turn it inside out.
+            solid: false,
+            packed: None,
         };
         Self::assemble(device, source, adjacency)
     }
@@ -164,35 +181,26 @@ impl CasterMesh {
         source: Source,
         adjacency: &Adjacency,
     ) -> Result<Self, CasterMeshError> {
-        let storage = wgpu::BufferUsages::STORAGE;
-        let triangles = upload(
-            device,
-            "triangles",
-            adjacency.triangles(),
-            storage | wgpu::BufferUsages::INDEX,
-        )?;
+        let storage = storage_usage(device);
+        // Devices without storage buffers may want index buffers to be nothing else.
+        let index = wgpu::BufferUsages::INDEX | (storage & wgpu::BufferUsages::STORAGE);
+        let triangles = upload(device, "triangles", adjacency.triangles(), index)?;
         let kind = adjacency.kind();
         let uses = adjacency.edge_uses();
-        let records: Vec<[u32; 4]> = adjacency
-            .edges()
-            .iter()
-            .map(|edge| {
-                let [a, b] = edge.vertices;
-                match kind {
-                    MeshKind::Closed => {
-                        let first = edge.first_use as usize;
-                        [a, b, uses[first].triangle(), uses[first + 1].triangle()]
-                    }
-                    MeshKind::General => [a, b, edge.first_use, edge.use_count],
-                }
-            })
-            .collect();
+        let records = edge_records(adjacency);
         let edges = upload(device, "edges", &records, storage)?;
         let edge_uses = match kind {
             MeshKind::Closed => None,
             MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
         };
         static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+        let edge_count = records.len() as u32;
+        let data = source.packed.map(|positions| MeshData {
+            positions,
+            triangles: adjacency.triangles().to_vec(),
+            edges: records,
+            edge_uses: uses.to_vec(),
+        });
         Ok(Self(Arc::new(Inner {
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
             revision: AtomicU64::new(0),
@@ -204,18 +212,26 @@ impl CasterMesh {
             triangles,
             triangle_count: adjacency.triangles().len() as u32,
             edges,
-            edge_count: records.len() as u32,
+            edge_count,
             edge_uses,
             edge_use_count: uses.len() as u32,
             kind,
+            solid: source.solid,
             bounds: source.bounds,
             radius: source.radius,
+            data,
+            records: OnceLock::new(),
         })))
     }
 
     /// The rule its shadow volume follows.
     pub fn kind(&self) -> MeshKind {
         self.0.kind
+    }
+
+    /// Whether it is closed and known to be wound counter-clockwise seen from outside.
+    pub(crate) fn is_solid(&self) -> bool {
+        self.0.solid
     }
 
     /// Number of triangles that cast (those that collapsed in the weld do not).
@@ -279,9 +295,7 @@ impl CasterMesh {
         &self.0.triangles
     }
 
-    /// Four `u32` an edge: two vertices, then for a closed mesh the triangle that runs from the
-    /// first to the second and the one that runs back; for a general mesh the first of its uses
-    /// and their number.
+    /// One record an edge; see [`edge_records`].
     pub(crate) fn edges(&self) -> &wgpu::Buffer {
         &self.0.edges
     }
@@ -293,6 +307,25 @@ impl CasterMesh {
     /// One `u32` a use, `triangle << 1 | reversed`; only for general meshes.
     pub(crate) fn edge_uses(&self) -> Option<&wgpu::Buffer> {
         self.0.edge_uses.as_ref()
+    }
+
+    /// The mesh in main memory, unless its positions are the host's.
+    pub(crate) fn data(&self) -> Option<&MeshData> {
+        self.0.data.as_ref()
+    }
+
+    /// Triangles and edges for vertex shaders without storage buffers, unless the positions are
+    /// the host's.
+    pub(crate) fn records(&self) -> Option<&VertexRecords> {
+        let data = self.data()?;
+        let make = || VertexRecords::new(&self.0.device, data, self.0.kind);
+        Some(self.0.records.get_or_init(make))
+    }
+
+    /// Bytes of the larger buffer of [`records`](Self::records).
+    pub(crate) fn record_bytes(&self) -> u64 {
+        self.data()
+            .map_or(0, |data| VertexRecords::size(data, self.0.kind))
     }
 
     pub(crate) fn edge_use_count(&self) -> u32 {
@@ -328,14 +361,23 @@ fn upload<T: bytemuck::NoUninit>(
     )
 }
 
+/// `STORAGE`, or where the device has no storage buffers a usage that every buffer may have.
+fn storage_usage(device: &wgpu::Device) -> wgpu::BufferUsages {
+    match device.limits().max_storage_buffers_per_shader_stage {
+        0 => wgpu::BufferUsages::VERTEX,
+        _ => wgpu::BufferUsages::STORAGE,
+    }
+}
+
 fn check_size(device: &wgpu::Device, what: &'static str, size: u64) -> Result<(), CasterMeshError> {
     let limits = device.limits();
+    let bound = match storage_usage(device) {
+        wgpu::BufferUsages::STORAGE => limits.max_storage_buffer_binding_size,
+        _ => u64::MAX,
+    };
     for (limit_name, limit) in [
         ("max_buffer_size", limits.max_buffer_size),
-        (
-            "max_storage_buffer_binding_size",
-            limits.max_storage_buffer_binding_size,
-        ),
+        ("max_storage_buffer_binding_size", bound),
     ] {
         if size > limit {
             return Err(CasterMeshError::TooLarge {

@@ -3,6 +3,7 @@
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
+use super::silhouette::Way;
 
 /// A buffer that grows.
 #[derive(Debug)]
@@ -62,13 +63,12 @@ pub(super) struct Buffers {
     generation: u64,
 }
 
-/// The buffers of one frame; there are none if nothing is drawn.
+/// The buffers that compute shaders read and write, besides a chunk's.
 pub(super) struct Bound<'a> {
     pub batches: &'a wgpu::Buffer,
     pub instances: &'a wgpu::Buffer,
     pub template: &'a wgpu::Buffer,
     pub arguments: &'a wgpu::Buffer,
-    pub casters: &'a wgpu::Buffer,
 }
 
 impl Buffers {
@@ -87,28 +87,37 @@ impl Buffers {
         }
     }
 
-    /// Makes room for a plan and uploads it.
-    pub fn upload(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        plan: &Plan,
-        limits: &PlanLimits,
-    ) {
+    /// Makes room for a plan. What was extracted before is lost if the
+    /// [`generation`](Self::generation) changes.
+    pub fn reserve(&mut self, device: &wgpu::Device, plan: &Plan, limits: &PlanLimits) {
         let mut made = false;
         let most = device.limits().max_buffer_size;
-        let mut write = |grown: &mut Grown, bytes: &[u8]| {
-            let buffer = grown.get(device, bytes.len() as u64, most, &mut made);
-            queue.write_buffer(buffer, 0, bytes);
+        let mut get = |grown: &mut Grown, count: usize, each: u64| {
+            grown.get(device, count as u64 * each, most, &mut made);
         };
-        let batches: Vec<BatchParams> = plan.batches.iter().map(|batch| batch.params).collect();
-        write(&mut self.batches, &spread(&batches, device));
-        write(&mut self.casters, &spread(&plan.casters, device));
-        write(&mut self.instances, bytemuck::cast_slice(&plan.instances));
-        write(&mut self.template, bytemuck::cast_slice(&plan.arguments));
-        let arguments = size_of_val(&plan.arguments[..]) as u64;
-        self.arguments.get(device, arguments, most, &mut made);
-        while self.chunks.len() < plan.chunks.len() {
+        let count = plan.casters.len();
+        let caster = window::<CasterParams>(&device.limits());
+        get(&mut self.casters, count, caster);
+        if plan.uses(Way::Compute) {
+            // There are at most as many batches as casters. How many there are depends on what is
+            // kept, and must not decide whether it can be.
+            get(
+                &mut self.batches,
+                count,
+                window::<BatchParams>(&device.limits()),
+            );
+            get(
+                &mut self.instances,
+                count,
+                size_of::<InstanceParams>() as u64,
+            );
+            let arguments = size_of::<Arguments>() as u64;
+            get(&mut self.template, count, arguments);
+            get(&mut self.arguments, count, arguments);
+        }
+        // Nothing is listed where vertex shaders do all the work, and there may be no storage.
+        let listed = plan.uses(Way::Compute) || plan.uses(Way::Cpu);
+        while listed && self.chunks.len() < plan.chunks.len() {
             self.chunks.push(chunk(&self.label, self.chunks.len()));
         }
         for (chunk, words) in self.chunks.iter_mut().zip(&plan.chunks) {
@@ -119,20 +128,39 @@ impl Buffers {
         self.generation += u64::from(made);
     }
 
+    /// Uploads a plan for which there is room.
+    pub fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue, plan: &Plan) {
+        if let Some(casters) = self.casters() {
+            queue.write_buffer(casters, 0, &spread(&plan.casters, device));
+        }
+        if let Some(bound) = self.bound()
+            && plan.stale().next().is_some()
+        {
+            let batches: Vec<BatchParams> = plan.batches.iter().map(|b| b.params).collect();
+            queue.write_buffer(bound.batches, 0, &spread(&batches, device));
+            queue.write_buffer(bound.instances, 0, bytemuck::cast_slice(&plan.instances));
+            queue.write_buffer(bound.template, 0, bytemuck::cast_slice(&plan.arguments));
+        }
+    }
+
     /// Counts the times a buffer was made.
     pub fn generation(&self) -> u64 {
         self.generation
     }
 
-    /// The frame's buffers, once something was uploaded.
+    /// The buffers of compute shaders, once there was work for them.
     pub fn bound(&self) -> Option<Bound<'_>> {
         Some(Bound {
             batches: self.batches.buffer.as_ref()?,
             instances: self.instances.buffer.as_ref()?,
             template: self.template.buffer.as_ref()?,
             arguments: self.arguments.buffer.as_ref()?,
-            casters: self.casters.buffer.as_ref()?,
         })
+    }
+
+    /// The parameters of the casters, once there are any.
+    pub fn casters(&self) -> Option<&wgpu::Buffer> {
+        self.casters.buffer.as_ref()
     }
 
     /// Facings, caps and sides of a chunk.
@@ -199,6 +227,7 @@ impl PlanLimits {
         .into_iter()
         .fold(u64::MAX, u64::min);
         Self {
+            buffer_bytes: limits.max_buffer_size,
             storage_bytes,
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,

@@ -1,16 +1,69 @@
 //! The pipelines that count a volume's faces in the stencil buffer.
 
 use super::ShadowVolumeDescriptor;
+use super::buffers::Buffers;
 use super::layout::{storage, uniform};
-use super::params::CasterParams;
-use super::plan::Faces;
+use super::params::{Arguments, CasterParams};
+use super::plan::{Draw, Faces, Plan};
+use super::silhouette::{LIGHT_SIDE, Way};
+use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
+const EXTRUDE: &str = include_str!("../../shaders/volume_extrude.wgsl");
 const DRAW: &str = include_str!("../../shaders/volume_draw.wgsl");
+const VERTEX: &str = include_str!("../../shaders/volume_vertex.wgsl");
 
-/// The shader of all faces.
-pub(super) fn source() -> String {
-    [POSITION, DRAW].join("\n")
+/// How far sides are set back from the viewer, in units of the depth format's last place.
+///
+/// In a crease between a lit and an unlit triangle a side leaves the surface at so small an angle
+/// that both have the same depth for a while, give or take the rasteriser's rounding. Set back by
+/// that rounding it counts as behind the surface it belongs to.
+const SIDE_BIAS_ULPS: i32 = 2;
+
+/// What the vertex shaders work from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Feed {
+    /// The lists that an extraction left, in storage buffers.
+    Pulled,
+    /// All triangles and edges, in vertex buffers.
+    Records,
+}
+
+impl Feed {
+    /// The shader of all faces.
+    pub fn source(self) -> String {
+        match self {
+            Self::Pulled => [POSITION, EXTRUDE, DRAW].join("\n"),
+            Self::Records => [POSITION, EXTRUDE, LIGHT_SIDE, VERTEX].join("\n"),
+        }
+    }
+
+    /// Storage buffers at bindings 1 and on: positions, edges, sides.
+    fn storage_buffers(self) -> u32 {
+        match self {
+            Self::Pulled => 3,
+            Self::Records => 0,
+        }
+    }
+
+    fn vertex_buffers(self, faces: Faces) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+        const CORNERS: [wgpu::VertexAttribute; 3] =
+            wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
+        const EDGE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
+            0 => Float32x3, 1 => Float32x3, 2 => Float32x3,
+            3 => Float32x3, 4 => Float32x3, 5 => Float32x3, 6 => Uint32
+        ];
+        let layout = |attributes, size: usize| wgpu::VertexBufferLayout {
+            array_stride: size as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes,
+        };
+        match (self, faces) {
+            (Self::Pulled, _) => Vec::new(),
+            (Self::Records, Faces::Sides) => vec![Some(layout(&EDGE, size_of::<EdgeRecord>()))],
+            (Self::Records, _) => vec![Some(layout(&CORNERS, size_of::<[[f32; 3]; 3]>()))],
+        }
+    }
 }
 
 /// z-fail: a back face behind the visible point counts +1, a front face -1, modulo 256 because the
@@ -49,7 +102,7 @@ pub(super) fn light_pass() -> wgpu::StencilState {
 /// One pipeline for each kind of faces and each way that "front" may turn on screen.
 #[derive(Debug)]
 pub(super) struct DrawPipelines {
-    /// Binds caster, positions, edges, sides.
+    /// Binds caster and, where they are pulled, positions, edges, sides.
     pub layout: wgpu::BindGroupLayout,
     pipelines: [[wgpu::RenderPipeline; 2]; 3],
 }
@@ -58,11 +111,12 @@ impl DrawPipelines {
     pub fn new(
         device: &wgpu::Device,
         descriptor: &ShadowVolumeDescriptor<'_>,
+        feed: Feed,
         label: &str,
     ) -> Self {
         let stage = wgpu::ShaderStages::VERTEX;
         let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
-        entries.extend((1..=3).map(|binding| storage(binding, stage, true)));
+        entries.extend((1..=feed.storage_buffers()).map(|binding| storage(binding, stage, true)));
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(label),
             entries: &entries,
@@ -70,10 +124,11 @@ impl DrawPipelines {
         let factory = Factory {
             device,
             descriptor,
+            feed,
             label,
             module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(source().into()),
+                source: wgpu::ShaderSource::Wgsl(feed.source().into()),
             }),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(label),
@@ -98,9 +153,74 @@ impl DrawPipelines {
     }
 }
 
+/// Records one draw, its pipeline and bind group being set.
+pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, plan: &Plan, buffers: &Buffers) {
+    let slot = &plan.slots[draw.instance as usize];
+    let caster = &plan.casters[draw.instance as usize];
+    match slot.way {
+        Way::Vertex => issue_records(pass, draw.faces, &slot.mesh, caster),
+        Way::Cpu => {
+            if draw.faces == Faces::Sides {
+                let vertices = slot.counts.sides * caster.side_vertices;
+                return pass.draw(0..vertices, 0..1);
+            }
+            let Some([_, caps, _]) = buffers.chunk(slot.chunk) else {
+                return;
+            };
+            let middle = slot.instance.cap_base + slot.counts.front;
+            let range = match draw.back {
+                false => slot.instance.cap_base..middle,
+                true => middle..middle + slot.counts.back,
+            };
+            pass.set_index_buffer(caps.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(range, 0, 0..1);
+        }
+        Way::Compute => {
+            let (Some(bound), Some([_, caps, _])) = (buffers.bound(), buffers.chunk(slot.chunk))
+            else {
+                return;
+            };
+            let own = u64::from(draw.instance) * size_of::<Arguments>() as u64;
+            if draw.faces == Faces::Sides {
+                return pass.draw_indirect(bound.arguments, own + Arguments::SIDES);
+            }
+            let list = match draw.back {
+                false => Arguments::FRONT,
+                true => Arguments::BACK,
+            };
+            pass.set_index_buffer(caps.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed_indirect(bound.arguments, own + list);
+        }
+    }
+}
+
+/// Every triangle or every edge as an instance.
+fn issue_records(
+    pass: &mut wgpu::RenderPass<'_>,
+    faces: Faces,
+    mesh: &CasterMesh,
+    caster: &CasterParams,
+) {
+    let Some(records) = mesh.records() else {
+        return;
+    };
+    if faces != Faces::Sides {
+        pass.set_vertex_buffer(0, records.triangles.slice(..));
+        return pass.draw(0..3, 0..mesh.triangle_count());
+    }
+    // Two triangles that both count are extruded twice where they run through the edge alike.
+    let copies = match (mesh.kind(), caster.both_sides) {
+        (MeshKind::Closed, 0) => 1,
+        _ => 2,
+    };
+    pass.set_vertex_buffer(0, records.edges.slice(..));
+    pass.draw(0..copies * caster.side_vertices, 0..records.edge_count);
+}
+
 struct Factory<'a> {
     device: &'a wgpu::Device,
     descriptor: &'a ShadowVolumeDescriptor<'a>,
+    feed: Feed,
     label: &'a str,
     module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
@@ -130,7 +250,7 @@ impl Factory<'_> {
                     module: &self.module,
                     entry_point: Some(entry_point),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[],
+                    buffers: &self.feed.vertex_buffers(faces),
                 },
                 primitive: wgpu::PrimitiveState {
                     front_face,
@@ -164,7 +284,9 @@ impl Factory<'_> {
         let depth = self.descriptor.depth;
         let bias = match faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
-            Faces::DarkCap | Faces::Sides => 0,
+            Faces::Sides => SIDE_BIAS_ULPS,
+            // At infinity it is behind everything as it is.
+            Faces::DarkCap => 0,
         };
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,

@@ -13,7 +13,10 @@
 mod buffers;
 mod descriptor;
 mod draw;
+mod groups;
+mod kept;
 mod layout;
+mod limits;
 mod params;
 mod plan;
 mod regions;
@@ -23,3 +26,4 @@ mod silhouette;
 
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 pub use renderer::ShadowVolumeRenderer;
+pub use silhouette::Silhouettes;

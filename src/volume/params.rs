@@ -29,7 +29,7 @@ pub(super) struct InstanceParams {
     pub padding: u32,
 }
 
-/// `Caster` in `volume_draw.wgsl`.
+/// `Caster` in `volume_extrude.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct CasterParams {
@@ -40,6 +40,9 @@ pub(super) struct CasterParams {
     pub position_offset: u32,
     pub side_base: u32,
     pub side_vertices: u32,
+    pub object_light: [f32; 4],
+    pub object_light_rest: [f32; 3],
+    pub both_sides: u32,
 }
 
 /// The indirect arguments of one instance, before anything is counted.
@@ -81,19 +84,21 @@ mod tests {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
 
     use super::*;
-    use crate::volume::descriptor::WORKGROUP;
-    use crate::volume::{draw, silhouette};
+    use crate::volume::draw::Feed;
+    use crate::volume::limits::WORKGROUP;
+    use crate::volume::silhouette;
 
     fn parse(source: &str) -> naga::Module {
         naga::front::wgsl::parse_str(source)
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)))
     }
 
-    fn sources() -> [String; 3] {
+    fn sources() -> [String; 4] {
         [
             silhouette::facing_source(),
             silhouette::edges_source(),
-            draw::source(),
+            Feed::Pulled.source(),
+            Feed::Records.source(),
         ]
     }
 
@@ -133,7 +138,7 @@ mod tests {
 
     #[test]
     fn rust_and_wgsl_agree_on_every_offset() {
-        let [facing, edges, draw] = sources();
+        let [facing, edges, draw, vertex] = sources();
         for source in [facing, edges] {
             assert_layout!(
                 source,
@@ -161,18 +166,23 @@ mod tests {
                 padding
             );
         }
-        assert_layout!(
-            draw,
-            "Caster",
-            CasterParams,
-            clip_from_world,
-            world_from_object,
-            light,
-            position_stride,
-            position_offset,
-            side_base,
-            side_vertices
-        );
+        for source in [draw, vertex] {
+            assert_layout!(
+                source,
+                "Caster",
+                CasterParams,
+                clip_from_world,
+                world_from_object,
+                light,
+                position_stride,
+                position_offset,
+                side_base,
+                side_vertices,
+                object_light,
+                object_light_rest,
+                both_sides
+            );
+        }
     }
 
     #[test]

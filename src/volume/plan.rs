@@ -4,11 +4,13 @@ use std::collections::HashMap;
 
 use glam::Mat4;
 
+use super::kept::{Kept, Slot};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
-use super::regions::{Place, Regions, Words};
+use super::regions::{Overflow, Place, Regions, Words};
 use super::rule::{self, ObjectLight, WorldBox};
+use super::silhouette::{Counts, Way, Ways};
 use super::{ShadowVolumeFrame, VolumeStatistics};
-use crate::error::{CasterError, LightError, ShadowVolumeError};
+use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::{CasterMesh, MeshKind};
 
 /// The three kinds of faces of a volume.
@@ -38,6 +40,9 @@ pub(super) struct Batch {
     pub chunk: usize,
     pub params: BatchParams,
     pub instance_count: u32,
+    /// Whether the buffers hold these volumes already.
+    pub ready: bool,
+    pub way: Way,
 }
 
 /// Everything `prepare` uploads and `encode` and `render` walk through.
@@ -52,12 +57,16 @@ pub(super) struct Plan {
     pub casters: Vec<CasterParams>,
     /// For each instance, its batch.
     pub batch_of: Vec<u32>,
+    /// For each instance, what its volume follows from.
+    pub slots: Vec<Slot>,
     pub statistics: VolumeStatistics,
 }
 
 /// What of the device's limits the plan depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlanLimits {
+    /// Bytes of the largest buffer that can be made.
+    pub buffer_bytes: u64,
     /// Bytes of the largest buffer that can be made and bound as storage.
     pub storage_bytes: u64,
     /// Casters whose parameters fit the buffers.
@@ -71,6 +80,7 @@ struct Subject {
     light: ObjectLight,
     both_sides: bool,
     mirrored: bool,
+    way: Way,
     index: usize,
 }
 
@@ -79,9 +89,11 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
         limits: &PlanLimits,
+        ways: &Ways,
+        kept: &Kept<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
-        let groups = subjects(frame)?;
+        let groups = subjects(frame, ways)?;
         let count = groups.iter().map(Vec::len).sum();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -92,7 +104,7 @@ impl Plan {
         let mut plan = Self::default();
         let mut regions = Regions::new(limits.storage_bytes);
         for subject in groups.iter().flatten() {
-            plan.add(subject, frame, &mut regions, limits)?;
+            plan.add(subject, frame, &mut regions, limits, kept)?;
         }
         plan.chunks = regions.chunks().to_vec();
         plan.draws.sort_unstable();
@@ -100,11 +112,45 @@ impl Plan {
             casters_drawn: count as u32,
             casters_skipped: (frame.casters.len() - count) as u32,
             draws: plan.draws.len() as u32,
-            dispatches: 2 * plan.batches.len() as u32,
-            gpu_bytes: 0,
             triangles: plan.batches.iter().map(Batch::triangles).sum(),
+            ..Default::default()
         };
+        plan.count_extraction();
         Ok(plan)
+    }
+
+    /// Has every volume extracted, because the buffers were made anew.
+    pub fn forget(&mut self) {
+        self.batches.iter_mut().for_each(|b| b.ready = false);
+        self.slots.iter_mut().for_each(|s| s.ready = false);
+        self.count_extraction();
+    }
+
+    /// Whether any volume is found in this way.
+    pub fn uses(&self, way: Way) -> bool {
+        self.batches.iter().any(|batch| batch.way == way)
+    }
+
+    /// The batches that compute shaders extract, with their places in the list of batches.
+    pub fn stale(&self) -> impl Iterator<Item = (u32, &Batch)> {
+        let stale = |batch: &Batch| !batch.ready && batch.way == Way::Compute;
+        (0..)
+            .zip(&self.batches)
+            .filter(move |(_, batch)| stale(batch))
+    }
+
+    /// The slots whose volumes the CPU extracts.
+    pub fn stale_on_cpu(&mut self) -> impl Iterator<Item = &mut Slot> {
+        let stale = |slot: &&mut Slot| !slot.ready && slot.way == Way::Cpu;
+        self.slots.iter_mut().filter(stale)
+    }
+
+    fn count_extraction(&mut self) {
+        let searched = |slot: &&Slot| !slot.ready && slot.way != Way::Vertex;
+        let extracted = self.slots.iter().filter(searched).count() as u32;
+        let dispatches = 2 * self.stale().count() as u32;
+        self.statistics.casters_extracted = extracted;
+        self.statistics.dispatches = dispatches;
     }
 
     fn add(
@@ -113,32 +159,38 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         regions: &mut Regions,
         limits: &PlanLimits,
+        kept: &Kept<'_>,
     ) -> Result<(), ShadowVolumeError> {
         let caster = &frame.casters[subject.index];
         let mesh = &caster.mesh;
-        let need = words(mesh, subject.both_sides);
-        let place = regions
-            .place(need)
-            .map_err(|overflow| ShadowVolumeError::TooLarge {
+        let place = place(mesh, subject, regions, limits).map_err(|overflow| {
+            ShadowVolumeError::TooLarge {
                 index: subject.index,
                 what: overflow.what,
                 size: overflow.size,
                 limit: overflow.limit,
-            })?;
+            }
+        })?;
         let instance = self.instances.len() as u32;
-        let batch = self.batch(mesh, &place, frame, limits.workgroups);
+        let mut slot = Slot {
+            mesh: mesh.clone(),
+            revision: mesh.revision(),
+            chunk: place.chunk,
+            instance: instance_params(subject, &place),
+            way: subject.way,
+            counts: Counts::default(),
+            ready: false,
+        };
+        if let Some(kept) = kept.get(instance as usize, &slot) {
+            slot.counts = kept.counts;
+            slot.ready = true;
+        }
+        let batch = self.batch(&slot, frame, limits.workgroups);
         self.batch_of.push(batch);
-        self.instances.push(InstanceParams {
-            light: subject.light.light,
-            light_rest: subject.light.rest,
-            both_sides: u32::from(subject.both_sides),
-            facing_base: place.facing,
-            cap_base: place.cap,
-            side_base: place.side,
-            padding: 0,
-        });
+        self.instances.push(slot.instance);
+        self.slots.push(slot);
         // Caps are below the region's end, which the regions keep below 2^32.
-        let cap_end = place.cap + need[1] as u32;
+        let cap_end = place.cap + words(mesh, subject)[1] as u32;
         self.arguments.push(Arguments::new(place.cap, cap_end));
         let params = &self.batches[batch as usize].params;
         self.casters.push(CasterParams {
@@ -149,31 +201,32 @@ impl Plan {
             position_offset: params.position_offset,
             side_base: place.side,
             side_vertices: params.side_vertices,
+            object_light: subject.light.light,
+            object_light_rest: subject.light.rest,
+            both_sides: u32::from(subject.both_sides),
         });
         self.draw(subject, frame, instance);
         Ok(())
     }
 
     /// The batch that the next instance belongs to.
-    fn batch(
-        &mut self,
-        mesh: &CasterMesh,
-        place: &Place,
-        frame: &ShadowVolumeFrame<'_>,
-        most: u32,
-    ) -> u32 {
+    fn batch(&mut self, slot: &Slot, frame: &ShadowVolumeFrame<'_>, most: u32) -> u32 {
         let open = self.batches.last_mut().filter(|batch| {
-            batch.mesh.key() == mesh.key()
-                && batch.chunk == place.chunk
+            batch.mesh.key() == slot.mesh.key()
+                && batch.chunk == slot.chunk
+                && batch.ready == slot.ready
+                && batch.way == slot.way
                 && batch.instance_count < most
         });
         match open {
             Some(batch) => batch.instance_count += 1,
             None => self.batches.push(Batch {
-                mesh: mesh.clone(),
-                chunk: place.chunk,
-                params: batch_params(mesh, self.instances.len() as u32, frame),
+                mesh: slot.mesh.clone(),
+                chunk: slot.chunk,
+                params: batch_params(&slot.mesh, self.instances.len() as u32, frame),
                 instance_count: 1,
+                ready: slot.ready,
+                way: slot.way,
             }),
         }
         self.batches.len() as u32 - 1
@@ -192,7 +245,8 @@ impl Plan {
         };
         push(Faces::Sides, clockwise, false);
         for back in [false, true] {
-            if back && !subject.both_sides {
+            // Where vertex shaders decide, they turn the caps that count -1 over.
+            if back && (!subject.both_sides || subject.way == Way::Vertex) {
                 continue;
             }
             push(Faces::LightCap, clockwise != back, back);
@@ -224,7 +278,10 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
 }
 
 /// The casters that are drawn, those of one mesh together, in the order of first appearance.
-fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterError> {
+fn subjects(
+    frame: &ShadowVolumeFrame<'_>,
+    ways: &Ways,
+) -> Result<Vec<Vec<Subject>>, ShadowVolumeError> {
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     for (index, caster) in frame.casters.iter().enumerate() {
@@ -234,6 +291,9 @@ fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterEr
         if caster.mesh.triangle_count() == 0 || !rule::in_range(&world, frame.light, frame.range) {
             continue;
         }
+        let way = ways
+            .of(&caster.mesh)
+            .ok_or(ShadowVolumeError::HostPositions { index })?;
         let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
             groups.push(Vec::new());
             groups.len() - 1
@@ -242,24 +302,63 @@ fn subjects(frame: &ShadowVolumeFrame<'_>) -> Result<Vec<Vec<Subject>>, CasterEr
             light,
             both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
             mirrored: map.matrix3.determinant() < 0.0,
+            way,
             index,
         });
     }
     Ok(groups)
 }
 
+/// Finds room for one instance's lists.
+fn place(
+    mesh: &CasterMesh,
+    subject: &Subject,
+    regions: &mut Regions,
+    limits: &PlanLimits,
+) -> Result<Place, Overflow> {
+    let size = match subject.way {
+        Way::Vertex => mesh.record_bytes(),
+        Way::Compute | Way::Cpu => 0,
+    };
+    if size > limits.buffer_bytes {
+        return Err(Overflow {
+            what: "edge records",
+            size,
+            limit: limits.buffer_bytes,
+        });
+    }
+    regions.place(words(mesh, subject))
+}
+
 /// Words for facings, caps and sides, the worst case: they cannot overflow.
 ///
 /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its uses at
 /// most; where light-facing triangles alone count, a closed mesh's edge only once.
-fn words(mesh: &CasterMesh, both_sides: bool) -> Words {
+fn words(mesh: &CasterMesh, subject: &Subject) -> Words {
     let triangles = u64::from(mesh.triangle_count());
-    let sides = match (mesh.kind(), both_sides) {
+    let sides = match (mesh.kind(), subject.both_sides) {
         (MeshKind::Closed, false) => u64::from(mesh.edge_count()),
         (MeshKind::Closed, true) => 2 * u64::from(mesh.edge_count()),
         (MeshKind::General, _) => u64::from(mesh.edge_use_count()),
     };
-    [triangles, 3 * triangles, sides]
+    match subject.way {
+        Way::Compute => [triangles, 3 * triangles, sides],
+        // Facings stay on the CPU.
+        Way::Cpu => [0, 3 * triangles, sides],
+        Way::Vertex => [0; 3],
+    }
+}
+
+fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
+    InstanceParams {
+        light: subject.light.light,
+        light_rest: subject.light.rest,
+        both_sides: u32::from(subject.both_sides),
+        facing_base: place.facing,
+        cap_base: place.cap,
+        side_base: place.side,
+        padding: 0,
+    }
 }
 
 fn batch_params(

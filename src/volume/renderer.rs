@@ -1,17 +1,17 @@
 //! The renderer: prepare, encode, render.
 
-use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::buffers::{Bound, Buffers, window};
-use super::draw::{self, DrawPipelines};
-use super::layout::bind;
+use super::buffers::{Buffers, window};
+use super::draw::{self, DrawPipelines, Feed, issue};
+use super::groups::{Groups, Parts};
+use super::kept::Kept;
 use super::params::{Arguments, BatchParams, CasterParams};
-use super::plan::{Batch, Draw, Faces, Plan, PlanLimits};
-use super::silhouette::{Extraction, workgroups};
+use super::plan::{Batch, Plan, PlanLimits};
+use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
 use super::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
-use crate::mesh::CasterMesh;
 
 /// Stencil shadow volumes of one light for any number of casters.
 ///
@@ -27,35 +27,28 @@ use crate::mesh::CasterMesh;
 ///
 /// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
 /// and is lit: casters that stack that deep along a light ray want fewer, closed meshes.
+///
+/// A light nearer to a triangle than about 3e-5 of the triangle's size leaves wrong pixels along
+/// the horizon of that triangle: its corners' points at infinity then cancel in f32 clip space.
 #[derive(Debug)]
 pub struct ShadowVolumeRenderer {
     device: wgpu::Device,
     depth: DepthConvention,
     label: String,
-    extraction: Extraction,
-    pipelines: DrawPipelines,
+    ways: Ways,
+    extraction: Option<Extraction>,
+    /// Where the CPU finds one volume after another.
+    on_cpu: CpuVolume,
+    /// Pipelines that read the lists of an extraction.
+    pulled: Option<DrawPipelines>,
+    /// Pipelines that are fed all triangles and edges.
+    fed: Option<DrawPipelines>,
     buffers: Buffers,
     groups: Groups,
     plan: Plan,
-}
-
-/// The bind groups of a mesh with a chunk's buffers.
-#[derive(Debug)]
-struct Group {
-    // Keeps the mesh alive, so that its key stays its own.
-    _mesh: CasterMesh,
-    facing: wgpu::BindGroup,
-    edges: wgpu::BindGroup,
-    draw: wgpu::BindGroup,
-}
-
-/// Bind groups by mesh key and chunk.
-#[derive(Debug, Default)]
-struct Groups {
-    generation: u64,
-    by_key: HashMap<(usize, usize), Group>,
-    /// For each batch, its key.
-    of_batch: Vec<(usize, usize)>,
+    keep: bool,
+    /// Whether `encode` was called since the last `prepare`.
+    encoded: AtomicBool,
 }
 
 impl ShadowVolumeRenderer {
@@ -69,6 +62,7 @@ impl ShadowVolumeRenderer {
         descriptor: &ShadowVolumeDescriptor<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         descriptor.validate(device)?;
+        let ways = Ways::new(descriptor.silhouettes, device)?;
         let label = match descriptor.label {
             Some(name) => format!("shadows volume {name}"),
             None => "shadows volume".to_owned(),
@@ -76,11 +70,21 @@ impl ShadowVolumeRenderer {
         Ok(Self {
             device: device.clone(),
             depth: descriptor.depth,
-            extraction: Extraction::new(device, &label),
-            pipelines: DrawPipelines::new(device, descriptor, &label),
+            ways,
+            extraction: ways
+                .contain(Way::Compute)
+                .then(|| Extraction::new(device, &label)),
+            on_cpu: CpuVolume::default(),
+            pulled: (ways.contain(Way::Compute) || ways.contain(Way::Cpu))
+                .then(|| DrawPipelines::new(device, descriptor, Feed::Pulled, &label)),
+            fed: ways
+                .contain(Way::Vertex)
+                .then(|| DrawPipelines::new(device, descriptor, Feed::Records, &label)),
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             plan: Plan::default(),
+            keep: descriptor.keep_between_frames,
+            encoded: AtomicBool::new(false),
             label,
         })
     }
@@ -88,7 +92,8 @@ impl ShadowVolumeRenderer {
     /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster.
     ///
     /// GPU memory, kept between frames and grown as needed: about 22 bytes a triangle and instance
-    /// for a closed mesh, 28 for any other, and 450 a caster.
+    /// for a closed mesh, 28 for any other, and 450 a caster; up to twice that, because buffers
+    /// grow to powers of two.
     ///
     /// # Errors
     /// [`ShadowVolumeError`], before any GPU work, if the view's depth convention is not the
@@ -107,53 +112,79 @@ impl ShadowVolumeRenderer {
             });
         }
         let limits = PlanLimits::of(&device.limits());
-        let mut plan = Plan::new(frame, device, &limits)?;
+        let mut plan = Plan::new(frame, device, &limits, &self.ways, &self.kept())?;
         if !plan.draws.is_empty() {
-            self.buffers.upload(device, queue, &plan, &limits);
+            let generation = self.buffers.generation();
+            self.buffers.reserve(device, &plan, &limits);
+            if self.buffers.generation() != generation {
+                plan.forget();
+            }
+            self.extract(queue, &mut plan);
+            self.buffers.upload(device, queue, &plan);
         }
         plan.statistics.gpu_bytes = self.buffers.bytes();
         self.plan = plan;
+        *self.encoded.get_mut() = false;
         self.bind();
         Ok(())
     }
 
-    /// Records the compute passes that extract the volumes. May be called again without another
-    /// [`prepare`](Self::prepare), e.g. after the host moved vertices of a mesh.
+    /// Records the compute passes that extract the volumes which were not kept from the frame
+    /// before: none where neither the light nor a caster has moved.
+    ///
+    /// What is recorded must be submitted, for the next frame counts on it. May be called again
+    /// without another [`prepare`](Self::prepare), e.g. after the host moved vertices of a mesh.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        let Some(bound) = self.bound() else { return };
-        // Counts start from the template, so that recording twice counts nothing twice.
-        let size = size_of_val(&self.plan.arguments[..]) as u64;
-        encoder.copy_buffer_to_buffer(bound.template, 0, bound.arguments, 0, size);
+        self.encoded.store(true, Ordering::Relaxed);
+        if self.plan.stale().next().is_none() {
+            return;
+        }
+        let (Some(bound), Some(extraction)) = (self.buffers.bound(), &self.extraction) else {
+            return;
+        };
+        let each = size_of::<Arguments>() as u64;
+        for (_, batch) in self.plan.stale() {
+            // Counts start from the template, so that recording twice counts nothing twice.
+            let start = u64::from(batch.params.first_instance) * each;
+            let size = u64::from(batch.instance_count) * each;
+            encoder.copy_buffer_to_buffer(bound.template, start, bound.arguments, start, size);
+        }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(&self.label),
             timestamp_writes: None,
         });
-        self.dispatch(
-            &mut pass,
-            &self.extraction.facing.pipeline,
-            |batch, group| (batch.params.triangle_count, &group.facing),
-        );
-        self.dispatch(
-            &mut pass,
-            &self.extraction.edges.pipeline,
-            |batch, group| (batch.params.edge_count, &group.edges),
-        );
+        self.dispatch(&mut pass, &extraction.facing.pipeline, |batch, group| {
+            (batch.params.triangle_count, &group[0])
+        });
+        self.dispatch(&mut pass, &extraction.edges.pipeline, |batch, group| {
+            (batch.params.edge_count, &group[1])
+        });
     }
 
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
     /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only).
     ///
-    /// Changes the pass's pipeline, bind group 0 and index buffer, nothing else.
+    /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0, nothing else.
     pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let Some(bound) = self.bound() else { return };
         let mut current = None;
         for draw in &self.plan.draws {
-            let state = (draw.faces, draw.clockwise);
+            let batch = self.plan.batch_of[draw.instance as usize] as usize;
+            let way = self.plan.batches[batch].way;
+            let pipelines = match way {
+                Way::Vertex => self.fed.as_ref(),
+                Way::Compute | Way::Cpu => self.pulled.as_ref(),
+            };
+            let (Some(pipelines), Some(group)) = (pipelines, self.groups.get(batch)) else {
+                continue;
+            };
+            let state = (draw.faces, draw.clockwise, way == Way::Vertex);
             if current != Some(state) {
-                pass.set_pipeline(self.pipelines.get(draw.faces, draw.clockwise));
+                pass.set_pipeline(pipelines.get(draw.faces, draw.clockwise));
                 current = Some(state);
             }
-            self.draw(pass, draw, &bound);
+            let step = window::<CasterParams>(&self.device.limits()) as u32;
+            pass.set_bind_group(0, &group.draw, &[draw.instance * step]);
+            issue(pass, draw, &self.plan, &self.buffers);
         }
     }
 
@@ -177,131 +208,70 @@ impl ShadowVolumeRenderer {
         self.plan.statistics
     }
 
-    /// The buffers, if there is anything to draw.
-    fn bound(&self) -> Option<Bound<'_>> {
-        if self.plan.draws.is_empty() {
-            return None;
+    /// Extracts on the CPU what is extracted there.
+    fn extract(&mut self, queue: &wgpu::Queue, plan: &mut Plan) {
+        for slot in plan.stale_on_cpu() {
+            let (Some(mesh), Some([_, caps, sides])) =
+                (slot.mesh.data(), self.buffers.chunk(slot.chunk))
+            else {
+                continue;
+            };
+            let volume = &mut self.on_cpu;
+            volume.extract(mesh, slot.mesh.kind(), &slot.instance);
+            slot.counts = volume.counts();
+            let write = |buffer, words: &[u32], place: u32| {
+                queue.write_buffer(buffer, u64::from(place) * 4, bytemuck::cast_slice(words));
+            };
+            write(caps, &volume.front, slot.instance.cap_base);
+            let after = slot.instance.cap_base + slot.counts.front;
+            write(caps, &volume.back, after);
+            write(sides, &volume.sides, slot.instance.side_base);
         }
-        self.buffers.bound()
+    }
+
+    /// What the buffers hold of the frame before.
+    fn kept(&self) -> Kept<'_> {
+        if !self.keep {
+            return Kept::NOTHING;
+        }
+        Kept {
+            slots: &self.plan.slots,
+            encoded: self.encoded.load(Ordering::Relaxed),
+        }
     }
 
     fn dispatch<'a>(
         &'a self,
         pass: &mut wgpu::ComputePass<'_>,
         pipeline: &wgpu::ComputePipeline,
-        work: impl Fn(&'a Batch, &'a Group) -> (u32, &'a wgpu::BindGroup),
+        work: impl Fn(&'a Batch, &'a [wgpu::BindGroup; 2]) -> (u32, &'a wgpu::BindGroup),
     ) {
         let limits = self.device.limits();
         let most = limits.max_compute_workgroups_per_dimension;
         let step = window::<BatchParams>(&limits) as u32;
         pass.set_pipeline(pipeline);
-        for (index, batch) in (0..).zip(&self.plan.batches) {
-            let Some(group) = self.groups.get(index) else {
+        for (index, batch) in self.plan.stale() {
+            let group = self.groups.get(index as usize);
+            let Some(groups) = group.and_then(|group| group.extraction.as_ref()) else {
                 continue;
             };
-            let (count, group) = work(batch, group);
+            let (count, group) = work(batch, groups);
             let [x, y, z] = workgroups(count, batch.instance_count, most);
-            pass.set_bind_group(0, group, &[index as u32 * step]);
+            pass.set_bind_group(0, group, &[index * step]);
             pass.dispatch_workgroups(x, y, z);
         }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw, bound: &Bound<'_>) {
-        let instance = draw.instance as usize;
-        let batch = self.plan.batch_of[instance] as usize;
-        let chunk = self.plan.batches[batch].chunk;
-        let (Some(group), Some([_, caps, _])) = (self.groups.get(batch), self.buffers.chunk(chunk))
-        else {
-            return;
-        };
-        let step = window::<CasterParams>(&self.device.limits()) as u32;
-        pass.set_bind_group(0, &group.draw, &[draw.instance * step]);
-        let arguments = u64::from(draw.instance) * size_of::<Arguments>() as u64;
-        if draw.faces == Faces::Sides {
-            pass.draw_indirect(bound.arguments, arguments + Arguments::SIDES);
-            return;
-        }
-        let list = if draw.back {
-            Arguments::BACK
-        } else {
-            Arguments::FRONT
-        };
-        pass.set_index_buffer(caps.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed_indirect(bound.arguments, arguments + list);
-    }
-
     /// Brings the bind groups up to date with plan and buffers.
     fn bind(&mut self) {
-        let generation = self.buffers.generation();
-        let mut old = std::mem::take(&mut self.groups);
-        if old.generation != generation {
-            old.by_key.clear();
-        }
-        let mut groups = Groups {
-            generation,
-            ..Default::default()
+        let parts = Parts {
+            device: &self.device,
+            label: &self.label,
+            buffers: &self.buffers,
+            extraction: self.extraction.as_ref(),
+            pulled: self.pulled.as_ref(),
+            fed: self.fed.as_ref(),
         };
-        for batch in &self.plan.batches {
-            let key = (batch.mesh.key(), batch.chunk);
-            groups.of_batch.push(key);
-            if groups.by_key.contains_key(&key) {
-                continue;
-            }
-            if let Some(group) = old.by_key.remove(&key).or_else(|| self.group(batch)) {
-                groups.by_key.insert(key, group);
-            }
-        }
-        self.groups = groups;
-    }
-
-    fn group(&self, batch: &Batch) -> Option<Group> {
-        let bound = self.buffers.bound()?;
-        let [facings, caps, sides] = self.buffers.chunk(batch.chunk)?;
-        let mesh = &batch.mesh;
-        let label = &self.label;
-        let params = (bound.batches, size_of::<BatchParams>());
-        let make = |layout, window, buffers: &[&wgpu::Buffer]| {
-            bind(&self.device, label, layout, window, buffers)
-        };
-        // A closed mesh has no list of uses, and its passes read none; any buffer will do there.
-        let uses = mesh.edge_uses().unwrap_or(mesh.edges());
-        Some(Group {
-            _mesh: mesh.clone(),
-            facing: make(
-                &self.extraction.facing.layout,
-                params,
-                &[
-                    bound.instances,
-                    bound.arguments,
-                    mesh.positions(),
-                    mesh.triangles(),
-                    facings,
-                    caps,
-                ],
-            ),
-            edges: make(
-                &self.extraction.edges.layout,
-                params,
-                &[
-                    bound.instances,
-                    bound.arguments,
-                    mesh.edges(),
-                    uses,
-                    facings,
-                    sides,
-                ],
-            ),
-            draw: make(
-                &self.pipelines.layout,
-                (bound.casters, size_of::<CasterParams>()),
-                &[mesh.positions(), mesh.edges(), sides],
-            ),
-        })
-    }
-}
-
-impl Groups {
-    fn get(&self, batch: usize) -> Option<&Group> {
-        self.by_key.get(self.of_batch.get(batch)?)
+        self.groups.update(&self.plan, &parts);
     }
 }

@@ -109,8 +109,8 @@ impl Yard {
             vec3(13.9, height, 3.4),
             STONE,
         );
-        self.put_block(block, vec3(-9.8, 0.0, -8.9), vec3(9.8, 0.16, -5.3), PALE);
-        self.put_block(block, vec3(-12.3, 0.0, -5.2), vec3(-8.3, 0.16, 4.6), PALE);
+        self.put_block(block, vec3(-9.8, -0.2, -8.9), vec3(9.8, 0.16, -5.3), PALE);
+        self.put_block(block, vec3(-12.3, -0.2, -5.2), vec3(-8.3, 0.16, 4.6), PALE);
         // Cornices of the two arcades.
         let y = COLUMN_HEIGHT as f32 + ARCADE_HEIGHT as f32 + 0.16;
         self.put_block(
@@ -148,8 +148,10 @@ impl Yard {
             self.put(mesh, line * up * along(0.5 * bay * bays as f32), PALE);
             for i in 0..bays {
                 let middle = line * up * along(bay * (i as f32 + 0.5));
-                // Only the faces towards the court are decorated.
-                let front = if mesh == back { 0.3 } else { -0.3 };
+                // Only the faces towards the court are decorated. The moulding is let into the wall by
+                // a little more than half, as masonry is: an edge of it that lay in the wall's own
+                // face would end its shadow there, and rounding decide on which side.
+                let front = if mesh == back { 0.29 } else { -0.29 };
                 let moulding = middle * Affine3A::from_translation(vec3(0.0, 0.0, front));
                 self.put(archivolt, moulding, STONE);
                 let under = vec3(0.0, ARCADE_HEIGHT as f32, 0.0);
@@ -208,6 +210,7 @@ impl Yard {
         ];
         let scale = vec3(0.42, 0.36, 0.42);
         for foot in feet {
+            let foot = foot - vec3(0.0, 0.02, 0.0);
             let place = Affine3A::from_scale_rotation_translation(scale, Quat::IDENTITY, foot);
             self.put(bollard, place, PALE);
         }

@@ -1,16 +1,19 @@
 //! Extraction on the GPU: facings and caps, then sides, in two compute passes.
 
-use super::super::descriptor::WORKGROUP;
 use super::super::layout::{storage, uniform};
+use super::super::limits::WORKGROUP;
 use super::super::params::BatchParams;
 
 const BATCH: &str = include_str!("../../../shaders/volume_batch.wgsl");
+/// The rule of all ways.
+pub(in super::super) const LIGHT_SIDE: &str =
+    include_str!("../../../shaders/volume_light_side.wgsl");
 const FACING: &str = include_str!("../../../shaders/volume_facing.wgsl");
 const EDGES: &str = include_str!("../../../shaders/volume_edges.wgsl");
 
 /// The shader of the facing pass.
 pub(in super::super) fn facing_source() -> String {
-    [BATCH, FACING].join("\n")
+    [BATCH, LIGHT_SIDE, FACING].join("\n")
 }
 
 /// The shader of the edge pass.

@@ -1,0 +1,207 @@
+//! What caching, culling and instancing are worth, in one run.
+//!
+//! - `all_moving_vs_textbook`: 64 spheres, all moving, faces of 1024 texels: prepare, encode and
+//!   wait for the device, against the textbook preset (six unculled passes, distance written by the
+//!   fragment shader).
+//! - `one_moving_vs_all_moving`, `still_vs_all_moving`: the same scene, one sphere or none moving.
+//! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
+//!   against all moving.
+//! - `one_of_N_vs_still_N`: `prepare` with one caster of N moving against none; what a moved caster
+//!   costs beside N still ones.
+//! - `grid_vs_all_N`: finding the casters within a light's range with a grid, against testing all of
+//!   them one after the other as the map does, for a light that reaches a thousandth of the casters.
+//!
+//! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
+//! machine that slows down slows both. `--quick` takes fewer rounds.
+
+#[path = "../examples/host/mod.rs"]
+mod host;
+
+use std::time::{Duration, Instant};
+
+use host::gpu::Gpu;
+use host::scene::spheres_moving;
+use host::scene_gpu::SceneGpu;
+use shadows::glam::{Affine3A, Vec3, Vec3A};
+use shadows::mesh::Adjacency;
+use shadows::{
+    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu,
+};
+
+fn main() {
+    let quick = std::env::args().any(|arg| arg == "--quick");
+    let gpu = match Gpu::new(None) {
+        Ok(gpu) => gpu,
+        Err(error) => return eprintln!("skipped: {error:#}"),
+    };
+    println!("adapter {}", host::gpu::describe(&gpu.info));
+    spheres(&gpu, if quick { 5 } else { 25 });
+    prepare(&gpu, if quick { 5 } else { 25 });
+    for count in [100, 10_000, 100_000] {
+        one_of_many(&gpu, count, if quick { 5 } else { 25 });
+    }
+}
+
+fn median(samples: &mut [Duration]) -> f64 {
+    samples.sort_unstable();
+    samples[samples.len() / 2].as_secs_f64()
+}
+
+fn ratio(name: &str, ours: &mut [Duration], theirs: &mut [Duration]) {
+    let (ours, theirs) = (median(ours), median(theirs));
+    println!("{name}: {:.3} ms / {:.3} ms", ours * 1e3, theirs * 1e3);
+    println!("ratio {name} {:.4}", ours / theirs);
+}
+
+fn new_map(gpu: &Gpu, descriptor: &CubeShadowMapDescriptor<'_>) -> CubeShadowMap {
+    CubeShadowMap::new(&gpu.device, descriptor).expect("the descriptor is in range")
+}
+
+/// Prepare, encode and wait.
+fn frame(gpu: &Gpu, map: &mut CubeShadowMap, light: PointLight, casters: &[Caster]) -> Duration {
+    let frame = CubeFrame {
+        lights: &[light],
+        casters,
+        ..Default::default()
+    };
+    let start = Instant::now();
+    map.prepare(&gpu.device, &gpu.queue, &frame)
+        .expect("the frame is in range");
+    gpu.run(|encoder| map.encode(encoder));
+    start.elapsed()
+}
+
+fn spheres(gpu: &Gpu, rounds: u32) {
+    let scene = spheres_moving(0.0);
+    let light = PointLight::new(scene.light.truncate(), scene.shadow_near, scene.range);
+    let mut casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
+    let mut textbook = new_map(gpu, &CubeShadowMapDescriptor::textbook());
+    let mut map = new_map(gpu, &CubeShadowMapDescriptor::default());
+    let [mut book, mut all, mut one, mut still] = [const { Vec::new() }; 4];
+    // The first round makes pipelines and textures.
+    for round in 0..=rounds {
+        let moving = spheres_moving(0.1 * f64::from(round + 1));
+        let objects = moving.objects.iter().filter(|object| object.casts);
+        for (caster, object) in casters.iter_mut().zip(objects) {
+            caster.world_from_object = object.transform;
+        }
+        let times = [
+            frame(gpu, &mut textbook, light, &casters),
+            frame(gpu, &mut map, light, &casters),
+            {
+                let moved = round as usize * 7 % casters.len();
+                casters[moved].world_from_object.translation += Vec3A::splat(0.01);
+                frame(gpu, &mut map, light, &casters)
+            },
+            frame(gpu, &mut map, light, &casters),
+        ];
+        if round > 0 {
+            for (samples, time) in [&mut book, &mut all, &mut one, &mut still]
+                .into_iter()
+                .zip(times)
+            {
+                samples.push(time);
+            }
+        }
+    }
+    ratio("all_moving_vs_textbook", &mut all, &mut book);
+    ratio("one_moving_vs_all_moving", &mut one, &mut all);
+    ratio("still_vs_all_moving", &mut still, &mut all);
+}
+
+/// Boxes in a flat world of one a square metre, lights all over it.
+struct World {
+    casters: Vec<Caster>,
+    lights: Vec<PointLight>,
+    map: CubeShadowMap,
+}
+
+impl World {
+    fn new(gpu: &Gpu, count: usize, range: f32) -> Self {
+        let positions: Vec<[f32; 3]> = (0..8)
+            .map(|i: u32| [1, 2, 4].map(|bit| if i & bit == 0 { -0.2 } else { 0.2 }))
+            .collect();
+        #[rustfmt::skip]
+        let indices = [
+            0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+            2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
+        ];
+        let adjacency = Adjacency::new(&positions, &indices).expect("a box is a mesh");
+        let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a box fits");
+        let side = (count as f32).sqrt().ceil();
+        let place = |i: usize| {
+            let (x, z) = (i as f32 % side, (i as f32 / side).floor());
+            Affine3A::from_translation(Vec3::new(x, 0.0, z))
+        };
+        let lights = (0..16).map(|i| {
+            let at = |k: usize| (k as f32 + 0.5) / 4.0 * side;
+            PointLight::new(Vec3::new(at(i % 4), 2.0, at(i / 4)), 0.1, range)
+        });
+        Self {
+            casters: (0..count)
+                .map(|i| Caster::new(mesh.clone(), place(i)))
+                .collect(),
+            lights: lights.collect(),
+            map: new_map(
+                gpu,
+                &CubeShadowMapDescriptor {
+                    size: 16,
+                    lights: 16,
+                    cube_array: gpu.support.cube_arrays,
+                    ..Default::default()
+                },
+            ),
+        }
+    }
+
+    /// Time of `prepare` alone; the frame is drawn after.
+    fn prepare(&mut self, gpu: &Gpu) -> Duration {
+        let frame = CubeFrame {
+            lights: &self.lights,
+            casters: &self.casters,
+            ..Default::default()
+        };
+        let start = Instant::now();
+        self.map
+            .prepare(&gpu.device, &gpu.queue, &frame)
+            .expect("the frame is in range");
+        let time = start.elapsed();
+        gpu.run(|encoder: &mut wgpu::CommandEncoder| self.map.encode(encoder));
+        time
+    }
+}
+
+fn prepare(gpu: &Gpu, rounds: u32) {
+    let mut world = World::new(gpu, 2500, 15.0);
+    world.prepare(gpu);
+    let (mut moving, mut still) = (Vec::new(), Vec::new());
+    for _ in 0..rounds {
+        for caster in &mut world.casters {
+            caster.world_from_object.translation.y += 0.001;
+        }
+        moving.push(world.prepare(gpu));
+        still.push(world.prepare(gpu));
+    }
+    ratio("prepare_still_vs_moving", &mut still, &mut moving);
+}
+
+fn one_of_many(gpu: &Gpu, count: usize, rounds: u32) {
+    // Each light reaches about 700 casters, however many there are.
+    let mut world = World::new(gpu, count, 15.0);
+    world.prepare(gpu);
+    let (mut one, mut still, mut light) = (Vec::new(), Vec::new(), Vec::new());
+    for round in 0..rounds as usize {
+        let moved = round * 7919 % count;
+        world.casters[moved].world_from_object.translation.y += 0.01;
+        one.push(world.prepare(gpu));
+        still.push(world.prepare(gpu));
+        world.lights[round % 16].position.y += 0.01;
+        light.push(world.prepare(gpu));
+    }
+    ratio(&format!("one_of_{count}_vs_still"), &mut one, &mut still);
+    ratio(
+        &format!("light_among_{count}_vs_still"),
+        &mut light,
+        &mut still,
+    );
+}

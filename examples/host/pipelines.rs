@@ -1,0 +1,155 @@
+//! The host's pipelines: ambient light with depth, and lit passes for any way to find shadows.
+
+use shadows::{DepthConvention, wgpu};
+
+/// The convention of the host's depth buffer.
+pub const DEPTH: DepthConvention = DepthConvention::InfiniteReverse;
+
+// sRGB, so that the hardware blends light linearly.
+pub(super) const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// How a light pass learns where there is shadow.
+#[derive(Clone, Default)]
+pub struct ShadowAccess<'a> {
+    /// WGSL that declares `shadows_visibility(vec3f) -> f32` and its bindings in group 1.
+    pub module: Option<&'a str>,
+    /// Layout of group 1.
+    pub layout: Option<&'a wgpu::BindGroupLayout>,
+    /// The stencil test, if that decides.
+    pub stencil: Option<wgpu::StencilState>,
+}
+
+/// The pipeline of a lit pass.
+pub struct LitPipeline {
+    pub(super) pipeline: wgpu::RenderPipeline,
+    pub(super) uses_stencil: bool,
+}
+
+/// Depth and ambient light.
+pub(super) fn ambient_pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let module = shader(device, "ambient", &[]);
+    let depth = wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(DEPTH.nearer_or_equal()),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    };
+    let targets = [Some(SHADED.into())];
+    pipeline(
+        device,
+        "host_ambient",
+        &module,
+        &[Some(layout)],
+        depth,
+        &targets,
+    )
+}
+
+/// Light that is added where depth is equal.
+pub(super) fn lit_pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    format: wgpu::TextureFormat,
+    access: &ShadowAccess<'_>,
+) -> LitPipeline {
+    let module = match access.module {
+        Some(receiver) => shader(
+            device,
+            "lit, sampled",
+            &[receiver, include_str!("shaders/sampled.wgsl")],
+        ),
+        None => shader(device, "lit", &[include_str!("shaders/unshadowed.wgsl")]),
+    };
+    let depth = wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(false),
+        depth_compare: Some(wgpu::CompareFunction::Equal),
+        stencil: access.stencil.clone().unwrap_or_default(),
+        bias: wgpu::DepthBiasState::default(),
+    };
+    let additive = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let targets = [
+        Some(wgpu::ColorTargetState {
+            format: SHADED,
+            blend: Some(wgpu::BlendState {
+                color: additive,
+                alpha: additive,
+            }),
+            write_mask: wgpu::ColorWrites::ALL,
+        }),
+        Some(VISIBILITY.into()),
+    ];
+    let mut layouts = vec![Some(layout)];
+    layouts.extend(access.layout.map(Some));
+    LitPipeline {
+        pipeline: pipeline(device, "host_lit", &module, &layouts, depth, &targets),
+        uses_stencil: access.stencil.is_some(),
+    }
+}
+
+fn shader(device: &wgpu::Device, label: &str, parts: &[&str]) -> wgpu::ShaderModule {
+    let shared = [shadows::wgsl::POSITION, include_str!("shaders/host.wgsl")];
+    let source = [&shared[..], parts].concat().join("\n");
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    })
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    fragment: &str,
+    module: &wgpu::ShaderModule,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    depth: wgpu::DepthStencilState,
+    targets: &[Option<wgpu::ColorTargetState>],
+) -> wgpu::RenderPipeline {
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(fragment),
+        bind_group_layouts: layouts,
+        immediate_size: 0,
+    });
+    let buffer = |attributes| {
+        Some(wgpu::VertexBufferLayout {
+            array_stride: 12,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes,
+        })
+    };
+    let (positions, normals) = (
+        wgpu::vertex_attr_array![0 => Float32x3],
+        wgpu::vertex_attr_array![1 => Float32x3],
+    );
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("host_vertex"),
+            compilation_options: Default::default(),
+            buffers: &[buffer(&positions), buffer(&normals)],
+        },
+        // Nothing is culled: meshes may be open, and the side one sees receives light too.
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(depth),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

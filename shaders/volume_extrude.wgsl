@@ -1,0 +1,49 @@
+// Where the corners of a shadow volume lie. Faces that meet compute the same position from the same
+// numbers, however they came by them.
+
+struct Caster {
+    clip_from_world: mat4x4f,
+    world_from_object: mat4x4f,
+    // World space, homogeneous.
+    light: vec4f,
+    // In words of 4 bytes.
+    position_stride: u32,
+    position_offset: u32,
+    side_base: u32,
+    side_vertices: u32,
+    // As `Instance` in volume_batch.wgsl has them.
+    object_light: vec4f,
+    object_light_rest: vec3f,
+    both_sides: u32,
+}
+
+@group(0) @binding(0) var<uniform> caster: Caster;
+
+fn near_point(position: vec3f) -> vec4f {
+    return shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
+}
+
+// The point at infinity behind a vertex, seen from the light. A vertex at the very place of the
+// light has no such direction: it stays where it is, the same for every face that meets there, so
+// that the surface is still closed and no vertex is (0, 0, 0, 0).
+fn far_point(position: vec3f) -> vec4f {
+    let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
+    let direction = caster.light.w * world - caster.light.xyz;
+    if all(direction == vec3f(0.0)) {
+        return near_point(position);
+    }
+    return caster.clip_from_world * vec4f(direction, 0.0);
+}
+
+// A side runs b a a', b a' b' for an edge from a to b, where a' and b' are at infinity; for a
+// directional light a' = b' and one triangle is left.
+fn side_corner_is_second(corner: u32) -> bool {
+    return ((0x29u >> corner) & 1u) == 1u;
+}
+
+fn side_corner_is_far(corner: u32) -> bool {
+    return ((0x34u >> corner) & 1u) == 1u;
+}
+
+@fragment
+fn shadows_volume_nothing() {}

@@ -1,0 +1,189 @@
+//! A cube map unfolded, for a host to look at.
+
+use super::cube::CubeShadowMap;
+use super::descriptor::DepthEncoding;
+use super::light::LightUniform;
+
+/// How to make a [`CubeCross`].
+#[derive(Clone, Debug)]
+pub struct CubeCrossDescriptor<'a> {
+    /// Name in debuggers. Default none.
+    pub label: Option<&'a str>,
+    /// Format of the pass's only colour attachment. Default `Rgba8Unorm`.
+    pub format: wgpu::TextureFormat,
+    /// The pass's depth-stencil format, if it has one; neither tested nor written. Default `None`.
+    pub depth_stencil: Option<wgpu::TextureFormat>,
+    /// Samples of the pass. Default 1.
+    pub samples: u32,
+    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`].
+    pub encoding: DepthEncoding,
+}
+
+impl Default for CubeCrossDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            depth_stencil: None,
+            samples: 1,
+            encoding: DepthEncoding::default(),
+        }
+    }
+}
+
+/// Draws one light's cube map unfolded as a cross into a host's pass, to see what it holds.
+///
+/// Four cells by three of the viewport: +Y above, -X, +Z, +X, -Z in the middle row, -Y below, each
+/// as seen from the light and joined to +Z as on the cube. White is at the light, black at its
+/// range or beyond (along the major axis, or distance, as the map has it), dark blue where no caster
+/// is; the corner cells are left as they were.
+#[derive(Debug)]
+pub struct CubeCross {
+    label: String,
+    layout: wgpu::BindGroupLayout,
+    sampler: wgpu::Sampler,
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl CubeCross {
+    /// Makes the pipeline.
+    pub fn new(device: &wgpu::Device, descriptor: &CubeCrossDescriptor<'_>) -> Self {
+        let label = match descriptor.label {
+            Some(label) => format!("shadows cube cross {label}"),
+            None => "shadows cube cross".to_owned(),
+        };
+        let layout = layout(device, &label);
+        Self {
+            pipeline: pipeline(device, &label, &layout, descriptor),
+            sampler: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(&label),
+                ..Default::default()
+            }),
+            layout,
+            label,
+        }
+    }
+
+    /// The bind group for the light at place `light` of a map's frame. To be made again when
+    /// [`CubeShadowMap::texture_revision`] changes.
+    pub fn bind_group(
+        &self,
+        device: &wgpu::Device,
+        map: &CubeShadowMap,
+        light: usize,
+    ) -> wgpu::BindGroup {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&self.label),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: wgpu::BindingResource::TextureView(map.view(light)),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: wgpu::BindingResource::Sampler(&self.sampler),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 2,
+                    resource: map.light_uniform(light),
+                },
+            ],
+        })
+    }
+
+    /// Draws into the pass's viewport. Group 0 and the pipeline are set to others after.
+    pub fn render(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+fn layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty,
+        count: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &[
+            entry(
+                0,
+                wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::Cube,
+                    multisampled: false,
+                },
+            ),
+            entry(
+                1,
+                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+            ),
+            entry(
+                2,
+                wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+                },
+            ),
+        ],
+    })
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    descriptor: &CubeCrossDescriptor<'_>,
+) -> wgpu::RenderPipeline {
+    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CROSS.into()),
+    });
+    let linear = descriptor.encoding == DepthEncoding::LinearDistance;
+    let constants = [("linear", f64::from(u8::from(linear)))];
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &shader,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: descriptor
+            .depth_stencil
+            .map(|format| wgpu::DepthStencilState {
+                format,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(wgpu::CompareFunction::Always),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+        multisample: wgpu::MultisampleState {
+            count: descriptor.samples,
+            ..Default::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &shader,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            targets: &[Some(descriptor.format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

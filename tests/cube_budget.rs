@@ -1,0 +1,267 @@
+//! The budget of faces a frame, and faces that no visible receiver needs.
+
+mod common;
+#[path = "common/cubes.rs"]
+mod cubes;
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[path = "common/receivers.rs"]
+mod receivers;
+
+use common::shapes::{Random, cuboid};
+use cubes::{draw, draw_frame, faces, fresh};
+use glam::camera::rh::{proj::directx as proj, view};
+use glam::{Affine3A, Mat4, Vec3};
+use host::gpu::Gpu;
+use receivers::visibility;
+use shadows::{
+    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, Kernel,
+    PointLight, View, glam,
+};
+
+const SIZE: u32 = 32;
+
+fn descriptor(lights: u32, max_faces_per_frame: Option<u32>) -> CubeShadowMapDescriptor<'static> {
+    CubeShadowMapDescriptor {
+        size: SIZE,
+        lights,
+        max_faces_per_frame,
+        ..Default::default()
+    }
+}
+
+/// Casters all around, and lights among them that reach most.
+struct Crowd {
+    random: Random,
+    lights: Vec<PointLight>,
+    casters: Vec<Caster>,
+}
+
+impl Crowd {
+    fn new(gpu: &Gpu) -> Self {
+        let mesh = cuboid(Vec3::splat(0.4)).mesh(&gpu.device);
+        let mut random = Random::new(21);
+        let lights = [-2.0, 0.0, 2.0]
+            .map(|x| PointLight::new(Vec3::new(x, 0.1, 0.2), 0.1, 9.0))
+            .to_vec();
+        let casters = (0..40)
+            .map(|_| Affine3A::from_translation(random.vec3() * 5.0))
+            .map(|at| Caster::new(mesh.clone(), at))
+            .collect();
+        Self {
+            random,
+            lights,
+            casters,
+        }
+    }
+
+    fn move_casters(&mut self) {
+        for caster in &mut self.casters {
+            caster.world_from_object.translation += glam::Vec3A::from(self.random.vec3() * 0.1);
+        }
+    }
+
+    fn frame(&self) -> CubeFrame<'_> {
+        CubeFrame {
+            lights: &self.lights,
+            casters: &self.casters,
+            ..Default::default()
+        }
+    }
+}
+
+fn oldest(map: &CubeShadowMap) -> u32 {
+    (0..3)
+        .flat_map(|light| CubeFace::ALL.map(|face| (light, face)))
+        .filter_map(|(light, face)| map.face_statistics(light, face))
+        .map(|face| face.age)
+        .max()
+        .unwrap_or(0)
+}
+
+/// Every light's faces against those of a map of its own.
+fn differing(gpu: &Gpu, map: &CubeShadowMap, crowd: &Crowd) -> usize {
+    let one = descriptor(1, None);
+    let each = crowd.lights.iter().enumerate().map(|(place, light)| {
+        let truth = faces(gpu, &fresh(gpu, &one, &[*light], &crowd.casters), 0);
+        let ours = faces(gpu, map, place);
+        ours.iter().zip(&truth).filter(|(a, b)| a != b).count()
+    });
+    each.sum()
+}
+
+#[test]
+fn a_budget_is_kept_and_no_face_waits_longer_than_stated() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for budget in [1, 4, 7] {
+        let mut crowd = Crowd::new(&gpu);
+        let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(budget))).unwrap();
+        let bound = map.max_age().unwrap();
+        for _ in 0..bound {
+            draw_frame(&gpu, &mut map, &crowd.frame());
+        }
+        let mut eldest = 0;
+        for _ in 0..3 * bound {
+            crowd.move_casters();
+            draw_frame(&gpu, &mut map, &crowd.frame());
+            let s = map.statistics();
+            assert_eq!(s.faces_rendered, budget, "all move, so all of it is used");
+            assert_eq!(s.faces_rendered + s.faces_postponed, 18);
+            eldest = oldest(&map).max(eldest);
+        }
+        assert!(eldest <= bound, "{eldest} over {bound}, budget {budget}");
+        assert!(2 * eldest > bound, "{eldest}: the bound says nothing");
+        // The broken twin of what follows: now most faces still show the past.
+        assert!(differing(&gpu, &map, &crowd) > 0);
+        for _ in 0..bound {
+            draw_frame(&gpu, &mut map, &crowd.frame());
+        }
+        assert_eq!(differing(&gpu, &map, &crowd), 0);
+        assert_eq!(map.statistics().faces_postponed, 0);
+    }
+}
+
+#[test]
+fn a_pinned_light_never_waits() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut crowd = Crowd::new(&gpu);
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(2))).unwrap();
+    for _ in 0..20 {
+        crowd.move_casters();
+        let frame = CubeFrame {
+            pinned: &[1],
+            ..crowd.frame()
+        };
+        draw_frame(&gpu, &mut map, &frame);
+        let age = |face| map.face_statistics(1, face).unwrap().age;
+        assert!(CubeFace::ALL.into_iter().all(|face| age(face) == 0));
+    }
+    assert!(oldest(&map) > 0, "the others wait");
+    assert_eq!(map.statistics().faces_rendered, 6 + 2);
+}
+
+/// Where the light of a map's faces is, read off their matrix.
+fn shown(map: &CubeShadowMap, light: usize) -> Vec3 {
+    let matrix = map.clip_from_world(light, CubeFace::PositiveZ).unwrap();
+    -Vec3::new(matrix.w_axis.x, matrix.w_axis.y, matrix.w_axis.w)
+}
+
+#[test]
+fn a_light_that_waits_stays_where_its_faces_were_drawn() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut crowd = Crowd::new(&gpu);
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(2))).unwrap();
+    let points: Vec<(Vec3, Vec3)> = (0..500)
+        .map(|_| (crowd.random.vec3() * 4.0, crowd.random.vec3()))
+        .collect();
+    let mut waited = 0;
+    for frame in 0..24 {
+        for light in &mut crowd.lights {
+            light.position.x += 0.05;
+        }
+        draw(&gpu, &mut map, &crowd.lights, &crowd.casters);
+        if frame < 3 {
+            continue; // new lights are dark until their first turn
+        }
+        let at = shown(&map, 0);
+        waited += usize::from(at.distance(crowd.lights[0].position) > 0.01);
+        let light = PointLight {
+            position: at,
+            ..crowd.lights[0]
+        };
+        let truth = fresh(&gpu, &descriptor(1, None), &[light], &crowd.casters);
+        let seen = |map| visibility(&gpu, map, Kernel::Bilinear, &points);
+        assert_eq!(seen(&map), seen(&truth), "frame {frame}");
+    }
+    assert!(waited > 5, "{waited}");
+}
+
+#[test]
+fn new_lights_are_dark_until_their_turn() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let crowd = Crowd::new(&gpu);
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(1))).unwrap();
+    draw(&gpu, &mut map, &crowd.lights, &crowd.casters);
+    let dark = (0..3)
+        .filter(|&place| {
+            let sampler = shadows::PcfDescriptor::default();
+            let at = [(crowd.lights[place].position, Vec3::Y)];
+            receivers::ask(&gpu, &map, &sampler, place, &at) == [0.0]
+        })
+        .count();
+    assert_eq!(dark, 2);
+}
+
+fn camera(eye: Vec3, target: Vec3) -> (Mat4, View) {
+    let projection = proj::perspective_infinite_reverse(0.9, 1.5, 0.1);
+    let matrix = projection * view::look_at_mat4(eye, target, Vec3::new(0.1, 1.0, 0.0));
+    (
+        matrix,
+        View::new(matrix, DepthConvention::InfiniteReverse).unwrap(),
+    )
+}
+
+#[test]
+fn faces_without_visible_receivers_wait_and_are_not_forgotten() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut crowd = Crowd::new(&gpu);
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, None)).unwrap();
+    let away = camera(Vec3::X * 20.0, Vec3::X * 30.0).1;
+    let toward = camera(Vec3::X * 20.0, Vec3::ZERO).1;
+    let mut frame = |crowd: &Crowd, view| {
+        let frame = CubeFrame {
+            view: Some(view),
+            ..crowd.frame()
+        };
+        draw_frame(&gpu, &mut map, &frame);
+        map.statistics()
+    };
+    assert_eq!(frame(&crowd, &away).faces_rendered, 0);
+    assert_eq!(frame(&crowd, &toward).faces_rendered, 18);
+    crowd.move_casters();
+    for _ in 0..3 {
+        let s = frame(&crowd, &away);
+        assert_eq!((s.faces_rendered, s.faces_hidden), (0, 18));
+    }
+    assert_eq!(frame(&crowd, &toward).faces_rendered, 18);
+    assert_eq!(differing(&gpu, &map, &crowd), 0);
+}
+
+#[test]
+fn what_a_view_shows_is_the_same_with_and_without_hidden_faces() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut crowd = Crowd::new(&gpu);
+    let one = descriptor(1, None);
+    let mut map = CubeShadowMap::new(&gpu.device, &one).unwrap();
+    let (mut hidden, mut unlike) = (0, 0);
+    for frame in 0..30 {
+        crowd.move_casters();
+        crowd.lights[0].position.y += if frame % 4 == 0 { 0.1 } else { 0.0 };
+        let eye = crowd.random.vec3() * 9.0;
+        let (matrix, view) = camera(eye, eye + crowd.random.vec3());
+        let truth = fresh(&gpu, &one, &crowd.lights[..1], &crowd.casters);
+        let frame = CubeFrame {
+            lights: &crowd.lights[..1],
+            casters: &crowd.casters,
+            view: Some(&view),
+            ..Default::default()
+        };
+        draw_frame(&gpu, &mut map, &frame);
+        hidden += map.statistics().faces_hidden;
+        let points: Vec<(Vec3, Vec3)> = (0..2000)
+            .map(|_| (crowd.random.vec3() * 8.0, crowd.random.vec3()))
+            .collect();
+        let (inside, outside): (Vec<_>, Vec<_>) = points.into_iter().partition(|(point, _)| {
+            let clip = matrix * point.extend(1.0);
+            clip.x.abs() < clip.w && clip.y.abs() < clip.w && clip.w > 0.1
+        });
+        let seen = |map, points: &[_]| visibility(&gpu, map, Kernel::FourTaps, points);
+        if !inside.is_empty() {
+            assert_eq!(seen(&map, &inside), seen(&truth, &inside));
+        }
+        unlike += usize::from(seen(&map, &outside) != seen(&truth, &outside));
+    }
+    assert!(hidden > 20, "{hidden} faces hidden");
+    // The broken twin: receivers that the view does not show.
+    assert!(unlike > 5, "{unlike}");
+}

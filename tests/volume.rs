@@ -1,0 +1,20 @@
+//! Shadow volumes against the exact answer: not one interior pixel may be wrong.
+
+#[path = "volume/errors.rs"]
+mod errors;
+#[path = "volume/hard.rs"]
+mod hard;
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[path = "volume/light_pass.rs"]
+mod light_pass;
+#[path = "volume/passes.rs"]
+mod passes;
+#[path = "volume/pictures.rs"]
+mod pictures;
+#[path = "volume/shapes.rs"]
+mod shapes;
+#[path = "volume/stage.rs"]
+mod stage;
+#[path = "volume/truth.rs"]
+mod truth;

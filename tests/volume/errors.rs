@@ -1,0 +1,380 @@
+//! Every error is reached, before any GPU work, and leaves the renderer usable. No driver needed.
+
+use shadows::error::{CasterError, LightError, ShadowVolumeError as Error};
+use shadows::glam::camera::rh::proj::directx as proj;
+use shadows::glam::{Affine3A, Vec3, Vec4};
+use shadows::mesh::Adjacency;
+use shadows::{
+    Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
+    ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
+};
+
+use crate::shapes;
+
+fn noop(features: wgpu::Features, limits: wgpu::Limits) -> (wgpu::Device, wgpu::Queue) {
+    wgpu::Device::noop(&wgpu::DeviceDescriptor {
+        required_features: features,
+        required_limits: limits,
+        ..Default::default()
+    })
+}
+
+fn bare() -> (wgpu::Device, wgpu::Queue) {
+    noop(wgpu::Features::empty(), wgpu::Limits::defaults())
+}
+
+/// Devices are told apart within one instance only.
+fn two_devices() -> [(wgpu::Device, wgpu::Queue); 2] {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::NOOP,
+        backend_options: wgpu::BackendOptions {
+            noop: wgpu::NoopBackendOptions::enabled(),
+            ..Default::default()
+        },
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let device = || async {
+        let adapter = instance.request_adapter(&Default::default()).await.unwrap();
+        adapter.request_device(&Default::default()).await.unwrap()
+    };
+    [pollster::block_on(device()), pollster::block_on(device())]
+}
+
+fn new(device: &wgpu::Device, descriptor: ShadowVolumeDescriptor<'_>) -> Result<(), Error> {
+    ShadowVolumeRenderer::new(device, &descriptor).map(|_| ())
+}
+
+fn view(depth: DepthConvention) -> View {
+    let projection = match depth {
+        DepthConvention::InfiniteReverse => proj::perspective_infinite_reverse(0.9, 1.0, 0.1),
+        DepthConvention::FiniteReverse => proj::perspective(0.9, 1.0, 100.0, 0.1),
+        DepthConvention::Standard => proj::perspective(0.9, 1.0, 0.1, 100.0),
+    };
+    View::new(projection, depth).unwrap()
+}
+
+fn cube(device: &wgpu::Device) -> CasterMesh {
+    let cube = shapes::cube();
+    let adjacency = Adjacency::new(&cube.positions, &cube.indices).unwrap();
+    CasterMesh::new(device, &cube.positions, &adjacency).unwrap()
+}
+
+fn cubes(device: &wgpu::Device, count: usize) -> Vec<Caster> {
+    let mesh = cube(device);
+    let place = |i| Affine3A::from_translation(Vec3::new(0.0, 0.0, -5.0 - 3.0 * i as f32));
+    (0..count)
+        .map(|i| Caster::new(mesh.clone(), place(i)))
+        .collect()
+}
+
+const LIGHT: HomogeneousLight = HomogeneousLight(Vec4::new(0.0, 9.0, 0.0, 1.0));
+
+#[test]
+fn a_descriptor_that_does_not_fit_is_refused() {
+    let (device, _) = bare();
+    let ok = ShadowVolumeDescriptor::default();
+    for format in [
+        wgpu::TextureFormat::Depth32Float,
+        wgpu::TextureFormat::Stencil8,
+        wgpu::TextureFormat::Rgba8Unorm,
+    ] {
+        let descriptor = ShadowVolumeDescriptor {
+            depth_stencil_format: format,
+            ..ok
+        };
+        assert_eq!(new(&device, descriptor), Err(Error::Format(format)));
+    }
+    for sample_count in [0, 2, 8, u32::MAX] {
+        let descriptor = ShadowVolumeDescriptor { sample_count, ..ok };
+        assert_eq!(
+            new(&device, descriptor),
+            Err(Error::SampleCount(sample_count))
+        );
+    }
+    let format = wgpu::TextureFormat::Depth32Float;
+    let descriptor = ShadowVolumeDescriptor {
+        color_formats: &[None, Some(format)],
+        ..ok
+    };
+    assert_eq!(
+        new(&device, descriptor),
+        Err(Error::ColorFormat { place: 1, format })
+    );
+    let nine = [Some(wgpu::TextureFormat::R8Unorm); 9];
+    let descriptor = ShadowVolumeDescriptor {
+        color_formats: &nine,
+        ..ok
+    };
+    let limit = "max_color_attachments";
+    assert!(matches!(new(&device, descriptor), Err(Error::Limit { name, .. }) if name == limit));
+    assert_eq!(new(&device, ok), Ok(()));
+}
+
+#[test]
+fn missing_features_are_named() {
+    let clip = wgpu::Features::DEPTH_CLIP_CONTROL;
+    let float = wgpu::Features::DEPTH32FLOAT_STENCIL8;
+    let (device, _) = bare();
+    let ok = ShadowVolumeDescriptor::default();
+    let missing = |descriptor, wanted| match new(&device, descriptor) {
+        Err(Error::MissingFeature { feature, needed_by }) => {
+            assert_eq!(feature, wanted);
+            assert!(!needed_by.is_empty());
+        }
+        other => panic!("{other:?}"),
+    };
+    for depth in [DepthConvention::Standard, DepthConvention::FiniteReverse] {
+        let descriptor = ShadowVolumeDescriptor { depth, ..ok };
+        missing(descriptor, clip);
+        let (device, _) = noop(clip, wgpu::Limits::defaults());
+        assert_eq!(new(&device, descriptor), Ok(()));
+    }
+    let descriptor = ShadowVolumeDescriptor {
+        depth_stencil_format: wgpu::TextureFormat::Depth32FloatStencil8,
+        ..ok
+    };
+    missing(descriptor, float);
+    let (device, _) = noop(float, wgpu::Limits::defaults());
+    assert_eq!(new(&device, descriptor), Ok(()));
+}
+
+#[test]
+fn limits_that_are_too_low_are_named() {
+    let limits = wgpu::Limits {
+        max_storage_buffers_per_shader_stage: 4,
+        ..wgpu::Limits::defaults()
+    };
+    let (device, _) = noop(wgpu::Features::empty(), limits);
+    assert_eq!(
+        new(&device, ShadowVolumeDescriptor::default()),
+        Err(Error::Limit {
+            name: "max_storage_buffers_per_shader_stage",
+            needed: 6,
+            available: 4
+        })
+    );
+    let (device, _) = noop(
+        wgpu::Features::empty(),
+        wgpu::Limits::downlevel_webgl2_defaults(),
+    );
+    let error = new(&device, ShadowVolumeDescriptor::default());
+    assert!(matches!(error, Err(Error::Limit { .. })), "{error:?}");
+}
+
+#[test]
+fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
+    let [(device, queue), (other, _)] = two_devices();
+    let mut renderer =
+        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let good_view = view(DepthConvention::InfiniteReverse);
+    let casters = cubes(&device, 2);
+    let good = ShadowVolumeFrame {
+        view: &good_view,
+        light: LIGHT,
+        range: Some(100.0),
+        casters: &casters,
+    };
+    let standard = view(DepthConvention::Standard);
+    let changed = |transform| {
+        let mut casters = casters.clone();
+        casters[1].world_from_object = transform;
+        casters
+    };
+    let flat = changed(Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0)));
+    let vanishing = changed(Affine3A::from_scale(Vec3::splat(1e-40)));
+    let nan = changed(Affine3A::from_scale(Vec3::splat(f32::NAN)));
+    let foreign = vec![
+        casters[0].clone(),
+        Caster::new(cube(&other), Affine3A::IDENTITY),
+    ];
+    let light = |x, y, z, w| HomogeneousLight(Vec4::new(x, y, z, w));
+    let (inf, dark) = (f32::INFINITY, light(0.0, 0.0, 0.0, 0.0));
+    let bad = [
+        (
+            ShadowVolumeFrame {
+                view: &standard,
+                ..good
+            },
+            Error::Depth {
+                renderer: DepthConvention::InfiniteReverse,
+                view: DepthConvention::Standard,
+            },
+        ),
+        (
+            ShadowVolumeFrame {
+                light: dark,
+                ..good
+            },
+            LightError::Direction.into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                light: light(0.0, inf, 0.0, 1.0),
+                ..good
+            },
+            LightError::Position([0.0, inf, 0.0]).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                light: light(0.0, 1.0, 0.0, 0.5),
+                ..good
+            },
+            LightError::Homogeneous(0.5).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                range: Some(0.0),
+                ..good
+            },
+            LightError::Range(0.0).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                range: Some(-1.0),
+                ..good
+            },
+            LightError::Range(-1.0).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                range: Some(inf),
+                ..good
+            },
+            LightError::Range(inf).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                casters: &flat,
+                ..good
+            },
+            CasterError::Singular { index: 1 }.into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                casters: &vanishing,
+                ..good
+            },
+            CasterError::Singular { index: 1 }.into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                casters: &nan,
+                ..good
+            },
+            CasterError::NotFinite { index: 1 }.into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                casters: &foreign,
+                ..good
+            },
+            CasterError::Device { index: 1 }.into(),
+        ),
+    ];
+    for (frame, error) in &bad {
+        assert_eq!(
+            renderer.prepare(&device, &queue, frame).as_ref(),
+            Err(error)
+        );
+        assert_eq!(renderer.prepare(&device, &queue, &good), Ok(()));
+        assert_eq!(renderer.statistics().casters_drawn, 2);
+    }
+    let frame = ShadowVolumeFrame {
+        range: Some(f32::NAN),
+        ..good
+    };
+    let error = renderer.prepare(&device, &queue, &frame);
+    assert!(
+        matches!(error, Err(Error::Light(LightError::Range(_)))),
+        "{error:?}"
+    );
+}
+
+#[test]
+fn more_casters_than_fit_are_refused() {
+    let limits = wgpu::Limits {
+        max_buffer_size: 4096,
+        max_storage_buffer_binding_size: 4096,
+        ..wgpu::Limits::defaults()
+    };
+    let (device, queue) = noop(wgpu::Features::empty(), limits);
+    let mut renderer =
+        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let view = view(DepthConvention::InfiniteReverse);
+    let casters = cubes(&device, 17);
+    let frame = |count| ShadowVolumeFrame {
+        view: &view,
+        light: LIGHT,
+        range: None,
+        casters: &casters[..count],
+    };
+    assert_eq!(
+        renderer.prepare(&device, &queue, &frame(17)),
+        Err(Error::TooManyCasters {
+            count: 17,
+            limit: 16
+        })
+    );
+    assert_eq!(renderer.prepare(&device, &queue, &frame(16)), Ok(()));
+    // 16 instances of 12 triangles: caps need 2304 bytes, all in one chunk.
+    assert_eq!(renderer.statistics().dispatches, 2);
+}
+
+#[test]
+fn a_batch_is_split_where_a_buffer_would_be_too_large() {
+    let limits = wgpu::Limits {
+        max_buffer_size: 65_536,
+        max_storage_buffer_binding_size: 1_024,
+        ..wgpu::Limits::defaults()
+    };
+    let (device, queue) = noop(wgpu::Features::empty(), limits);
+    let mut renderer =
+        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let casters = cubes(&device, 16);
+    let frame = ShadowVolumeFrame {
+        view: &view(DepthConvention::InfiniteReverse),
+        light: LIGHT,
+        range: None,
+        casters: &casters,
+    };
+    renderer.prepare(&device, &queue, &frame).unwrap();
+    let statistics = renderer.statistics();
+    // 144 bytes of caps each: seven to a chunk of 1024 bytes, so three chunks, two passes each.
+    assert_eq!(statistics.dispatches, 6);
+    assert_eq!(statistics.casters_drawn, 16);
+    assert_eq!(statistics.triangles, 16 * 12);
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    renderer.encode(&mut device.create_command_encoder(&Default::default()));
+    assert!(pollster::block_on(scope.pop()).is_none());
+}
+
+#[test]
+fn casters_out_of_range_cost_nothing() {
+    let (device, queue) = bare();
+    let mut renderer =
+        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let view = view(DepthConvention::InfiniteReverse);
+    let casters = cubes(&device, 3);
+    let mut frame = ShadowVolumeFrame {
+        view: &view,
+        light: HomogeneousLight::point(Vec3::ZERO),
+        range: Some(3.9),
+        casters: &casters,
+    };
+    renderer.prepare(&device, &queue, &frame).unwrap();
+    let none = renderer.statistics();
+    assert_eq!((none.casters_drawn, none.casters_skipped), (0, 3));
+    assert_eq!((none.draws, none.dispatches, none.gpu_bytes), (0, 0, 0));
+    // The nearest points of the boxes are 4, 7 and 10 away.
+    for (range, drawn) in [(4.0, 1), (6.9, 1), (7.0, 2), (10.0, 3)] {
+        frame.range = Some(range);
+        renderer.prepare(&device, &queue, &frame).unwrap();
+        assert_eq!(renderer.statistics().casters_drawn, drawn, "range {range}");
+    }
+    frame.range = Some(3.9);
+    frame.light = HomogeneousLight::directional(Vec3::Y);
+    renderer.prepare(&device, &queue, &frame).unwrap();
+    assert_eq!(renderer.statistics().casters_drawn, 3);
+    // Sides and light caps, no dark caps: nothing of them is left at infinity.
+    assert_eq!(renderer.statistics().draws, 6);
+}

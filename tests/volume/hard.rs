@@ -1,0 +1,263 @@
+//! Where shadow volumes usually break.
+
+use shadows::glam::{Affine3A, Quat, Vec3};
+use shadows::{HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, wgpu};
+
+use crate::host::gpu::Gpu;
+use crate::pictures::{assert_exact, at, lamp, mixed, sun};
+use crate::shapes;
+use crate::stage::{Body, Stage};
+
+#[test]
+fn a_light_inside_a_closed_caster_is_seen_through_its_hole_only() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Closed around the light, seen from outside: everything outside is in shadow. A second, small
+    // caster inside keeps the inside from being trivial, and the eye looks in from outside.
+    let light = HomogeneousLight::point(Vec3::new(0.1, 2.0, 0.2));
+    let room = Body::caster(shapes::cube(), at(0.0, 2.0, 0.0));
+    let dark = Stage::new(light, vec![room.clone()]);
+    let truth = dark.truth();
+    let found = truth.errors(&dark.draw(&gpu));
+    assert!(found.lit == 0 && found.shadowed > 10_000, "{found:?}");
+    assert_eq!(found.wrong, 0, "{found:?}");
+
+    let lid = |corners: [Vec3; 3]| corners.iter().any(|c| c.y > -0.5);
+    let mut holed = room;
+    holed.shape = shapes::cube().cut(lid);
+    assert_exact(
+        &gpu,
+        &Stage::new(light, vec![holed]),
+        "a room without a floor",
+    );
+}
+
+#[test]
+fn light_and_eye_may_be_inside_a_closed_caster() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for shape in [shapes::cube(), shapes::cube().reversed()] {
+        let stage = Stage {
+            eye: Vec3::new(2.5, 3.0, 2.8),
+            target: Vec3::new(-1.0, 0.5, -1.0),
+            field_of_view: 1.5,
+            ..Stage::new(
+                HomogeneousLight::point(Vec3::new(-1.5, 4.5, 0.5)),
+                vec![
+                    Body::caster(shape, Affine3A::from_scale(Vec3::splat(6.0))),
+                    Body::caster(shapes::cube().tilted(), at(0.0, 1.8, 0.0)),
+                ],
+            )
+        };
+        assert_exact(&gpu, &stage, "room");
+    }
+}
+
+#[test]
+fn a_light_in_the_plane_of_a_triangle_keeps_the_volume_closed() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let plane = Affine3A::from_rotation_x(std::f32::consts::FRAC_PI_2);
+    let sheet = Body::caster(shapes::square(1.0), at(0.0, 1.5, 0.0) * plane);
+    for light in [
+        HomogeneousLight::point(Vec3::new(-2.0, 6.0, 0.0)),
+        HomogeneousLight::directional(Vec3::new(-0.4, 1.0, 0.0)),
+    ] {
+        let cube = Body::caster(shapes::cube(), at(1.5, 1.5, -1.0));
+        let stage = Stage::new(light, vec![sheet.clone(), cube]);
+        assert_exact(&gpu, &stage, &format!("{light:?}"));
+    }
+}
+
+#[test]
+fn a_light_on_a_vertex_or_an_edge_leaves_the_rest_right() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for shape in [shapes::cube(), shapes::square(1.0)] {
+        for corner in [Vec3::new(-1.0, 3.0, 1.0), Vec3::new(0.0, 3.0, 1.0)] {
+            let down = if shape.positions.len() == 4 { 3.0 } else { 2.0 };
+            let stage = Stage::new(
+                HomogeneousLight::point(corner),
+                vec![
+                    Body::caster(shape.clone(), at(0.0, down, 0.0)),
+                    Body::caster(shapes::sphere(10), at(-2.5, 0.8, 1.5)),
+                ],
+            );
+            assert_exact(&gpu, &stage, &format!("light at {corner}"));
+        }
+    }
+}
+
+#[test]
+fn a_light_just_above_a_caster_casts_the_whole_shadow() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Nearer still, the points at infinity of one cap cancel in f32: 1e-5 of the caster's size
+    // leaves wrong pixels along the horizon of the light.
+    for height in [1e-1, 1e-3, 1e-4] {
+        let light = HomogeneousLight::point(Vec3::new(0.1, 1.0 + height, 0.2));
+        let small = Affine3A::from_scale(Vec3::splat(0.7));
+        let stage = Stage::new(
+            light,
+            vec![
+                Body::caster(shapes::square(1.0), at(0.0, 1.0, 0.0)),
+                Body::caster(shapes::sphere(10), at(-1.5, 2.5, -1.0) * small),
+            ],
+        );
+        let truth = stage.truth();
+        let found = truth.errors(&stage.draw(&gpu));
+        assert!(found.shadowed > 10_000, "{height}: {found:?}");
+        assert_eq!(found.wrong, 0, "{height}: {found:?}");
+    }
+}
+
+#[test]
+fn slivers_and_repeated_corners_change_nothing() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let stage = mixed(lamp());
+    let mut more = stage.clone();
+    let shape = &mut more.bodies[1].shape;
+    let first = shape.positions.len() as u32;
+    shape.positions.extend([
+        [0.0, 0.0, 0.0],
+        [0.5, 0.5, 0.0],
+        [0.25, 0.25, 0.0],
+        [0.2, 0.9, 0.1],
+        [0.2, 0.9, 0.1],
+    ]);
+    shape
+        .indices
+        .extend([0, 1, 2, 0, 0, 1, 2, 3, 4].map(|i| first + i));
+    let found = stage.truth().errors(&more.draw(&gpu));
+    assert!(found.interior > 10_000, "{found:?}");
+    assert_eq!(found.wrong, 0, "{found:?}");
+}
+
+#[test]
+fn slivers_of_aspect_a_million_cast_no_streaks() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut shape = shapes::square(1.2);
+    let first = shape.positions.len() as u32;
+    shape
+        .positions
+        .extend([[-1.1, 0.6, -0.4], [1.1, 0.7, 0.5], [1.1, 0.7, 0.500_002_2]]);
+    shape.indices.extend([first, first + 1, first + 2]);
+    for light in [lamp(), sun()] {
+        let stage = Stage::new(light, vec![Body::caster(shape.clone(), at(0.0, 1.0, 0.0))]);
+        assert_exact(&gpu, &stage, "sliver");
+    }
+}
+
+#[test]
+fn the_near_plane_may_cut_a_volume() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // The edge of the square's shadow runs down at z = 0.6; the near rectangle slides through it.
+    let light = HomogeneousLight::directional(Vec3::new(0.0, 1.0, 0.0));
+    for step in 0..5 {
+        for degrees in [30.0f32, 90.0, 150.0] {
+            let eye = Vec3::new(0.0, 1.2, 1.3 + 0.05 * step as f32);
+            let stage = Stage {
+                eye,
+                target: eye + Vec3::new(0.1, -0.6, -1.0),
+                field_of_view: degrees.to_radians(),
+                near: 0.2,
+                ..Stage::new(
+                    light,
+                    vec![Body::caster(shapes::square(1.2), at(0.0, 2.0, 0.0))],
+                )
+            };
+            let truth = stage.truth();
+            let found = truth.errors(&stage.draw(&gpu));
+            assert!(found.interior > 1_000, "{step}, {degrees}: {found:?}");
+            assert_eq!(found.wrong, 0, "{step}, {degrees}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn scale_does_not_matter() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for scale in [1e-4f32, 1e5] {
+        let mut stage = mixed(lamp());
+        stage.light.0 = (stage.light.0.truncate() * scale).extend(1.0);
+        stage.eye *= scale;
+        stage.target *= scale;
+        stage.near *= scale;
+        for body in &mut stage.bodies {
+            for position in &mut body.shape.positions {
+                *position = position.map(|x| x * scale);
+            }
+            body.transform.translation *= scale;
+        }
+        assert_exact(&gpu, &stage, &format!("scale {scale}"));
+    }
+}
+
+#[test]
+fn three_hundred_sheets_are_a_shadow_and_256_are_none() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Straight light, and a stack thinner than a pixel: each point is under all sheets or none.
+    let light = HomogeneousLight::directional(Vec3::Y);
+    let sheets = |count: u32| {
+        let bodies = (0..count).map(|sheet| {
+            let height = 1.0 + 2e-5 * sheet as f32;
+            Body::caster(shapes::square(1.0), at(0.0, height, 0.0))
+        });
+        Stage::new(light, bodies.collect())
+    };
+    for count in [255, 257, 300] {
+        assert_exact(&gpu, &sheets(count), &format!("{count} sheets"));
+    }
+    // The documented limit of an 8-bit count: 256 volumes around one point read 0.
+    let stage = sheets(256);
+    assert!(stage.truth().errors(&stage.draw(&gpu)).wrong > 500);
+}
+
+#[test]
+fn a_renderer_is_used_again_frame_after_frame() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let descriptor = ShadowVolumeDescriptor::default();
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap();
+    let turned = Affine3A::from_quat(Quat::from_rotation_y(0.9));
+    let mut more = mixed(sun());
+    more.bodies.extend((0..20).map(|i| {
+        let place = at(-3.0 + 0.3 * i as f32, 0.5, -3.0) * turned;
+        Body::caster(
+            shapes::sphere(8),
+            place * Affine3A::from_scale(Vec3::splat(0.3)),
+        )
+    }));
+    let bare = Stage::new(lamp(), Vec::new());
+    for stage in [&mixed(lamp()), &more, &bare, &mixed(sun()), &more] {
+        let casters = stage.casters(&gpu);
+        let picture = stage.draw_with(&gpu, &mut renderer, &casters);
+        let found = stage.truth().errors(&picture);
+        assert!(found.interior > 10_000 && found.wrong == 0, "{found:?}");
+        let drawn = renderer.statistics().casters_drawn as usize;
+        assert_eq!(drawn, casters.len());
+    }
+}
+
+#[test]
+fn recording_twice_counts_once() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let stage = mixed(lamp());
+    let descriptor = ShadowVolumeDescriptor::default();
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap();
+    let casters = stage.casters(&gpu);
+    let once = stage.draw_with(&gpu, &mut renderer, &casters);
+    gpu.run(|encoder| renderer.encode(encoder));
+    let again = stage.redraw(&gpu, &renderer);
+    assert_eq!(stage.truth().errors(&again).wrong, 0);
+    assert!(once == again);
+}
+
+#[test]
+fn a_colour_target_of_the_pass_is_left_alone() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let formats = [Some(wgpu::TextureFormat::Rgba8Unorm)];
+    let descriptor = ShadowVolumeDescriptor {
+        color_formats: &formats,
+        ..Default::default()
+    };
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap();
+    let stage = mixed(lamp());
+    let (picture, color) = stage.draw_with_color(&gpu, &mut renderer, formats[0].unwrap());
+    assert_eq!(stage.truth().errors(&picture).wrong, 0);
+    assert!(color.chunks(4).all(|texel| texel == [255, 0, 0, 255]));
+}

@@ -1,0 +1,48 @@
+//! What is right, and how many pixels of a picture are not.
+
+use shadows::reference::{Class, Interior, ReferenceImage};
+
+/// Interior pixels of each kind, and those of them that a picture has wrong.
+#[derive(Clone, Copy, Debug)]
+pub struct Errors {
+    pub interior: usize,
+    pub lit: usize,
+    pub shadowed: usize,
+    pub wrong: usize,
+}
+
+/// What is right, at the centres and at the samples.
+pub struct Truth {
+    pub centres: ReferenceImage,
+    pub samples: Vec<Vec<u8>>,
+}
+
+impl Truth {
+    /// Whether a shadow edge passes between the samples of a pixel, unseen by its centre.
+    fn is_split(&self, pixel: usize, centre: u8) -> bool {
+        self.samples.iter().any(|sample| sample[pixel] != centre)
+    }
+
+    /// A pixel is wrong if any of its samples is.
+    pub fn errors(&self, picture: &[u8]) -> Errors {
+        let reference = &self.centres;
+        let truth = reference.visibility();
+        let wrong = |keep: fn(u8) -> bool| {
+            let seen = picture.iter().zip(&truth).enumerate();
+            let visible: Vec<u8> = seen
+                .map(|(pixel, (&value, &centre))| match keep(value) {
+                    _ if self.is_split(pixel, centre) => centre,
+                    true => 255,
+                    false => 0,
+                })
+                .collect();
+            reference.compare(&visible, Interior::Screen).unwrap()
+        };
+        Errors {
+            interior: reference.interior_pixels(Interior::Screen).unwrap(),
+            lit: reference.count(Class::Lit),
+            shadowed: reference.count(Class::Shadowed),
+            wrong: wrong(|v| v > 0).false_lit_interior + wrong(|v| v == 255).false_shadow_interior,
+        }
+    }
+}
