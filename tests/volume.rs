@@ -4,6 +4,8 @@
 mod chain;
 #[path = "volume/choices.rs"]
 mod choices;
+#[path = "volume/combinations.rs"]
+mod combinations;
 #[path = "volume/errors.rs"]
 mod errors;
 #[path = "volume/far_away.rs"]

@@ -105,7 +105,8 @@ impl Buffers {
         let mut get = |grown: &mut Grown, count: usize, each: u64, most: u64| {
             grown.get(device, count as u64 * each, most, &mut made);
         };
-        let count = plan.casters.len();
+        // Those out of view, too: what comes into view must not move what is there.
+        let count = plan.slots.len();
         let caster = window::<CasterParams>(&device.limits());
         get(&mut self.casters, count, caster, most);
         if plan.uses(Way::Compute) {

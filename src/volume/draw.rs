@@ -184,7 +184,7 @@ impl DrawPipelines {
 /// Records one draw, its pipeline and bind group being set.
 pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, plan: &Plan, buffers: &Buffers) {
     let slot = &plan.slots[draw.instance as usize];
-    let caster = &plan.casters[draw.instance as usize];
+    let caster = &plan.casters[draw.caster as usize];
     match slot.way {
         Way::Vertex => issue_records(pass, draw.style.faces, &slot.mesh, caster),
         Way::Cpu => {

@@ -20,9 +20,16 @@ pub(super) struct Slot {
     pub counts: Counts,
     /// Whether the buffers held this volume already when the frame was prepared.
     pub ready: bool,
+    /// Whether it is drawn in this frame; if not, it keeps its place and what it holds.
+    pub drawn: bool,
 }
 
 impl Slot {
+    /// Whether this frame needs the volume extracted.
+    pub fn is_stale(&self) -> bool {
+        self.drawn && !self.ready
+    }
+
     fn holds(&self, wanted: &Self) -> bool {
         self.mesh.key() == wanted.mesh.key()
             && self.revision == wanted.revision
@@ -50,7 +57,8 @@ impl Kept<'_> {
     /// The slot at this place in the list of instances, if it need not be extracted again.
     pub fn get(&self, instance: usize, wanted: &Slot) -> Option<&Slot> {
         // The CPU has done its work when the frame is prepared.
-        let done = |slot: &Slot| slot.ready || self.encoded || slot.way == Way::Cpu;
+        let extracted = |slot: &Slot| self.encoded || slot.way == Way::Cpu;
+        let done = |slot: &Slot| slot.ready || (slot.drawn && extracted(slot));
         let slot = self.slots.get(instance)?;
         (done(slot) && slot.holds(wanted)).then_some(slot)
     }

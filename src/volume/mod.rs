@@ -27,6 +27,7 @@ mod renderer;
 mod rule;
 mod scissor;
 mod silhouette;
+mod subject;
 mod world_box;
 
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};

@@ -1,20 +1,18 @@
 //! What one frame needs, decided on the CPU: which casters, in which batches, drawn how.
 
-use std::collections::HashMap;
-
 use glam::Mat4;
 
 use super::draw::Style;
 use super::kept::{Kept, Slot};
-use super::method::{Count, DarkCap, Form, Options, Rules, Skip};
+use super::method::{Count, DarkCap, Form, Options};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::regions::{Overflow, Place, Regions, Words};
-use super::rule::{self, ObjectLight};
+use super::rule;
 use super::scissor::Rect;
 use super::silhouette::{Counts, Way, Ways};
-use super::world_box::WorldBox;
+use super::subject::{Subject, subjects, validate};
 use super::{ShadowVolumeFrame, VolumeStatistics};
-use crate::error::{LightError, ShadowVolumeError};
+use crate::error::ShadowVolumeError;
 use crate::mesh::{CasterMesh, MeshKind};
 
 /// The kinds of faces of a volume.
@@ -33,6 +31,8 @@ pub(super) struct Draw {
     pub style: Style,
     /// Place in [`Plan::instances`].
     pub instance: u32,
+    /// Place in [`Plan::casters`].
+    pub caster: u32,
     /// Whether the caps are those that count -1.
     pub back: bool,
 }
@@ -46,6 +46,8 @@ pub(super) struct Batch {
     pub instance_count: u32,
     /// Whether the buffers hold these volumes already.
     pub ready: bool,
+    /// Whether they are drawn in this frame.
+    pub drawn: bool,
     pub way: Way,
 }
 
@@ -58,6 +60,7 @@ pub(super) struct Plan {
     pub chunks: Vec<Words>,
     pub instances: Vec<InstanceParams>,
     pub arguments: Vec<Arguments>,
+    /// For each instance that is drawn, what its draws read.
     pub casters: Vec<CasterParams>,
     /// For each instance, its batch.
     pub batch_of: Vec<u32>,
@@ -86,16 +89,8 @@ pub(super) struct Means<'a> {
     pub options: Options,
     pub ways: &'a Ways,
     pub kept: Kept<'a>,
-}
-
-/// A caster that is drawn.
-struct Subject {
-    light: ObjectLight,
-    form: Form,
-    both_sides: bool,
-    mirrored: bool,
-    way: Way,
-    index: usize,
+    /// Whether volumes are kept at all.
+    pub keep: bool,
 }
 
 impl Plan {
@@ -107,8 +102,8 @@ impl Plan {
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
         let mut statistics = VolumeStatistics::default();
-        let groups = subjects(frame, means, &mut statistics)?;
-        let count = groups.iter().map(Vec::len).sum();
+        let subjects = subjects(frame, means, limits, &mut statistics)?;
+        let count = subjects.len();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
                 count,
@@ -117,16 +112,16 @@ impl Plan {
         }
         let mut plan = Self::default();
         let mut regions = Regions::new(limits.storage_bytes);
-        for subject in groups.iter().flatten() {
+        for subject in &subjects {
             plan.add(subject, frame, &mut regions, limits, &means.kept)?;
         }
         plan.chunks = regions.chunks().to_vec();
         plan.draws.sort_unstable();
         plan.statistics = VolumeStatistics {
-            casters_drawn: count as u32,
-            casters_skipped: (frame.casters.len() - count) as u32,
+            casters_drawn: plan.casters.len() as u32,
+            casters_skipped: (frame.casters.len() - plan.casters.len()) as u32,
             draws: plan.draws.len() as u32,
-            triangles: plan.batches.iter().map(Batch::triangles).sum(),
+            triangles: plan.triangles(),
             ..statistics
         };
         plan.scissor = means.options.scissor(frame);
@@ -148,7 +143,7 @@ impl Plan {
 
     /// The batches that compute shaders extract, with their places in the list of batches.
     pub fn stale(&self) -> impl Iterator<Item = (u32, &Batch)> {
-        let stale = |batch: &Batch| !batch.ready && batch.way == Way::Compute;
+        let stale = |batch: &Batch| batch.drawn && !batch.ready && batch.way == Way::Compute;
         (0..)
             .zip(&self.batches)
             .filter(move |(_, batch)| stale(batch))
@@ -156,12 +151,19 @@ impl Plan {
 
     /// The slots whose volumes the CPU extracts.
     pub fn stale_on_cpu(&mut self) -> impl Iterator<Item = &mut Slot> {
-        let stale = |slot: &&mut Slot| !slot.ready && slot.way == Way::Cpu;
+        let stale = |slot: &&mut Slot| slot.is_stale() && slot.way == Way::Cpu;
         self.slots.iter_mut().filter(stale)
     }
 
+    fn triangles(&self) -> u64 {
+        let drawn = self.slots.iter().filter(|slot| slot.drawn);
+        drawn
+            .map(|slot| u64::from(slot.mesh.triangle_count()))
+            .sum()
+    }
+
     fn count_extraction(&mut self) {
-        let searched = |slot: &&Slot| !slot.ready && slot.way != Way::Vertex;
+        let searched = |slot: &&Slot| slot.is_stale() && slot.way != Way::Vertex;
         let extracted = self.slots.iter().filter(searched).count() as u32;
         let dispatches = 2 * self.stale().count() as u32;
         self.statistics.casters_extracted = extracted;
@@ -195,6 +197,7 @@ impl Plan {
             way: subject.way,
             counts: Counts::default(),
             ready: false,
+            drawn: subject.form.is_some(),
         };
         if let Some(kept) = kept.get(instance as usize, &slot) {
             slot.counts = kept.counts;
@@ -205,24 +208,28 @@ impl Plan {
         self.instances.push(slot.instance);
         self.slots.push(slot);
         // Caps are below the region's end, which the regions keep below 2^32.
-        let cap_end = place.cap + words(mesh, subject)[1] as u32;
+        let cap_end = place.cap + subject.words(mesh)[1] as u32;
         self.arguments.push(Arguments::new(place.cap, cap_end));
+        let Some(form) = subject.form else {
+            return Ok(());
+        };
         let params = &self.batches[batch as usize].params;
+        let params_place = self.casters.len() as u32;
         self.casters.push(CasterParams {
             clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
             world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
             light: rule::world_light(frame.light),
-            far_plane: subject.form.far.plane.as_vec3().extend(0.0).to_array(),
-            apex: subject.form.far.apex.as_vec4().to_array(),
+            far_plane: form.far.plane.as_vec3().extend(0.0).to_array(),
+            apex: form.far.apex.as_vec4().to_array(),
             position_stride: params.position_stride,
             position_offset: params.position_offset,
             side_base: place.side,
-            side_vertices: subject.form.side_vertices,
+            side_vertices: form.side_vertices,
             object_light: subject.light.light,
             object_light_rest: subject.light.rest,
             both_sides: u32::from(subject.both_sides),
         });
-        self.draw(subject, frame, instance);
+        self.draw(subject, &form, frame, [instance, params_place]);
         Ok(())
     }
 
@@ -231,7 +238,7 @@ impl Plan {
         let open = self.batches.last_mut().filter(|batch| {
             batch.mesh.key() == slot.mesh.key()
                 && batch.chunk == slot.chunk
-                && batch.ready == slot.ready
+                && (batch.ready, batch.drawn) == (slot.ready, slot.drawn)
                 && batch.way == slot.way
                 && batch.instance_count < most
         });
@@ -243,16 +250,22 @@ impl Plan {
                 params: batch_params(&slot.mesh, self.instances.len() as u32),
                 instance_count: 1,
                 ready: slot.ready,
+                drawn: slot.drawn,
                 way: slot.way,
             }),
         }
         self.batches.len() as u32 - 1
     }
 
-    fn draw(&mut self, subject: &Subject, frame: &ShadowVolumeFrame<'_>, instance: u32) {
+    fn draw(
+        &mut self,
+        subject: &Subject,
+        form: &Form,
+        frame: &ShadowVolumeFrame<'_>,
+        [instance, caster]: [u32; 2],
+    ) {
         // A cap that counts +1 is counter-clockwise seen from the light, in the mesh's own space.
         let clockwise = subject.mirrored != rule::is_left_handed(frame.view);
-        let form = &subject.form;
         let mut push = |faces, clockwise, back| {
             self.draws.push(Draw {
                 style: Style {
@@ -261,6 +274,7 @@ impl Plan {
                     clockwise,
                 },
                 instance,
+                caster,
                 back,
             });
         };
@@ -284,68 +298,6 @@ impl Plan {
     }
 }
 
-impl Batch {
-    fn triangles(&self) -> u64 {
-        u64::from(self.params.triangle_count) * u64::from(self.instance_count)
-    }
-}
-
-fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
-    frame.light.validate()?;
-    if let Some(range) = frame.range
-        && !(range.is_finite() && range > 0.0)
-    {
-        return Err(LightError::Range(range).into());
-    }
-    if let Some(size) = frame.target_size.filter(|size| size.contains(&0)) {
-        return Err(ShadowVolumeError::TargetSize(size));
-    }
-    for (index, caster) in frame.casters.iter().enumerate() {
-        caster.validate(index, device)?;
-    }
-    Ok(())
-}
-
-/// The casters that are drawn, those of one mesh together, in the order of first appearance.
-fn subjects(
-    frame: &ShadowVolumeFrame<'_>,
-    means: &Means<'_>,
-    statistics: &mut VolumeStatistics,
-) -> Result<Vec<Vec<Subject>>, ShadowVolumeError> {
-    let rules = Rules::new(frame, means.options);
-    let mut groups: Vec<Vec<Subject>> = Vec::new();
-    let mut group_of = HashMap::new();
-    for (index, caster) in frame.casters.iter().enumerate() {
-        let map = caster.transform();
-        let light = ObjectLight::new(frame.light, &map, index)?;
-        let world = WorldBox::of(caster);
-        let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
-        if let Some(skip) = empty.or_else(|| rules.skips(&world)) {
-            statistics.skip(skip);
-            continue;
-        }
-        let form = rules.form(&world);
-        statistics.draw(form.count);
-        let way = means
-            .ways
-            .of(&caster.mesh)
-            .ok_or(ShadowVolumeError::HostPositions { index })?;
-        let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
-            groups.push(Vec::new());
-            groups.len() - 1
-        });
-        groups[group].push(Subject {
-            light,
-            form,
-            both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
-            mirrored: map.matrix3.determinant() < 0.0,
-            way,
-            index,
-        });
-    }
-    Ok(groups)
-}
-
 /// Finds room for one instance's lists.
 fn place(
     mesh: &CasterMesh,
@@ -364,26 +316,7 @@ fn place(
             limit: limits.buffer_bytes,
         });
     }
-    regions.place(words(mesh, subject))
-}
-
-/// Words for facings, caps and sides, the worst case: they cannot overflow.
-///
-/// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its uses at
-/// most; where light-facing triangles alone count, a closed mesh's edge only once.
-fn words(mesh: &CasterMesh, subject: &Subject) -> Words {
-    let triangles = u64::from(mesh.triangle_count());
-    let sides = match (mesh.kind(), subject.both_sides) {
-        (MeshKind::Closed, false) => u64::from(mesh.edge_count()),
-        (MeshKind::Closed, true) => 2 * u64::from(mesh.edge_count()),
-        (MeshKind::General, _) => u64::from(mesh.edge_use_count()),
-    };
-    match subject.way {
-        Way::Compute => [triangles, 3 * triangles, sides],
-        // Facings stay on the CPU.
-        Way::Cpu => [0, 3 * triangles, sides],
-        Way::Vertex => [0; 3],
-    }
+    regions.place(subject.words(mesh))
 }
 
 fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {

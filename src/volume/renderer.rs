@@ -94,9 +94,10 @@ impl ShadowVolumeRenderer {
 
     /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster.
     ///
-    /// GPU memory, kept between frames and grown as needed: about 22 bytes a triangle and instance
-    /// for a closed mesh, 28 for any other, and 450 a caster; up to twice that, because buffers
-    /// grow to powers of two.
+    /// GPU memory, kept between frames and grown as needed: about 28 bytes a triangle and instance,
+    /// and 720 a caster; up to twice that, because buffers grow to powers of two. Casters out of
+    /// view keep their places, so that what comes back into view need not be searched again, as long
+    /// as all casters together fit one storage buffer for each list; else they hold nothing.
     ///
     /// # Errors
     /// [`ShadowVolumeError`], before any GPU work, if the view's depth convention is not the
@@ -119,6 +120,7 @@ impl ShadowVolumeRenderer {
             options: self.options,
             ways: &self.ways,
             kept: self.kept(),
+            keep: self.keep,
         };
         let mut plan = Plan::new(frame, device, &limits, &means)?;
         if !plan.draws.is_empty() {
@@ -202,7 +204,7 @@ impl ShadowVolumeRenderer {
                 current = Some(state);
             }
             let step = window::<CasterParams>(&self.device.limits()) as u32;
-            pass.set_bind_group(0, &group.draw, &[draw.instance * step]);
+            pass.set_bind_group(0, &group.draw, &[draw.caster * step]);
             issue(pass, draw, &self.plan, &self.buffers);
         }
         if let Some((_, [width, height])) = self.plan.scissor {

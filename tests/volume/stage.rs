@@ -325,11 +325,7 @@ impl Stage {
             if let Some(renderer) = renderer {
                 renderer.encode(encoder);
             }
-            let attachment = attach(&depth_view, Some(self.depth.clear_depth()));
-            let mut pass = begin(encoder, "depth prepass", &[], attachment);
-            pass.set_pipeline(&host.depth);
-            surfaces.iter().for_each(|surface| surface.draw(&mut pass));
-            drop(pass);
+            self.prepass(encoder, &depth_view, &host, &surfaces);
             if let Some(renderer) = renderer {
                 let colors = extra.map(|view| vec![Some(clear(view, wgpu::Color::RED, None))]);
                 let colors = colors.unwrap_or_default();
@@ -345,6 +341,37 @@ impl Stage {
             self.light_pass.draw(&mut pass, &host, &surfaces);
         });
         gpu.read_texture(&picture, 0, wgpu::TextureAspect::All)
+    }
+
+    fn prepass(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        host: &HostPipelines,
+        surfaces: &[Surface],
+    ) {
+        let attachment = attach(depth, Some(self.depth.clear_depth()));
+        let mut pass = begin(encoder, "depth prepass", &[], attachment);
+        pass.set_pipeline(&host.depth);
+        surfaces.iter().for_each(|surface| surface.draw(&mut pass));
+    }
+
+    /// The stencil's counts, of one sample a pixel.
+    pub fn counts(&self, gpu: &Gpu) -> Vec<u8> {
+        let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &self.descriptor()).unwrap();
+        self.prepare(gpu, &mut renderer, &self.casters(gpu));
+        let depth = gpu.target([self.side; 2], self.format, 1);
+        let depth_view = view_of(&depth);
+        let (host, surfaces) = (HostPipelines::new(gpu, self), self.surfaces(gpu));
+        gpu.checked(|| {
+            gpu.run(|encoder| {
+                renderer.encode(encoder);
+                self.prepass(encoder, &depth_view, &host, &surfaces);
+                let mut pass = begin(encoder, "stencil", &[], attach(&depth_view, None));
+                renderer.render(&mut pass);
+            });
+        });
+        gpu.read_texture(&depth, 0, wgpu::TextureAspect::StencilOnly)
     }
 
     /// Each body as position and matrices for every corner, and its indices.

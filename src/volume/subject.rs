@@ -1,0 +1,141 @@
+//! The casters of one frame, and what is decided for each.
+
+use std::collections::HashMap;
+
+use super::method::{Form, Rules, Skip};
+use super::plan::{Means, PlanLimits};
+use super::regions::Words;
+use super::rule::{self, ObjectLight};
+use super::silhouette::Way;
+use super::world_box::WorldBox;
+use super::{ShadowVolumeFrame, VolumeStatistics};
+use crate::Caster;
+use crate::error::{LightError, ShadowVolumeError};
+use crate::mesh::{CasterMesh, MeshKind};
+
+/// A caster that has a place in the buffers.
+pub(super) struct Subject {
+    pub light: ObjectLight,
+    /// What is drawn of it; `None` if it only keeps its place until it comes into view again.
+    pub form: Option<Form>,
+    pub both_sides: bool,
+    pub mirrored: bool,
+    pub way: Way,
+    pub index: usize,
+}
+
+impl Subject {
+    /// Words for facings, caps and sides, the worst case: they cannot overflow.
+    ///
+    /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its
+    /// uses at most. (Where light-facing triangles alone count, half of that would do; but whether
+    /// they do depends on the camera, and no place may.)
+    pub fn words(&self, mesh: &CasterMesh) -> Words {
+        let triangles = u64::from(mesh.triangle_count());
+        let sides = match mesh.kind() {
+            MeshKind::Closed => 2 * u64::from(mesh.edge_count()),
+            MeshKind::General => u64::from(mesh.edge_use_count()),
+        };
+        match self.way {
+            Way::Compute => [triangles, 3 * triangles, sides],
+            // Facings stay on the CPU.
+            Way::Cpu => [0, 3 * triangles, sides],
+            Way::Vertex => [0; 3],
+        }
+    }
+}
+
+/// Whether light, range, target and casters are sound.
+pub(super) fn validate(
+    frame: &ShadowVolumeFrame<'_>,
+    device: &wgpu::Device,
+) -> Result<(), ShadowVolumeError> {
+    frame.light.validate()?;
+    if let Some(range) = frame.range
+        && !(range.is_finite() && range > 0.0)
+    {
+        return Err(LightError::Range(range).into());
+    }
+    if let Some(size) = frame.target_size.filter(|size| size.contains(&0)) {
+        return Err(ShadowVolumeError::TargetSize(size));
+    }
+    for (index, caster) in frame.casters.iter().enumerate() {
+        caster.validate(index, device)?;
+    }
+    Ok(())
+}
+
+/// The casters that are drawn, and those that keep their places, those of one mesh together, in the
+/// order of first appearance.
+///
+/// A caster out of view keeps its place, so that turning the camera moves no other caster's; unless
+/// that takes more memory than one chunk of buffers has.
+pub(super) fn subjects(
+    frame: &ShadowVolumeFrame<'_>,
+    means: &Means<'_>,
+    limits: &PlanLimits,
+    statistics: &mut VolumeStatistics,
+) -> Result<Vec<Subject>, ShadowVolumeError> {
+    let rules = Rules::new(frame, means.options);
+    let mut groups: Vec<Vec<Subject>> = Vec::new();
+    let mut group_of = HashMap::new();
+    let mut total = [0_u64; 3];
+    for (index, caster) in frame.casters.iter().enumerate() {
+        let Some(subject) = subject(frame, means, &rules, (index, caster), statistics)? else {
+            continue;
+        };
+        for (total, words) in total.iter_mut().zip(subject.words(&caster.mesh)) {
+            *total += words;
+        }
+        let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
+            groups.push(Vec::new());
+            groups.len() - 1
+        });
+        groups[group].push(subject);
+    }
+    let mut subjects: Vec<Subject> = groups.into_iter().flatten().collect();
+    let crowded = subjects.len() > limits.casters
+        || total
+            .into_iter()
+            .any(|words| words > limits.storage_bytes / 4);
+    if crowded {
+        subjects.retain(|subject| subject.form.is_some());
+    }
+    Ok(subjects)
+}
+
+fn subject(
+    frame: &ShadowVolumeFrame<'_>,
+    means: &Means<'_>,
+    rules: &Rules,
+    (index, caster): (usize, &Caster),
+    statistics: &mut VolumeStatistics,
+) -> Result<Option<Subject>, ShadowVolumeError> {
+    let map = caster.transform();
+    let light = ObjectLight::new(frame.light, &map, index)?;
+    let world = WorldBox::of(caster);
+    let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
+    let skip = empty.or_else(|| rules.skips(&world));
+    if let Some(skip) = skip {
+        statistics.skip(skip);
+        if !(skip == Skip::OutOfView && means.keep) {
+            return Ok(None);
+        }
+    }
+    let way = means
+        .ways
+        .of(&caster.mesh)
+        .ok_or(ShadowVolumeError::HostPositions { index })?;
+    let form = skip.is_none().then(|| rules.form(&world));
+    if let Some(form) = &form {
+        statistics.draw(form.count);
+    }
+    Ok(Some(Subject {
+        light,
+        form,
+        both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
+        mirrored: map.matrix3.determinant() < 0.0,
+        way,
+        index,
+    }))
+}
