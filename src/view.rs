@@ -122,6 +122,23 @@ impl View {
         self.near_corners
     }
 
+    /// For each corner of the near rectangle, the direction of the sight line through it, away from
+    /// the viewer, of any length.
+    pub(crate) fn sight_lines(&self) -> [DVec3; 4] {
+        if self.eye.w != 0.0 {
+            let eye = self.eye.xyz() / self.eye.w;
+            return self.near_corners.map(|corner| corner - eye);
+        }
+        let depth = self.clip_from_world.row(2).xyz().as_dvec3();
+        let deeper = depth * f64::from(self.depth.away());
+        let along = self.eye.xyz();
+        [if along.dot(deeper) < 0.0 {
+            -along
+        } else {
+            along
+        }; 4]
+    }
+
     /// A sphere around the near rectangle: centre and radius in world space.
     ///
     /// Every ray along which the host sees something starts inside it.
@@ -155,7 +172,7 @@ fn maps_depth(z: DVec4, w: DVec4, depth: DepthConvention) -> bool {
 }
 
 /// The vector orthogonal to three others in four dimensions (their generalised cross product).
-fn null_vector(a: DVec4, b: DVec4, c: DVec4) -> DVec4 {
+pub(crate) fn null_vector(a: DVec4, b: DVec4, c: DVec4) -> DVec4 {
     let minor = |p: fn(DVec4) -> DVec3| p(a).dot(p(b).cross(p(c)));
     DVec4::new(
         minor(|v| v.yzw()),

@@ -1,5 +1,9 @@
 //! Shadow volumes against the exact answer: not one interior pixel may be wrong.
 
+#[path = "volume/chain.rs"]
+mod chain;
+#[path = "volume/choices.rs"]
+mod choices;
 #[path = "volume/errors.rs"]
 mod errors;
 #[path = "volume/hard.rs"]
@@ -12,6 +16,8 @@ mod light_pass;
 mod passes;
 #[path = "volume/pictures.rs"]
 mod pictures;
+#[path = "volume/random.rs"]
+mod random;
 #[path = "volume/shapes.rs"]
 mod shapes;
 #[path = "volume/stage.rs"]

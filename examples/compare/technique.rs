@@ -273,10 +273,8 @@ impl Shadow {
             }
             Means::Volume { renderer, .. } => {
                 let frame = ShadowVolumeFrame {
-                    view: &inputs.view,
-                    light: inputs.light,
                     range: inputs.light_range(),
-                    casters,
+                    ..ShadowVolumeFrame::new(&inputs.view, inputs.light, casters)
                 };
                 renderer.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
