@@ -101,6 +101,21 @@ impl View {
         })
     }
 
+    /// A view from a matrix in f64, in a world whose coordinates are counted from `origin`: see
+    /// [`Caster::placed`](crate::Caster::placed). The host draws with the view's own
+    /// [`clip_from_world`](Self::clip_from_world).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), for the matrix from `origin`, rounded to f32.
+    pub fn placed(
+        clip_from_world: DMat4,
+        origin: DVec3,
+        depth: DepthConvention,
+    ) -> Result<Self, ViewError> {
+        let relative = clip_from_world * DMat4::from_translation(origin);
+        Self::new(relative.as_mat4(), depth)
+    }
+
     /// The matrix the view was made from.
     pub fn clip_from_world(&self) -> Mat4 {
         self.clip_from_world

@@ -6,6 +6,8 @@ mod chain;
 mod choices;
 #[path = "volume/errors.rs"]
 mod errors;
+#[path = "volume/far_away.rs"]
+mod far_away;
 #[path = "volume/hard.rs"]
 mod hard;
 #[path = "../examples/host/mod.rs"]

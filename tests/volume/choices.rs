@@ -3,7 +3,7 @@
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
     Caps, Caster, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
-    ShadowVolumeRenderer, VolumeStatistics, wgpu,
+    ShadowVolumeRenderer, Silhouettes, VolumeStatistics, wgpu,
 };
 
 use crate::host::gpu::Gpu;
@@ -16,6 +16,7 @@ pub const TEXTBOOK: Savings = Savings {
     caps: Caps::Full,
     extrusion: Extrusion::Infinite,
     unculled: true,
+    silhouettes: Silhouettes::Auto,
 };
 
 /// Every convention that the device can draw.

@@ -2,7 +2,7 @@
 //! fields of view from 20 to 150 degrees, every depth convention and format, 1x and 4x.
 
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{Extrusion, HomogeneousLight, Method, wgpu};
+use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, wgpu};
 
 use crate::choices::{TEXTBOOK, depths};
 use crate::host::gpu::Gpu;
@@ -154,7 +154,13 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
         ..Default::default()
     };
     let third = if seed % 2 == 0 { TEXTBOOK } else { to_range };
-    for savings in [Savings::default(), z_fail, third] {
+    let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+    for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
+        let silhouettes = ways[(seed / 4 + turn) as usize % 3];
+        let savings = Savings {
+            silhouettes,
+            ..savings
+        };
         let picture = Stage {
             savings,
             ..stage.clone()

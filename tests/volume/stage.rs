@@ -6,7 +6,7 @@ use shadows::mesh::{Adjacency, Bounds};
 use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
     Caps, Caster, CasterMesh, DepthConvention, Extrusion, HomogeneousLight, HostPositions, Method,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -74,6 +74,8 @@ pub struct Stage {
     pub side: u32,
     pub range: Option<f32>,
     pub savings: Savings,
+    /// The camera, where it is not the one that the fields above describe.
+    pub placed_view: Option<View>,
 }
 
 /// What of the volumes is drawn.
@@ -84,6 +86,7 @@ pub struct Savings {
     pub extrusion: Extrusion,
     /// Whether nothing is skipped or clipped.
     pub unculled: bool,
+    pub silhouettes: Silhouettes,
 }
 
 impl Stage {
@@ -108,10 +111,14 @@ impl Stage {
             side: SIDE,
             range: None,
             savings: Savings::default(),
+            placed_view: None,
         }
     }
 
     pub fn view(&self) -> View {
+        if let Some(view) = self.placed_view {
+            return view;
+        }
         let far = 1000.0 * self.near;
         let (fov, near) = (self.field_of_view, self.near);
         let projection = match self.depth {
@@ -195,6 +202,7 @@ impl Stage {
             caps: self.savings.caps,
             extrusion: self.savings.extrusion,
             culling: !self.savings.unculled,
+            silhouettes: self.savings.silhouettes,
             ..Default::default()
         }
     }
