@@ -90,8 +90,8 @@ fn a_light_that_comes_goes_or_moves_has_only_its_own_faces_drawn() {
     let mut map = fresh(&gpu, &descriptor(true), &lights, &casters);
     let mut step = |lights: &[PointLight]| {
         draw(&gpu, &mut map, lights, &casters);
-        for place in 0..lights.len() {
-            let alone = fresh(&gpu, &one_light(), &[lights[place]], &casters);
+        for (place, light) in lights.iter().enumerate() {
+            let alone = fresh(&gpu, &one_light(), &[*light], &casters);
             assert_eq!(faces(&gpu, &map, place), faces(&gpu, &alone, 0), "{place}");
         }
         map.statistics().faces_rendered
@@ -256,7 +256,7 @@ fn statistics_count_every_face_once() {
         assert_eq!(s.casters_in_range + s.casters_out_of_range, 60);
         if round == 0 {
             assert_eq!(s.faces_rendered, 18);
-            assert!(s.draws > 10 && s.triangles > 12 * 20 && s.triangles % 12 == 0);
+            assert!(s.draws > 10 && s.triangles > 12 * 20 && s.triangles.is_multiple_of(12));
         } else {
             assert_eq!((s.faces_rendered, s.draws, s.triangles), (0, 0, 0));
         }
