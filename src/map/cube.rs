@@ -10,7 +10,7 @@ use super::draws::DrawLists;
 use super::face::CubeFace;
 use super::light::LightUniform;
 use super::plan::SlotPlan;
-use super::resources::{self, PipelineKey, PipelineKind, RangeUniform, UNIFORM_STRIDE};
+use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
 use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
@@ -69,8 +69,8 @@ pub struct CubeShadowMap {
     pub(super) textures: Textures,
     pub(super) kind: PipelineKind,
     pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    pub(super) ranges: wgpu::Buffer,
-    pub(super) range_group: wgpu::BindGroup,
+    pub(super) face_uniforms: wgpu::Buffer,
+    pub(super) face_group: wgpu::BindGroup,
     pub(super) lights: resources::Lights,
     pub(super) instances: wgpu::Buffer,
     pub(super) scene: Scene,
@@ -81,7 +81,7 @@ pub struct CubeShadowMap {
     pub(super) draws: DrawLists,
     // What the uniforms hold, by light and by slot.
     pub(super) written_lights: Vec<Option<LightUniform>>,
-    pub(super) written_ranges: Vec<Option<RangeUniform>>,
+    pub(super) written_faces: Vec<Option<[f32; 2]>>,
     pub(super) statistics: CubeStatistics,
     pub(super) reordered: u64,
 }
@@ -109,7 +109,7 @@ impl CubeShadowMap {
             Some(label) => format!("shadows cube map {label}"),
             None => "shadows cube map".to_owned(),
         };
-        let (ranges, layout, range_group) = resources::ranges(device, &label, slots as u64);
+        let (face_uniforms, layout, face_group) = resources::faces(device, &label, slots as u64);
         let kind = PipelineKind {
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(&label),
@@ -142,8 +142,8 @@ impl CubeShadowMap {
             textures,
             kind,
             pipelines: HashMap::new(),
-            ranges,
-            range_group,
+            face_uniforms,
+            face_group,
             lights: resources::lights(device, &label, slots as u64, cube_array),
             instances: resources::instances(device, &label, 1),
             label,
@@ -155,7 +155,7 @@ impl CubeShadowMap {
             plans: Vec::new(),
             draws: DrawLists::new(slots),
             written_lights: vec![None; slots],
-            written_ranges: vec![None; slots],
+            written_faces: vec![None; slots],
             statistics: CubeStatistics::default(),
             reordered: 0,
         })
@@ -288,7 +288,7 @@ impl CubeShadowMap {
         let all = self.lights.all.as_ref().map_or(0, wgpu::Buffer::size);
         self.textures.bytes()
             + self.instances.size()
-            + self.ranges.size()
+            + self.face_uniforms.size()
             + self.lights.uniforms.size()
             + all
     }

@@ -3,7 +3,6 @@
 use glam::DAffine3;
 
 use super::descriptor::CasterSides;
-use super::face::CubeFace;
 use super::resources::{Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
@@ -109,8 +108,7 @@ impl DrawLists {
             self.rows
                 .push(instance(&(light_from_world * caster.transform())));
         }
-        let lists = self.members.iter_mut().zip(&mut self.faces[index]);
-        for ((members, draws), face) in lists.zip(CubeFace::ALL) {
+        for (members, draws) in self.members.iter_mut().zip(&mut self.faces[index]) {
             members.sort_unstable();
             for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
                 let Some(group) = scene.group(run[0].0) else {
@@ -122,9 +120,7 @@ impl DrawLists {
                     first_instance: self.instances.len() as u64,
                     instance_count: run.len() as u32,
                 });
-                let rows = run
-                    .iter()
-                    .map(|&(.., row)| in_frame(&self.rows[row as usize], face));
+                let rows = run.iter().map(|&(.., row)| self.rows[row as usize]);
                 self.instances.extend(rows);
             }
         }
@@ -145,14 +141,6 @@ fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
                 .filter(move |&(_, on)| on & mask != 0);
             touches.map(move |(at, _)| number * 16 + at)
         })
-}
-
-/// Rows along x, y and z as rows along a face's axes, which are those in another order, with signs.
-fn in_frame(rows: &Instance, face: CubeFace) -> Instance {
-    face.axes().map(|axis| {
-        let along = axis.abs().max_position();
-        rows[along].map(|value| value * axis[along])
-    })
 }
 
 fn instance(light_from_object: &DAffine3) -> Instance {

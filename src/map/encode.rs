@@ -20,8 +20,8 @@ impl CubeShadowMap {
                 let Some(mut pass) = self.begin_pass(encoder, index, face) else {
                     continue; // prepare made the texture of every slot with pending faces
                 };
-                let offset = index as u32 * UNIFORM_STRIDE as u32;
-                pass.set_bind_group(0, &self.range_group, &[offset]);
+                let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
+                pass.set_bind_group(0, &self.face_group, &[offset]);
                 for draw in self.draws.of(index, face.layer() as usize) {
                     self.draw(&mut pass, draw);
                 }

@@ -3,8 +3,7 @@
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
 
-/// The rows of a caster's map to positions relative to the light, in the frame of a face: right, up,
-/// forward.
+/// The rows of a caster's map to positions relative to the light.
 pub(super) type Instance = [[f32; 4]; 3];
 
 /// Bytes of one [`Instance`].
@@ -13,12 +12,13 @@ pub(super) const INSTANCE_SIZE: u64 = size_of::<Instance>() as u64;
 /// Bytes from one uniform to the next: the largest alignment a device may ask for.
 pub(super) const UNIFORM_STRIDE: u64 = 256;
 
-/// `ShadowsCubeRange` in WGSL.
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+/// `ShadowsCubeFaceUniform` in WGSL.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub(super) struct RangeUniform {
-    pub near: f32,
+pub(super) struct FaceUniform {
+    pub clip_from_light: [f32; 16],
     pub range: f32,
+    pub padding: [f32; 3],
 }
 
 /// What the lights look like to receivers, one by one and all together.
@@ -53,19 +53,19 @@ pub(super) fn instances(device: &wgpu::Device, label: &str, count: u64) -> wgpu:
     )
 }
 
-/// Near and range of each light, picked by dynamic offset.
-pub(super) fn ranges(
+/// The matrices of six faces for each light, picked by dynamic offset.
+pub(super) fn faces(
     device: &wgpu::Device,
     label: &str,
     lights: u64,
 ) -> (wgpu::Buffer, wgpu::BindGroupLayout, wgpu::BindGroup) {
-    let ranges = buffer(
+    let faces = buffer(
         device,
-        &format!("{label} ranges"),
-        lights * UNIFORM_STRIDE,
+        &format!("{label} faces"),
+        lights * 6 * UNIFORM_STRIDE,
         wgpu::BufferUsages::UNIFORM,
     );
-    let size = wgpu::BufferSize::new(size_of::<RangeUniform>() as u64);
+    let size = wgpu::BufferSize::new(size_of::<FaceUniform>() as u64);
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
         entries: &[wgpu::BindGroupLayoutEntry {
@@ -85,13 +85,13 @@ pub(super) fn ranges(
         entries: &[wgpu::BindGroupEntry {
             binding: 0,
             resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &ranges,
+                buffer: &faces,
                 offset: 0,
                 size,
             }),
         }],
     });
-    (ranges, layout, group)
+    (faces, layout, group)
 }
 
 /// All that two draws must share to use the same pipeline.

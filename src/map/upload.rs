@@ -5,7 +5,7 @@ use super::descriptor::{Allocation, CubeFrame};
 use super::face::CubeFace;
 use super::light::{Depths, LightUniform};
 use super::plan::SlotPlan;
-use super::resources::{self, INSTANCE_SIZE, RangeUniform, UNIFORM_STRIDE};
+use super::resources::{self, FaceUniform, INSTANCE_SIZE, UNIFORM_STRIDE};
 use crate::PointLight;
 use crate::error::CubeShadowMapError;
 
@@ -56,7 +56,7 @@ impl CubeShadowMap {
             self.draws
                 .add(index, slot, plan.drawn, &self.scene, frame.casters);
             if let Some(light) = slot.light {
-                self.write_range(queue, index, &light);
+                self.write_faces(queue, index, &light);
             }
         }
         for draw in self.draws.iter() {
@@ -71,15 +71,20 @@ impl CubeShadowMap {
         }
     }
 
-    fn write_range(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
-        let uniform = RangeUniform {
-            near: light.near,
-            range: light.range,
-        };
-        if self.written_ranges[slot] != Some(uniform) {
-            self.written_ranges[slot] = Some(uniform);
-            let offset = slot as u64 * UNIFORM_STRIDE;
-            queue.write_buffer(&self.ranges, offset, bytemuck::bytes_of(&uniform));
+    fn write_faces(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
+        let content = Some([light.near, light.range]);
+        if self.written_faces[slot] == content {
+            return;
+        }
+        self.written_faces[slot] = content;
+        for face in CubeFace::ALL {
+            let uniform = FaceUniform {
+                clip_from_light: face.clip_from_light(light.near).to_cols_array(),
+                range: light.range,
+                padding: [0.0; 3],
+            };
+            let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
+            queue.write_buffer(&self.face_uniforms, offset, bytemuck::bytes_of(&uniform));
         }
     }
 
