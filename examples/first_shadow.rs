@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
     let light = PointLight::new(Vec3::new(-1.3, 2.6, 2.2), 0.05, 20.0);
     let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
-    let sampler = PcfSampler::new(&device, &PcfDescriptor::default());
+    let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
 
     // The host's own pipeline; group 1 is the shadows'.
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -2,7 +2,7 @@
 fn shadows_cube_fetch(
     map: texture_cube_array<f32>,
     map_sampler: sampler,
-    receiver: ShadowsReceiver,
+    receiver: ShadowsCubeReceiver,
     direction: vec3f,
 ) -> f32 {
     return textureSampleLevel(map, map_sampler, direction, receiver.cube, 0.0).x;

@@ -2,7 +2,7 @@
 fn shadows_cube_fetch(
     map: texture_cube<f32>,
     map_sampler: sampler,
-    receiver: ShadowsReceiver,
+    receiver: ShadowsCubeReceiver,
     direction: vec3f,
 ) -> f32 {
     return textureSampleLevel(map, map_sampler, direction, 0.0).x;

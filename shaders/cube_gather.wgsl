@@ -2,7 +2,7 @@
 fn shadows_cube_gather(
     map: texture_cube<f32>,
     map_sampler: sampler,
-    receiver: ShadowsReceiver,
+    receiver: ShadowsCubeReceiver,
     direction: vec3f,
 ) -> vec4f {
     return textureGather(0, map, map_sampler, direction);

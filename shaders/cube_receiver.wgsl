@@ -31,9 +31,22 @@ struct ShadowsCubeFace {
 // with dir of length 1 along that axis: linear in dir. `plane` is near * n / q, so that the depth
 // of the receiver's plane in any direction is one dot product (its parts along the face's axes
 // here), and no tap needs a bias for slope.
-struct ShadowsReceiver {
+struct ShadowsCubeReceiver {
     face: ShadowsCubeFace,
+    texel: vec2f,
     plane: vec3f,
+    // No tap takes the plane for nearer than this depth, a thirty-second of the receiver's distance:
+    // what casts from nearer casts at any grazing angle.
+    bound: f32,
+    // Depth of the plane's horizon: no receiver is at this depth or below.
+    horizon: f32,
+    // From the light along the face's axes (forward, right, down), the same with length 1, and the
+    // unit normal.
+    local: vec3f,
+    ray: vec3f,
+    normal: vec3f,
+    // World width of a texel at the receiver.
+    width: f32,
     // 1: surely lit, 0: surely unlit, -1: ask the map.
     known: f32,
     cube: i32,
@@ -67,10 +80,14 @@ fn shadows_cube_face(direction: vec3f, size: f32) -> ShadowsCubeFace {
 }
 
 // `normal` is the geometric one, of any length and either sign; it is turned toward the light.
-fn shadows_receiver(light: ShadowsCubeLight, position: vec3f, normal: vec3f) -> ShadowsReceiver {
+fn shadows_cube_receiver(
+    light: ShadowsCubeLight,
+    position: vec3f,
+    normal: vec3f,
+) -> ShadowsCubeReceiver {
     let from_light = position - light.position;
     let distance = length(from_light);
-    var receiver: ShadowsReceiver;
+    var receiver: ShadowsCubeReceiver;
     if distance > light.range || light.cube < 0 {
         receiver.known = select(0.0, 1.0, distance <= light.range && light.cube == -1);
         return receiver;
@@ -78,12 +95,14 @@ fn shadows_receiver(light: ShadowsCubeLight, position: vec3f, normal: vec3f) -> 
     receiver.cube = light.cube;
     receiver.quantum = light.quantum;
     receiver.range_over_near = light.range / light.near;
-    receiver.face = shadows_cube_face(from_light, light.size);
+    let face = shadows_cube_face(from_light, light.size);
+    receiver.face = face;
+    receiver.texel = face.texel;
     let toward_light = -sign(dot(normal, from_light));
     let n = normalize(normal) * select(toward_light, 1.0, toward_light == 0.0);
     let height = dot(n, from_light);
     let sine = length(cross(n, from_light)) / distance;
-    let major = dot(receiver.face.forward, from_light);
+    let major = dot(face.forward, from_light);
     let plane_distance = height + light.normal_offset * major * sine;
     // The light within the bias of the receiver's plane: nothing is between them. Written so that
     // a receiver at the light itself, where the numbers above are not numbers, is lit too.
@@ -91,43 +110,14 @@ fn shadows_receiver(light: ShadowsCubeLight, position: vec3f, normal: vec3f) -> 
         receiver.known = 1.0;
         return receiver;
     }
-    let scale = light.near * light.depth_scale / plane_distance;
-    receiver.plane = scale * vec3f(
-        dot(n, receiver.face.forward),
-        dot(n, receiver.face.right),
-        dot(n, receiver.face.down),
-    );
+    let axes = mat3x3f(face.forward, face.right, face.down);
+    receiver.normal = n * axes;
+    receiver.local = from_light * axes;
+    receiver.ray = receiver.local / distance;
+    receiver.plane = light.near * light.depth_scale / plane_distance * receiver.normal;
+    receiver.bound = 32.0 * light.near * light.depth_scale / major;
+    receiver.horizon = 0.0;
+    receiver.width = 2.0 * major / light.size;
     receiver.known = -1.0;
     return receiver;
-}
-
-// 1 where a texel sees the receiver's plane, 0 where a caster is nearer. `texel` counts from the
-// face's corner and may lie beyond its edge: there the grid goes on, texel for texel, on the
-// neighbouring face, whose texels have directions (and major axes) of their own.
-fn shadows_cube_texel(
-    map: texture_cube<f32>,
-    map_sampler: sampler,
-    receiver: ShadowsReceiver,
-    size: f32,
-    texel: vec2f,
-) -> f32 {
-    let step = 2.0 / size;
-    var uv = (texel + 0.5) * step - 1.0;
-    var coordinates: vec3f;
-    if abs(uv.x) > 1.0 {
-        // Beyond a corner no fourth texel exists; the last one along the edge stands in.
-        uv.y = clamp(uv.y, 0.5 * step - 1.0, 1.0 - 0.5 * step);
-        coordinates = vec3f(2.0 - abs(uv.x), sign(uv.x), uv.y);
-    } else if abs(uv.y) > 1.0 {
-        coordinates = vec3f(2.0 - abs(uv.y), uv.x, sign(uv.y));
-    } else {
-        coordinates = vec3f(1.0, uv);
-    }
-    let face = receiver.face;
-    let direction = mat3x3f(face.forward, face.right, face.down) * coordinates;
-    let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
-    let stored = shadows_cube_depth(receiver, found, vec4f(dot(coordinates, coordinates))).x;
-    // Behind the plane's horizon the plane is infinitely far away: depth 0.
-    let reference = max(dot(receiver.plane, coordinates), 0.0);
-    return select(0.0, 1.0, reference >= stored);
 }

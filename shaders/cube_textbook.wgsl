@@ -8,7 +8,7 @@ fn shadows_cube_textbook(
     normal: vec3f,
 ) -> f32 {
     let from_light = position - light.position;
-    var receiver: ShadowsReceiver;
+    var receiver: ShadowsCubeReceiver;
     receiver.cube = light.cube;
     let nearest = shadows_cube_fetch(map, map_sampler, receiver, from_light) * light.range;
     let distance = length(from_light);

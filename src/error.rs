@@ -86,6 +86,9 @@ pub enum LightError {
     /// A directional light without a direction.
     #[error("a directional light needs a direction; (0, 0, 0) was passed")]
     Direction,
+    /// The cone of a spot light is none.
+    #[error("spot half_angle {0} is out of range; pass radians, 0 < half_angle < pi / 2")]
+    HalfAngle(f32),
 }
 
 /// What can be wrong with the host's camera.
@@ -272,10 +275,59 @@ pub enum CubeShadowMapError {
     },
 }
 
-/// What can be wrong when a [`PcfSampler`](crate::PcfSampler) meets a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+/// What can be wrong with a [`PcfSampler`](crate::PcfSampler).
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PcfError {
+    /// The number of taps is out of range.
+    #[error("{what} = {taps} is out of range; pass 4 to {limit}")]
+    Taps {
+        /// The field.
+        what: &'static str,
+        /// Its value.
+        taps: u32,
+        /// The largest value.
+        limit: u32,
+    },
+    /// The strata of a random disk are too few, too many or odd in number.
+    #[error(
+        "around x rings = {around} x {rings} taps are out of range; pass an even product, 8 to {limit}"
+    )]
+    Samples {
+        /// Strata around the disk.
+        around: u32,
+        /// Rings.
+        rings: u32,
+        /// The most taps.
+        limit: u32,
+    },
+    /// The radius of a disk is out of range.
+    #[error("the radius {radius:?} is out of range; pass a number above 0, at most 64 texels")]
+    Radius {
+        /// The radius.
+        radius: crate::Radius,
+    },
+    /// The side of the texture of offsets is out of range.
+    #[error("a texture of {size} x {size} offsets is out of range; pass 1 to {limit}")]
+    OffsetTexture {
+        /// Texels along a side.
+        size: u32,
+        /// The most texels along a side.
+        limit: u32,
+    },
+    /// The size of the light is out of range.
+    #[error("light_size = {0} is out of range; pass a finite number above 0")]
+    LightSize(f32),
+    /// The sampler was made for another kind of map.
+    #[error(
+        "this sampler reads {made_for:?} maps and was given a {given:?} map; make one with PcfDescriptor::map = {given:?}"
+    )]
+    Map {
+        /// What the sampler was made for.
+        made_for: crate::MapKind,
+        /// What it was given.
+        given: crate::MapKind,
+    },
     /// The map's texels hold something else than the sampler's shader expects.
     #[error("the map holds {map:?} depths, the sampler reads {sampler:?}; make both with the same")]
     Encoding {
@@ -453,5 +505,49 @@ pub enum ShadowVolumeError {
         count: usize,
         /// The largest count that works.
         limit: usize,
+    },
+}
+
+/// What can be wrong with a [`ShadowMap`](crate::ShadowMap).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowMapError {
+    /// The size of the map is 0 or over the device's limit.
+    #[error("a map of {size} texels is out of range; 1 to {limit} (max_texture_dimension_2d)")]
+    Size {
+        /// Texels along a side.
+        size: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The light is out of range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// The distance up to which a view shows shadows is out of range.
+    #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
+    Distance(f32),
+    /// The bounds of the receivers are no box.
+    #[error("receivers from {min:?} to {max:?} are no box; pass finite corners, min <= max")]
+    Receivers {
+        /// The smallest corner passed.
+        min: [f32; 3],
+        /// The largest corner passed.
+        max: [f32; 3],
+    },
+    /// More casters than one buffer of the device can hold.
+    #[error("{casters} casters need {size} bytes, max_buffer_size is {limit}")]
+    TooManyCasters {
+        /// Casters on the map.
+        casters: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
     },
 }

@@ -8,6 +8,7 @@
 //! | | what it is | what it is for |
 //! |---|---|---|
 //! | [`CubeShadowMap`] | depth of the casters on six cube faces | point lights, soft edges, many receivers |
+//! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
 //! | [`PcfSampler`] | the kernels by which receivers read a map | one tap to sixteen texels, no acne, no seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | exact to the pixel, point and directional lights |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes need to know of a mesh; any triangles will do |
@@ -49,7 +50,7 @@
 //!
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
-//! let sampler = PcfSampler::new(&device, &PcfDescriptor::default());
+//! let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
 //! let lighting = sampler.wgsl_module(1)
 //!     + "@fragment fn light(@location(0) world: vec3f) -> @location(0) vec4f {
 //!            return vec4f(shadows_visibility(world)); // times the light's colour
@@ -153,14 +154,18 @@ pub mod view;
 pub mod volume;
 pub mod wgsl;
 
-pub use light::{HomogeneousLight, PointLight};
+pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
     CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
-    FaceStatistics,
+    FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
+    texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
-pub use pcf::{Kernel, PcfDescriptor, PcfSampler};
+pub use pcf::{
+    AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,
+    VogelDisk,
+};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{

@@ -62,6 +62,76 @@ impl PointLight {
     }
 }
 
+/// A light that shines from one point into a cone, up to a range.
+///
+/// World space, any unit of length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpotLight {
+    /// Position in world space.
+    pub position: Vec3,
+    /// Where it shines, of any length but 0.
+    pub direction: Vec3,
+    /// Angle from the direction to the cone's side, in radians; greater than 0, less than pi / 2.
+    /// The map's square is drawn around the cone. How light falls off toward the side is the
+    /// host's: the map knows shadows only, and what is outside it is lit.
+    pub half_angle: f32,
+    /// Distance along the direction at which the shadow map's frustum begins; greater than 0.
+    /// Casters nearer than this are pulled onto that plane where the device has
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), and are lost elsewhere.
+    pub near: f32,
+    /// Distance beyond which the light has no effect; greater than `near`. A receiver beyond it is
+    /// unlit by this light: visibility 0.
+    pub range: f32,
+}
+
+impl SpotLight {
+    /// Checks that every number is finite and in its range.
+    ///
+    /// # Errors
+    /// [`LightError`] names the field that is wrong.
+    pub fn validate(&self) -> Result<(), LightError> {
+        PointLight::new(self.position, self.near, self.range).validate()?;
+        DirectionalLight::new(self.direction).validate()?;
+        if self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
+            Ok(())
+        } else {
+            Err(LightError::HalfAngle(self.half_angle))
+        }
+    }
+
+    /// The light as `(position, 1)`.
+    pub fn homogeneous(&self) -> HomogeneousLight {
+        HomogeneousLight::point(self.position)
+    }
+}
+
+/// A light so far away that its rays are parallel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionalLight {
+    /// From the scene to the light, in world space, of any length but 0.
+    pub toward_light: Vec3,
+}
+
+impl DirectionalLight {
+    /// A light that shines *from* the direction `toward_light`.
+    pub fn new(toward_light: Vec3) -> Self {
+        Self { toward_light }
+    }
+
+    /// Checks that the direction is finite and not 0.
+    ///
+    /// # Errors
+    /// [`LightError`] says what is wrong.
+    pub fn validate(&self) -> Result<(), LightError> {
+        self.homogeneous().validate()
+    }
+
+    /// The light as `(toward_light, 0)`.
+    pub fn homogeneous(&self) -> HomogeneousLight {
+        HomogeneousLight::directional(self.toward_light)
+    }
+}
+
 /// A light as a point of projective space: `w = 1` for a point light at `xyz`, `w = 0` for a
 /// directional light that shines *from* the direction `xyz` (of any length but 0).
 ///
@@ -105,6 +175,18 @@ impl HomogeneousLight {
     }
 }
 
+impl From<SpotLight> for HomogeneousLight {
+    fn from(light: SpotLight) -> Self {
+        light.homogeneous()
+    }
+}
+
+impl From<DirectionalLight> for HomogeneousLight {
+    fn from(light: DirectionalLight) -> Self {
+        light.homogeneous()
+    }
+}
+
 impl From<PointLight> for HomogeneousLight {
     fn from(light: PointLight) -> Self {
         light.homogeneous()
@@ -119,6 +201,30 @@ mod tests {
     fn a_sound_light_passes() {
         assert_eq!(PointLight::new(Vec3::ONE, 0.1, 30.0).validate(), Ok(()));
         assert_eq!(HomogeneousLight::directional(Vec3::Y).validate(), Ok(()));
+    }
+
+    #[test]
+    fn a_cone_must_be_one() {
+        let light = SpotLight {
+            position: Vec3::ONE,
+            direction: Vec3::NEG_Y,
+            half_angle: 0.5,
+            near: 0.1,
+            range: 10.0,
+        };
+        assert_eq!(light.validate(), Ok(()));
+        for half_angle in [0.0, -0.1, 1.6, f32::INFINITY] {
+            let wrong = SpotLight {
+                half_angle,
+                ..light
+            };
+            assert_eq!(wrong.validate(), Err(LightError::HalfAngle(half_angle)));
+        }
+        let direction = Vec3::ZERO;
+        let wrong = SpotLight { direction, ..light };
+        assert_eq!(wrong.validate(), Err(LightError::Direction));
+        let wrong = SpotLight { near: 0.0, ..light };
+        assert!(matches!(wrong.validate(), Err(LightError::Near { .. })));
     }
 
     #[test]

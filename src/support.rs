@@ -36,6 +36,8 @@ pub struct Support {
     pub vertex_storage: bool,
     /// Compute shaders with indirect draws: silhouettes found on the GPU.
     pub compute: bool,
+    /// Samplers with a border: flat maps are lit beyond their edge without a test in the shader.
+    pub clamp_to_border: bool,
     limits: Limits,
 }
 
@@ -84,6 +86,7 @@ impl Support {
             vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
                 && limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS,
             compute: downlevel.contains(COMPUTE),
+            clamp_to_border: features.contains(Features::ADDRESS_MODE_CLAMP_TO_BORDER),
             limits,
         }
     }
@@ -95,6 +98,7 @@ impl Support {
             (self.depth32float_stencil8, Features::DEPTH32FLOAT_STENCIL8),
             (self.multiview, MULTIVIEW),
             (self.float32_blending, Features::FLOAT32_BLENDABLE),
+            (self.clamp_to_border, Features::ADDRESS_MODE_CLAMP_TO_BORDER),
         ]
         .into_iter()
         .filter(|(offered, _)| *offered)
@@ -153,6 +157,11 @@ impl Support {
                 "compute shaders with indirect draws",
                 "the silhouettes of shadow volumes are found on the CPU",
             ),
+            (
+                self.clamp_to_border,
+                "ADDRESS_MODE_CLAMP_TO_BORDER",
+                "each tap on a flat map is tested against the map's edge",
+            ),
         ]
         .into_iter()
         .filter(|(offered, ..)| !offered)
@@ -170,7 +179,7 @@ mod tests {
         let limits = Limits::downlevel_webgl2_defaults();
         let support = Support::new(Features::empty(), limits, DownlevelFlags::empty());
         assert_eq!(support.features(), Features::empty());
-        assert_eq!(support.fallbacks().len(), 7);
+        assert_eq!(support.fallbacks().len(), 8);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);
     }
 

@@ -90,8 +90,8 @@ fn a_light_that_comes_goes_or_moves_has_only_its_own_faces_drawn() {
     let mut map = fresh(&gpu, &descriptor(true), &lights, &casters);
     let mut step = |lights: &[PointLight]| {
         draw(&gpu, &mut map, lights, &casters);
-        for (place, light) in lights.iter().enumerate() {
-            let alone = fresh(&gpu, &one_light(), &[*light], &casters);
+        for (place, &light) in lights.iter().enumerate() {
+            let alone = fresh(&gpu, &one_light(), &[light], &casters);
             assert_eq!(faces(&gpu, &map, place), faces(&gpu, &alone, 0), "{place}");
         }
         map.statistics().faces_rendered
@@ -158,7 +158,7 @@ fn receivers_ask_for_a_light_by_its_place() {
 fn maps_of_different_sizes_share_a_sampler() {
     let Some(gpu) = Gpu::for_test() else { return };
     let (casters, lights) = (casters(&gpu), lights());
-    let sampler = PcfSampler::new(&gpu.device, &PcfDescriptor::default());
+    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &PcfDescriptor::default()).unwrap();
     for size in [16, 64] {
         let map = fresh(
             &gpu,
@@ -221,7 +221,8 @@ fn samplers_refuse_maps_that_they_cannot_read() {
     }
     let map = CubeShadowMap::new(&gpu.device, &descriptor(false)).unwrap();
     let refused = |descriptor: &PcfDescriptor<'_>| {
-        PcfSampler::new(&gpu.device, descriptor)
+        PcfSampler::new(&gpu.device, &gpu.queue, descriptor)
+            .unwrap()
             .bind_group(&gpu.device, &map)
             .unwrap_err()
     };
@@ -239,7 +240,7 @@ fn samplers_refuse_maps_that_they_cannot_read() {
         sampler: DepthEncoding::LinearDistance,
     };
     assert_eq!(refused(&linear), expected);
-    let good = PcfSampler::new(&gpu.device, &PcfDescriptor::default());
+    let good = PcfSampler::new(&gpu.device, &gpu.queue, &PcfDescriptor::default()).unwrap();
     good.bind_group(&gpu.device, &map).unwrap();
 }
 

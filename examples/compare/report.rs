@@ -259,9 +259,11 @@ impl Report {
         for t in &self.techniques {
             let settings = t.settings.as_object().into_iter().flatten();
             let list: Vec<String> = settings
-                .map(|(name, value)| match value.as_str() {
-                    Some(text) => format!("{} {text}", name.replace('_', " ")),
-                    None => format!("{} {value}", name.replace('_', " ")),
+                .map(|(name, value)| match (value.as_str(), value.as_f64()) {
+                    (Some(text), _) => format!("{} {text}", name.replace('_', " ")),
+                    // They are f32: as f64 they would show digits that nobody chose.
+                    (_, Some(number)) => format!("{} {}", name.replace('_', " "), number as f32),
+                    _ => format!("{} {value}", name.replace('_', " ")),
                 })
                 .collect();
             writeln!(out, "- `{}`: {}", t.name, list.join(", "))?;

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use shadows::reference::Interior;
 use shadows::{
     Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, HomogeneousLight, Kernel,
-    PcfDescriptor, PcfSampler, PointLight, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    PcfDescriptor, PcfSampler, PointLight, Radius, ShadowVolumeDescriptor, ShadowVolumeFrame,
     ShadowVolumeRenderer, View, wgpu,
 };
 
@@ -15,7 +15,7 @@ use crate::host::scene_gpu::SceneGpu;
 
 /// A way to make shadows. Maps are drawn anew every frame unless said otherwise, as if everything
 /// moved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Technique {
     /// A cube shadow map read through a kernel.
     Cube(Kernel),
@@ -193,7 +193,7 @@ impl Shadow {
         let (map, sampler) = technique.cube(face, bias);
         let bias = map.bias;
         let map = CubeShadowMap::new(&gpu.device, &map)?;
-        let sampler = PcfSampler::new(&gpu.device, &sampler);
+        let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &sampler)?;
         let lit = renderer.lit_pipeline(
             gpu,
             &ShadowAccess {
@@ -268,7 +268,7 @@ impl Shadow {
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
                 let revision = map.texture_revision();
                 if group.0 != revision {
-                    *group = (revision, sampler.bind_group(&gpu.device, map)?);
+                    *group = (revision, sampler.bind_group(&gpu.device, &**map)?);
                 }
             }
             Means::Volume { renderer, .. } => {
@@ -334,7 +334,7 @@ impl Shadow {
                 "face_texels": map.size(),
                 "encoding": format!("{:?}", map.encoding()),
                 "kernel": format!("{kernel:?}"),
-                "kernel_radius_texels": decimal(kernel.radius()),
+                "kernel_radius_texels": decimal(radius_in_texels(kernel)),
                 "bias_normal_offset_texels": decimal(bias.normal_offset),
                 "bias_constant_texels": decimal(bias.constant),
             }),
@@ -350,7 +350,7 @@ impl Shadow {
         match &self.means {
             Means::Cube { map, .. } => Interior::Map {
                 face_size: map.size(),
-                kernel_radius: self.technique.kernel().radius(),
+                kernel_radius: radius_in_texels(self.technique.kernel()),
             },
             Means::Volume { .. } => Interior::Screen,
         }
@@ -360,4 +360,14 @@ impl Shadow {
 /// The number as one would write it: 0.1 rather than the f64 nearest to the f32 nearest to 0.1.
 fn decimal(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::from(value))
+}
+
+/// How many texels a kernel reaches, at most: disks are measured on the surface, where texels are
+/// up to `sqrt(3)` smaller than straight ahead, and reach to the centre of the texel they hit.
+fn radius_in_texels(kernel: Kernel) -> f32 {
+    match kernel.radius() {
+        Radius::Texels(radius) if kernel.uses_pixel() => radius * 3.0_f32.sqrt() + 0.5,
+        Radius::Texels(radius) => radius,
+        Radius::World(_) => f32::INFINITY, // no pixel is safely interior
+    }
 }

@@ -123,6 +123,8 @@ impl CubeShadowMap {
             format,
             encoding,
             slope_scale: bias.slope_scale,
+            // A point light has no plane to pull casters onto.
+            unclipped_depth: false,
         };
         let mut textures = Textures::new(device, &label, size, format, slots, cube_array);
         if descriptor.allocation == Allocation::AtOnce {

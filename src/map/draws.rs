@@ -1,12 +1,13 @@
 //! Instanced draws: one for each mesh on each face.
 
+use std::collections::HashMap;
+
 use glam::DAffine3;
 
 use super::descriptor::CasterSides;
-use super::resources::{Instance, PipelineKey};
+use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
-use crate::PointLight;
 use crate::mesh::{Caster, CasterMesh};
 
 /// One draw call: a mesh, and where its instances lie.
@@ -19,26 +20,49 @@ pub(super) struct Draw {
 }
 
 impl Draw {
+    /// The pipeline it needs.
     pub fn key(&self) -> PipelineKey {
         PipelineKey {
             stride: self.mesh.layout().0,
             cull: self.cull,
         }
     }
+
+    /// Records it into a depth pass.
+    pub fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &HashMap<PipelineKey, wgpu::RenderPipeline>,
+        instances: &wgpu::Buffer,
+    ) {
+        let (_, offset) = self.mesh.layout();
+        let Some(pipeline) = pipelines.get(&self.key()) else {
+            return; // prepare made one for every key
+        };
+        let size = u64::from(self.instance_count) * INSTANCE_SIZE;
+        let first = self.first_instance * INSTANCE_SIZE;
+        pass.set_pipeline(pipeline);
+        pass.set_vertex_buffer(0, self.mesh.positions().slice(offset..));
+        // Sliced rather than drawn from a first instance, which GL does not have.
+        pass.set_vertex_buffer(1, instances.slice(first..first + size));
+        pass.set_index_buffer(self.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+    }
 }
 
 /// Which triangles of a caster the rasteriser drops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Cull {
+pub(super) enum Cull {
     None,
     Front,
     Back,
 }
 
 impl Cull {
-    fn of(sides: CasterSides, record: &Record, light: &PointLight) -> Self {
+    /// `clear`: the light is outside the caster's bounds and the near plane does not cut them.
+    pub fn of(sides: CasterSides, record: &Record, clear: bool) -> Self {
         let far = sides == CasterSides::Far;
-        if !far && !bounds(light, record).clear_of_near(f64::from(light.near)) {
+        if !far && !clear {
             return Self::None; // the light may be inside, or the near plane cut the nearest side
         }
         // The faces' frames are left-handed: what is counter-clockwise seen from the light is
@@ -50,7 +74,7 @@ impl Cull {
         }
     }
 
-    fn face(self) -> Option<wgpu::Face> {
+    pub fn face(self) -> Option<wgpu::Face> {
         match self {
             Self::None => None,
             Self::Front => Some(wgpu::Face::Front),
@@ -99,7 +123,8 @@ impl DrawLists {
         for at in touching(slot.masks(), mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
             let on = slot.masks()[at] & mask;
-            let cull = Cull::of(scene.sides(), record, &light);
+            let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
+            let cull = Cull::of(scene.sides(), record, clear);
             for (bit, members) in self.members.iter_mut().enumerate() {
                 if on & 1 << bit != 0 {
                     members.push((record.group, cull, self.rows.len() as u32));
@@ -143,7 +168,7 @@ fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
         })
 }
 
-fn instance(light_from_object: &DAffine3) -> Instance {
+pub(super) fn instance(light_from_object: &DAffine3) -> Instance {
     let linear = light_from_object.matrix3.transpose();
     let offset = light_from_object.translation;
     [

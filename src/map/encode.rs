@@ -3,9 +3,8 @@
 use std::sync::atomic::Ordering;
 
 use super::cube::CubeShadowMap;
-use super::draws::Draw;
 use super::face::CubeFace;
-use super::resources::{INSTANCE_SIZE, UNIFORM_STRIDE};
+use super::resources::UNIFORM_STRIDE;
 
 impl CubeShadowMap {
     /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
@@ -23,7 +22,7 @@ impl CubeShadowMap {
                 let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
                 pass.set_bind_group(0, &self.face_group, &[offset]);
                 for draw in self.draws.of(index, face.layer() as usize) {
-                    self.draw(&mut pass, draw);
+                    draw.record(&mut pass, &self.pipelines, &self.instances);
                 }
                 slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
             }
@@ -72,20 +71,5 @@ impl CubeShadowMap {
             }),
             ..Default::default()
         }))
-    }
-
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) {
-        let (_, offset) = draw.mesh.layout();
-        let Some(pipeline) = self.pipelines.get(&draw.key()) else {
-            return; // prepare made one for every key
-        };
-        let size = u64::from(draw.instance_count) * INSTANCE_SIZE;
-        let first = draw.first_instance * INSTANCE_SIZE;
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, draw.mesh.positions().slice(offset..));
-        // Sliced rather than drawn from a first instance, which GL does not have.
-        pass.set_vertex_buffer(1, self.instances.slice(first..first + size));
-        pass.set_index_buffer(draw.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..draw.mesh.triangle_count() * 3, 0, 0..draw.instance_count);
     }
 }

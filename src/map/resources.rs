@@ -110,6 +110,8 @@ pub(super) struct PipelineKind {
     pub format: wgpu::TextureFormat,
     pub encoding: DepthEncoding,
     pub slope_scale: f32,
+    /// Whether casters before the near plane are pulled onto it (`DEPTH_CLIP_CONTROL`).
+    pub unclipped_depth: bool,
 }
 
 pub(super) fn pipeline(
@@ -146,6 +148,7 @@ pub(super) fn pipeline(
         },
         primitive: wgpu::PrimitiveState {
             cull_mode: key.cull,
+            unclipped_depth: kind.unclipped_depth,
             ..Default::default()
         },
         depth_stencil: Some(wgpu::DepthStencilState {
@@ -171,7 +174,7 @@ pub(super) fn pipeline(
     })
 }
 
-fn buffer(
+pub(super) fn buffer(
     device: &wgpu::Device,
     label: &str,
     size: u64,

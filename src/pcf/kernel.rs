@@ -1,10 +1,23 @@
 //! The kernels, and the WGSL that each of them needs.
 
-/// How many texels of the map a receiver looks at, and with what weights.
+use super::disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
+use super::map_kind::MapWgsl;
+use crate::error::PcfError;
+
+/// Which texels of the map a receiver looks at, and with what weights.
 ///
 /// Whatever the kernel, every texel is compared with the depth of the receiver's own plane in that
-/// texel's direction, so wide kernels and face edges need no more bias than narrow ones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// texel's direction, so wide kernels and face edges need no more bias than narrow ones. Near the
+/// plane's horizon as the light sees it that depth grows without bound: no tap takes the plane for
+/// nearer to the light than a thirty-second of the receiver's own distance (for a directional light:
+/// nearer than the receiver by more than half the map's width), so what casts from nearer casts at
+/// any grazing angle; and a texel beyond the horizon is replaced by its mirror image at the
+/// receiver.
+///
+/// The first six are squares of texels. The last three are disks in the receiver's tangent plane,
+/// turned or jittered from pixel to pixel: they need the pixel's coordinates
+/// ([`uses_pixel`](Self::uses_pixel)) and trade stair steps for noise.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Kernel {
     /// One tap on the nearest texel (Williams 1978). Hard, stair-stepped edges.
@@ -14,47 +27,198 @@ pub enum Kernel {
     Bilinear,
     /// Four bilinear compare taps one texel away on the diagonals: 4x4 texels.
     FourTaps,
+    /// 3x3 texels weighted like a tent, from four taps of 2x2 (Castano 2013).
+    Weighted3,
+    /// 5x5 texels, weighted, from nine taps of 2x2 (Castano 2013).
+    Weighted5,
+    /// 7x7 texels, weighted, from sixteen taps of 2x2 (Castano 2013).
+    Weighted7,
+    /// Random disk: a table of jittered, stratified offsets, picked by the pixel.
+    RandomDisk(RandomDisk),
+    /// Vogel disk, turned by interleaved gradient noise.
+    Vogel(VogelDisk),
+    /// Contact hardening (PCSS) for a light with a size.
+    ContactHardening(ContactHardening),
 }
 
 impl Kernel {
-    /// Every kernel.
-    pub const ALL: [Self; 3] = [Self::Hard, Self::Bilinear, Self::FourTaps];
+    /// Every kernel, those with parameters at their defaults.
+    pub const ALL: [Self; 9] = [
+        Self::Hard,
+        Self::Bilinear,
+        Self::FourTaps,
+        Self::Weighted3,
+        Self::Weighted5,
+        Self::Weighted7,
+        Self::RandomDisk(RandomDisk::DEFAULT),
+        Self::Vogel(VogelDisk::DEFAULT),
+        Self::ContactHardening(ContactHardening::DEFAULT),
+    ];
 
-    /// Half the kernel's width in texels: how far from a shadow's true edge its result may be
-    /// anything but 0 or 1.
-    pub fn radius(self) -> f32 {
+    /// The kernel's radius: how far from a shadow's true edge its result may be neither 0 nor 1.
+    /// Disks reach half a texel further, to the centre of the texel that a tap falls on, and are
+    /// measured on the surface: towards the corners of a face and of a frustum, texels are smaller
+    /// than straight ahead, and a radius of one texel may cover `sqrt(3)` of them.
+    pub fn radius(self) -> Radius {
         match self {
-            Self::Hard => 0.5,
-            Self::Bilinear => 1.0,
-            Self::FourTaps => 2.0,
+            Self::Hard => Radius::Texels(0.5),
+            Self::Bilinear => Radius::Texels(1.0),
+            Self::FourTaps | Self::Weighted3 => Radius::Texels(2.0),
+            Self::Weighted5 => Radius::Texels(3.0),
+            Self::Weighted7 => Radius::Texels(4.0),
+            Self::RandomDisk(disk) => disk.radius,
+            Self::Vogel(disk) => disk.radius,
+            Self::ContactHardening(contact) => contact.max_radius,
         }
     }
 
-    /// The name of its function in WGSL.
+    /// Whether its functions take the pixel's coordinates as a last argument.
+    pub fn uses_pixel(self) -> bool {
+        self.parameters().is_some()
+    }
+
+    /// The name of its function for cube maps in WGSL. For flat maps, `flat` takes the place of
+    /// `cube`.
     pub fn function(self) -> &'static str {
         match self {
             Self::Hard => "shadows_cube_hard",
             Self::Bilinear => "shadows_cube_bilinear",
             Self::FourTaps => "shadows_cube_four_taps",
+            Self::Weighted3 => "shadows_cube_weighted_3",
+            Self::Weighted5 => "shadows_cube_weighted_5",
+            Self::Weighted7 => "shadows_cube_weighted_7",
+            Self::RandomDisk(_) => "shadows_cube_random_disk",
+            Self::Vogel(_) => "shadows_cube_vogel",
+            Self::ContactHardening(_) => "shadows_cube_contact",
         }
     }
 
-    /// The parts of WGSL it is made of, and no others.
-    pub(crate) fn parts(self) -> &'static [&'static str] {
-        const RECEIVER: &str = include_str!("../../shaders/cube_receiver.wgsl");
-        const QUAD: &str = include_str!("../../shaders/cube_quad.wgsl");
+    /// Checks that all numbers are in their ranges.
+    ///
+    /// # Errors
+    /// [`PcfError`] names the number and its range.
+    pub fn validate(self) -> Result<(), PcfError> {
         match self {
-            Self::Hard => &[RECEIVER, include_str!("../../shaders/cube_hard.wgsl")],
-            Self::Bilinear => &[
-                RECEIVER,
-                QUAD,
-                include_str!("../../shaders/cube_bilinear.wgsl"),
-            ],
-            Self::FourTaps => &[
-                RECEIVER,
-                QUAD,
-                include_str!("../../shaders/cube_four_taps.wgsl"),
-            ],
+            Self::RandomDisk(disk) => disk.validate(),
+            Self::Vogel(disk) => disk.validate(),
+            Self::ContactHardening(contact) => contact.validate(),
+            _ => Ok(()),
         }
+    }
+
+    /// What the disks need to know; nothing for the squares.
+    pub(super) fn parameters(self) -> Option<KernelUniform> {
+        match self {
+            Self::RandomDisk(disk) => Some(disk.parameters()),
+            Self::Vogel(disk) => Some(disk.parameters()),
+            Self::ContactHardening(contact) => Some(contact.parameters()),
+            _ => None,
+        }
+    }
+
+    /// The WGSL it is made of, and no other kernel's.
+    ///
+    /// It is written for one cube map; see `MapWgsl::adapt` for other maps.
+    pub(super) fn wgsl(self, own: &MapWgsl) -> String {
+        let texel = [own.receiver, own.depth, own.fetch, own.texel, TEXEL];
+        let quad = [
+            own.receiver,
+            own.depth,
+            own.fetch,
+            own.texel,
+            TEXEL,
+            own.gather,
+            own.four,
+            QUAD,
+        ];
+        let disk = [own.receiver, own.depth, own.fetch, own.tap, DISK];
+        let (base, last): (&[&str], &[&str]) = match self {
+            Self::Hard => (&texel, &[HARD]),
+            Self::Bilinear => (&quad, &[BILINEAR]),
+            Self::FourTaps => (&quad, &[FOUR_TAPS]),
+            Self::Weighted3 => (&quad, &[WEIGHTED, WEIGHTED_3]),
+            Self::Weighted5 => (&quad, &[WEIGHTED, WEIGHTED_5]),
+            Self::Weighted7 => (&quad, &[WEIGHTED, WEIGHTED_7]),
+            Self::RandomDisk(_) => (&disk, &[RANDOM_DISK]),
+            Self::Vogel(_) => (&disk, &[NOISE, VOGEL]),
+            Self::ContactHardening(_) => (&disk, &[NOISE, CONTACT]),
+        };
+        [base, last].concat().join("\n")
+    }
+}
+
+const HARD: &str = include_str!("../../shaders/pcf_hard.wgsl");
+const BILINEAR: &str = include_str!("../../shaders/pcf_bilinear.wgsl");
+const FOUR_TAPS: &str = include_str!("../../shaders/pcf_four_taps.wgsl");
+const WEIGHTED_3: &str = include_str!("../../shaders/pcf_weighted_3.wgsl");
+const WEIGHTED_5: &str = include_str!("../../shaders/pcf_weighted_5.wgsl");
+const WEIGHTED_7: &str = include_str!("../../shaders/pcf_weighted_7.wgsl");
+const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
+const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
+const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
+const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
+const QUAD: &str = include_str!("../../shaders/pcf_quad.wgsl");
+const WEIGHTED: &str = include_str!("../../shaders/pcf_weighted.wgsl");
+const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
+const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
+
+/// Parameters of a kernel; `ShadowsCubeKernel` in WGSL.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct KernelUniform {
+    pub radius_texels: f32,
+    pub radius_world: f32,
+    pub light_size: f32,
+    pub frame_shift: f32,
+    pub taps: u32,
+    pub first_taps: u32,
+    pub pad: [u32; 2],
+    pub offsets: [[f32; 4]; MAX_TAPS as usize / 2],
+}
+
+/// The most taps that a table of offsets holds.
+pub(super) const MAX_TAPS: u32 = 64;
+
+#[cfg(test)]
+mod tests {
+    use std::mem::offset_of;
+
+    use super::*;
+    use crate::pcf::map_kind::Reads;
+    use crate::{DepthEncoding, MapKind};
+
+    #[test]
+    fn the_parameters_lie_in_memory_as_wgsl_has_them() {
+        let text = Kernel::Vogel(VogelDisk::default()).wgsl(&MapWgsl::new(Reads {
+            map: MapKind::Cube,
+            encoding: DepthEncoding::MajorAxis,
+            many_lights: false,
+            border: false,
+        }));
+        let module = naga::front::wgsl::parse_str(&text).unwrap();
+        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
+            naga::TypeInner::Struct { members, span }
+                if ty.name.as_deref() == Some("ShadowsCubeKernel") =>
+            {
+                Some((members.clone(), *span as usize))
+            }
+            _ => None,
+        });
+        let (members, span) = members.unwrap();
+        let theirs: Vec<(&str, usize)> = members
+            .iter()
+            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
+            .collect();
+        let ours = [
+            ("radius_texels", offset_of!(KernelUniform, radius_texels)),
+            ("radius_world", offset_of!(KernelUniform, radius_world)),
+            ("light_size", offset_of!(KernelUniform, light_size)),
+            ("frame_shift", offset_of!(KernelUniform, frame_shift)),
+            ("taps", offset_of!(KernelUniform, taps)),
+            ("first_taps", offset_of!(KernelUniform, first_taps)),
+            ("offsets", offset_of!(KernelUniform, offsets)),
+        ];
+        assert_eq!(theirs, ours);
+        assert_eq!(span, size_of::<KernelUniform>());
     }
 }

@@ -1,7 +1,12 @@
 //! Percentage-closer filtering: how receivers read a shadow map.
 
+mod disk;
 mod kernel;
+mod map_kind;
+mod offsets;
 mod sampler;
 
+pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 pub use kernel::Kernel;
+pub use map_kind::{AnyMap, MapKind};
 pub use sampler::{PcfDescriptor, PcfSampler};

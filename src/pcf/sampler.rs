@@ -1,8 +1,12 @@
 //! The receiving side of a shadow map: layout, bind group and WGSL.
 
-use super::Kernel;
+use wgpu::util::DeviceExt as _;
+
+use super::kernel::KernelUniform;
+use super::map_kind::{MapWgsl, Reads};
+use super::{AnyMap, Kernel, MapKind, offsets};
 use crate::error::PcfError;
-use crate::map::LightUniform;
+use crate::map::{FlatLightUniform, LightUniform};
 use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
@@ -12,19 +16,21 @@ pub struct PcfDescriptor<'a> {
     pub label: Option<&'a str>,
     /// The kernel. Default [`Kernel::Bilinear`].
     pub kernel: Kernel,
-    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`].
+    /// The kind of map it reads. Default [`MapKind::Cube`].
+    pub map: MapKind,
+    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]. Cube maps.
     pub encoding: DepthEncoding,
     /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
-    /// a map. Such maps are made with `cube_array`. Default false: one light a bind group.
+    /// a cube map. Such maps are made with `cube_array`. Default false: one light a bind group.
     pub many_lights: bool,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). Default
-    /// false.
+    /// false. Cube maps.
     pub textbook: bool,
 }
 
-/// Reads a [`CubeShadowMap`] in the host's lighting shader.
+/// Reads a [`CubeShadowMap`] or a [`ShadowMap`](crate::ShadowMap) in the host's lighting shader.
 ///
 /// Gives three things: a bind group layout, a bind group for a map, and WGSL, either as functions
 /// without bindings ([`wgsl`](Self::wgsl)) or as a module for a group number
@@ -38,34 +44,77 @@ pub struct PcfDescriptor<'a> {
 #[derive(Debug)]
 pub struct PcfSampler {
     kernel: Kernel,
-    encoding: DepthEncoding,
-    many_lights: bool,
+    reads: Reads,
     textbook: bool,
     label: String,
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
+    // Only disks have them.
+    parameters: Option<wgpu::Buffer>,
+    offsets: Option<wgpu::TextureView>,
 }
 
 impl PcfSampler {
-    /// Makes a sampler for one kernel. Kernels that were not chosen leave no code in its WGSL.
-    pub fn new(device: &wgpu::Device, descriptor: &PcfDescriptor<'_>) -> Self {
-        let label = match descriptor.label {
+    /// Makes a sampler for one kernel. Kernels that were not chosen leave no code in its WGSL and
+    /// no bindings in its layout.
+    ///
+    /// # Errors
+    /// [`PcfError`] if a parameter of the kernel is out of range.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        descriptor: &PcfDescriptor<'_>,
+    ) -> Result<Self, PcfError> {
+        let &PcfDescriptor {
+            label,
+            kernel,
+            map,
+            encoding,
+            many_lights,
+            textbook,
+        } = descriptor;
+        kernel.validate()?;
+        let border = map == MapKind::Flat
+            && device
+                .features()
+                .contains(wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER);
+        let address_mode = match border {
+            true => wgpu::AddressMode::ClampToBorder,
+            false => wgpu::AddressMode::ClampToEdge,
+        };
+        let reads = Reads {
+            map,
+            encoding,
+            many_lights: many_lights && map == MapKind::Cube,
+            border,
+        };
+        let label = match label {
             Some(label) => format!("shadows pcf {label}"),
             None => "shadows pcf".to_owned(),
         };
-        Self {
-            kernel: descriptor.kernel,
-            encoding: descriptor.encoding,
-            many_lights: descriptor.many_lights,
-            textbook: descriptor.textbook,
-            layout: create_layout(device, &label, descriptor.many_lights),
+        Ok(Self {
+            kernel,
+            reads,
+            textbook: textbook && map == MapKind::Cube,
+            layout: create_layout(device, &label, kernel, map_entries(reads)),
             // Nearest: texels are compared one by one, never blended as depths.
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(&label),
+                address_mode_u: address_mode,
+                address_mode_v: address_mode,
+                border_color: border.then_some(wgpu::SamplerBorderColor::TransparentBlack),
                 ..Default::default()
             }),
+            parameters: kernel.parameters().map(|parameters| {
+                device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some(&label),
+                    contents: bytemuck::bytes_of(&parameters),
+                    usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                })
+            }),
+            offsets: create_offsets(device, queue, &label, kernel),
             label,
-        }
+        })
     }
 
     /// The kernel it was made for.
@@ -73,10 +122,27 @@ impl PcfSampler {
         self.kernel
     }
 
+    /// The kind of map it reads.
+    pub fn map(&self) -> MapKind {
+        self.reads.map
+    }
+
+    /// Moves the noise of turned disks on to a frame, for hosts whose temporal anti-aliasing
+    /// averages it away: 64 patterns, then the first again (Jimenez 2014). Kernels without such
+    /// noise do not change. Without this call every frame has the noise of frame 0.
+    pub fn set_frame(&self, queue: &wgpu::Queue, frame: u32) {
+        if let Some(buffer) = &self.parameters {
+            let shift = 5.588_238 * (frame % 64) as f32;
+            let place = std::mem::offset_of!(KernelUniform, frame_shift);
+            queue.write_buffer(buffer, place as u64, bytemuck::bytes_of(&shift));
+        }
+    }
+
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
-    /// `texture_cube_array<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
-    /// bytes; with `many_lights` a read-only storage buffer of all lights). Fragment and compute
-    /// stages.
+    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
+    /// bytes, for flat maps 80; with `many_lights` a read-only storage buffer of all lights); for disks also 3, the
+    /// kernel's parameters (uniform buffer of 544 bytes), and for the random disk 4, its offsets
+    /// (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -88,17 +154,28 @@ impl PcfSampler {
     /// [`CubeShadowMap::texture_revision`] changes.
     ///
     /// # Errors
-    /// [`PcfError`] if the map has another encoding or is no cube array.
-    pub fn bind_group(
+    /// [`PcfError`] if the map is of another kind, has another encoding or is no cube array.
+    pub fn bind_group<'a>(
         &self,
         device: &wgpu::Device,
-        map: &CubeShadowMap,
+        map: impl Into<AnyMap<'a>>,
     ) -> Result<wgpu::BindGroup, PcfError> {
-        self.bind_group_of(device, map, 0)
+        let map = map.into();
+        if map.kind() != self.map() {
+            let (made_for, given) = (self.map(), map.kind());
+            return Err(PcfError::Map { made_for, given });
+        }
+        match map {
+            AnyMap::Cube(map) => self.bind_group_of(device, map, 0),
+            AnyMap::Flat(map) => {
+                let light = map.light_uniform().as_entire_binding();
+                Ok(self.group(device, map.view(), light))
+            }
+        }
     }
 
-    /// The bind group for one light of a map that has a texture for each; `light` is its place in
-    /// the frame. With `many_lights` it holds all of them.
+    /// The bind group for one light of a cube map that has a texture for each; `light` is its place
+    /// in the frame. With `many_lights` it holds all of them.
     ///
     /// # Errors
     /// As [`bind_group`](Self::bind_group).
@@ -108,35 +185,48 @@ impl PcfSampler {
         map: &CubeShadowMap,
         light: usize,
     ) -> Result<wgpu::BindGroup, PcfError> {
-        if map.encoding() != self.encoding {
+        if self.map() != MapKind::Cube {
+            let (made_for, given) = (self.map(), MapKind::Cube);
+            return Err(PcfError::Map { made_for, given });
+        }
+        if map.encoding() != self.reads.encoding {
             return Err(PcfError::Encoding {
                 map: map.encoding(),
-                sampler: self.encoding,
+                sampler: self.reads.encoding,
             });
         }
-        let (view, lights) = match (self.many_lights, map.array()) {
+        let (view, lights) = match (self.reads.many_lights, map.array()) {
             (true, Some((view, lights))) => (view, lights.as_entire_binding()),
             (true, None) => return Err(PcfError::NoCubeArray),
             (false, _) => (map.view(light), map.light_uniform(light)),
         };
-        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
+        Ok(self.group(device, view, lights))
+    }
+
+    fn group(
+        &self,
+        device: &wgpu::Device,
+        view: &wgpu::TextureView,
+        lights: wgpu::BindingResource<'_>,
+    ) -> wgpu::BindGroup {
+        let parameters = self.parameters.as_ref();
+        let offsets = self.offsets.as_ref();
+        let resources = [
+            Some(wgpu::BindingResource::TextureView(view)),
+            Some(wgpu::BindingResource::Sampler(&self.sampler)),
+            Some(lights),
+            parameters.map(wgpu::Buffer::as_entire_binding),
+            offsets.map(wgpu::BindingResource::TextureView),
+        ];
+        let entries: Vec<_> = (0..)
+            .zip(resources.into_iter().flatten())
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(view),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::Sampler(&self.sampler),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 2,
-                    resource: lights,
-                },
-            ],
-        }))
+            entries: &entries,
+        })
     }
 
     /// WGSL without bindings: textures and samplers are parameters. The function is named
@@ -151,41 +241,19 @@ impl PcfSampler {
     ///     normal: vec3f,   // geometric, world space, any length, either sign
     /// ) -> f32             // 1 lit, 0 in shadow; 0 beyond the light's range
     /// ```
+    ///
+    /// For flat maps `flat` takes the place of `cube` in all names, and the map is a
+    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` after the light (the random disk then
+    /// `offsets: texture_3d<f32>`) and `pixel: vec2f`, the pixel's coordinates, as the last.
+    ///
     /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
     pub fn wgsl(&self) -> String {
-        let mut parts = match self.textbook {
-            true => vec![
-                include_str!("../../shaders/cube_receiver.wgsl"),
-                include_str!("../../shaders/cube_textbook.wgsl"),
-            ],
-            false => self.kernel.parts().to_vec(),
+        let own = MapWgsl::new(self.reads);
+        let text = match self.textbook {
+            true => [own.receiver, own.fetch, TEXTBOOK].join("\n"),
+            false => self.kernel.wgsl(&own),
         };
-        let gathers = parts
-            .iter()
-            .any(|part| part.contains("shadows_cube_gather("));
-        parts.push(match self.encoding {
-            DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
-            DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
-        });
-        let (fetch, gather) = match self.many_lights {
-            false => (
-                include_str!("../../shaders/cube_fetch.wgsl"),
-                include_str!("../../shaders/cube_gather.wgsl"),
-            ),
-            true => (
-                include_str!("../../shaders/cube_array_fetch.wgsl"),
-                include_str!("../../shaders/cube_array_gather.wgsl"),
-            ),
-        };
-        parts.push(fetch);
-        if gathers {
-            parts.push(gather);
-        }
-        let text = parts.join("\n");
-        match self.many_lights {
-            false => text,
-            true => text.replace("texture_cube<f32>", "texture_cube_array<f32>"),
-        }
+        own.adapt(&text)
     }
 
     /// WGSL with the bindings of one group declared, to paste into a host's shader:
@@ -198,48 +266,142 @@ impl PcfSampler {
     /// fn shadows_visibility_flat(position: vec3f, normal: vec3f) -> f32
     /// ```
     ///
-    /// With `many_lights` both take the light's place in the frame first, as `light: u32`.
+    /// Disks ([`Kernel::uses_pixel`]) take one more argument, `pixel: vec2f`: the x and y of
+    /// `@builtin(position)`.
+    ///
+    /// With `many_lights` both take the light's place in the frame first, as `light: u32`. For flat
+    /// maps the names begin with `shadows_flat_`: `shadows_flat_visibility` and
+    /// `shadows_flat_visibility_flat`, so that a shader may hold a cube sampler's module and a flat
+    /// one's.
     pub fn wgsl_module(&self, group: u32) -> String {
+        let (lights, index, light) = match self.reads.many_lights {
+            false => ("uniform> shadows_light: ShadowsCubeLight", "", ""),
+            true => (
+                "storage, read> shadows_light: array<ShadowsCubeLight>",
+                "light: u32, ",
+                "light, ",
+            ),
+        };
+        let element = if self.reads.many_lights {
+            "[light]"
+        } else {
+            ""
+        };
+        let mut bindings = String::new();
+        let mut arguments = format!("shadows_map, shadows_map_sampler, shadows_light{element}");
+        let (mut parameter, mut pixel) = ("", "");
+        if self.takes_pixel() {
+            bindings += &format!(
+                "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsCubeKernel;\n"
+            );
+            arguments += ", shadows_kernel";
+            (parameter, pixel) = (", pixel: vec2f", ", pixel");
+            if self.offsets.is_some() {
+                bindings +=
+                    &format!("@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;\n");
+                arguments += ", shadows_offsets";
+            }
+        }
         let function = match self.textbook {
             true => "shadows_cube_textbook",
             false => self.kernel.function(),
         };
-        let (map, lights, parameter, argument, light) = match self.many_lights {
-            false => (
-                "texture_cube<f32>",
-                "var<uniform> shadows_light: ShadowsCubeLight",
-                "",
-                "",
-                "shadows_light",
-            ),
-            true => (
-                "texture_cube_array<f32>",
-                "var<storage, read> shadows_lights: array<ShadowsCubeLight>",
-                "light: u32, ",
-                "light, ",
-                "shadows_lights[light]",
-            ),
-        };
-        format!(
-            "{functions}
-@group({group}) @binding(0) var shadows_map: {map};
+        let module = format!(
+            "
+@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
 @group({group}) @binding(1) var shadows_map_sampler: sampler;
-@group({group}) @binding(2) {lights};
-
-fn shadows_visibility_flat({parameter}position: vec3f, normal: vec3f) -> f32 {{
-    return {function}(shadows_map, shadows_map_sampler, {light}, position, normal);
+@group({group}) @binding(2) var<{lights};
+{bindings}
+fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{
+    return {function}({arguments}, position, normal{pixel});
 }}
 
-fn shadows_visibility({parameter}position: vec3f) -> f32 {{
-    return shadows_visibility_flat({argument}position, cross(dpdx(position), dpdy(position)));
+fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
+    let normal = cross(dpdx(position), dpdy(position));
+    return shadows_visibility_flat({light}position, normal{pixel});
 }}
-",
-            functions = self.wgsl(),
-        )
+"
+        );
+        self.wgsl() + &MapWgsl::new(self.reads).adapt_module(&module)
+    }
+
+    /// Whether the functions of [`wgsl_module`](Self::wgsl_module) take the pixel's coordinates:
+    /// [`Kernel::uses_pixel`], except for textbook receivers.
+    pub fn takes_pixel(&self) -> bool {
+        self.kernel.uses_pixel() && !self.textbook
     }
 }
 
-fn create_layout(device: &wgpu::Device, label: &str, many: bool) -> wgpu::BindGroupLayout {
+const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
+
+/// The random disk's texture; nothing for other kernels.
+fn create_offsets(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    label: &str,
+    kernel: Kernel,
+) -> Option<wgpu::TextureView> {
+    let Kernel::RandomDisk(disk) = kernel else {
+        return None;
+    };
+    // A byte a coordinate: 1/127 of the radius is fine enough for a jittered offset.
+    let texels: Vec<[i8; 4]> = offsets::random_disk(&disk)
+        .into_iter()
+        .map(|texel| texel.map(|c| (c * 127.0).round() as i8))
+        .collect();
+    let texture = device.create_texture_with_data(
+        queue,
+        &wgpu::TextureDescriptor {
+            label: Some(&format!("{label} offsets")),
+            size: wgpu::Extent3d {
+                width: disk.size,
+                height: disk.size,
+                depth_or_array_layers: disk.taps() / 2,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D3,
+            format: wgpu::TextureFormat::Rgba8Snorm,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        bytemuck::cast_slice(&texels),
+    );
+    Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+}
+
+/// The kinds of binding that a map and its lights are.
+struct MapEntries {
+    dimension: wgpu::TextureViewDimension,
+    lights: wgpu::BufferBindingType,
+    light_size: usize,
+}
+
+fn map_entries(reads: Reads) -> MapEntries {
+    MapEntries {
+        dimension: match (reads.map, reads.many_lights) {
+            (MapKind::Cube, false) => wgpu::TextureViewDimension::Cube,
+            (MapKind::Cube, true) => wgpu::TextureViewDimension::CubeArray,
+            (MapKind::Flat, _) => wgpu::TextureViewDimension::D2,
+        },
+        lights: match reads.many_lights {
+            false => wgpu::BufferBindingType::Uniform,
+            true => wgpu::BufferBindingType::Storage { read_only: true },
+        },
+        light_size: match reads.map {
+            MapKind::Cube => size_of::<LightUniform>(),
+            MapKind::Flat => size_of::<FlatLightUniform>(),
+        },
+    }
+}
+
+fn create_layout(
+    device: &wgpu::Device,
+    label: &str,
+    kernel: Kernel,
+    map: MapEntries,
+) -> wgpu::BindGroupLayout {
     let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
@@ -247,37 +409,35 @@ fn create_layout(device: &wgpu::Device, label: &str, many: bool) -> wgpu::BindGr
         ty,
         count: None,
     };
+    let texture = |filterable, view_dimension| wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension,
+        multisampled: false,
+    };
+    let buffer = |ty, size: usize| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: wgpu::BufferSize::new(size as u64),
+    };
+    let mut entries = vec![
+        // A float texture rather than a depth texture: depths are compared here, texel by texel,
+        // and GL reads depth textures only through its own single comparison.
+        entry(0, texture(false, map.dimension)),
+        entry(
+            1,
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+        ),
+        entry(2, buffer(map.lights, map.light_size)),
+    ];
+    if kernel.uses_pixel() {
+        let ty = wgpu::BufferBindingType::Uniform;
+        entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
+    }
+    if let Kernel::RandomDisk(_) = kernel {
+        entries.push(entry(4, texture(false, wgpu::TextureViewDimension::D3)));
+    }
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
-        entries: &[
-            entry(
-                0,
-                // A float texture rather than a depth texture: depths are compared here, texel by
-                // texel, and GL reads depth textures only through its own single comparison.
-                wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: match many {
-                        false => wgpu::TextureViewDimension::Cube,
-                        true => wgpu::TextureViewDimension::CubeArray,
-                    },
-                    multisampled: false,
-                },
-            ),
-            entry(
-                1,
-                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
-            ),
-            entry(
-                2,
-                wgpu::BindingType::Buffer {
-                    ty: match many {
-                        false => wgpu::BufferBindingType::Uniform,
-                        true => wgpu::BufferBindingType::Storage { read_only: true },
-                    },
-                    has_dynamic_offset: false,
-                    min_binding_size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
-                },
-            ),
-        ],
+        entries: &entries,
     })
 }

@@ -1,9 +1,10 @@
 //! Visibility of given points, read by a compute shader through the crate's own WGSL: no camera,
 //! no rasteriser between the point that is asked for and the answer.
 #![allow(dead_code)] // each test uses its own part
+#![allow(dead_code)] // each test uses its own part
 
 use shadows::glam::Vec3;
-use shadows::{CubeShadowMap, Kernel, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{AnyMap, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
 use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
@@ -14,45 +15,81 @@ const SHADER: &str = "
 @compute @workgroup_size(64)
 fn ask(@builtin(global_invocation_id) id: vec3u) {
     if id.x < arrayLength(&visibility) {
+        let pixel = vec2f(points[2 * id.x].w, points[2 * id.x + 1].w);
         visibility[id.x] =
-            shadows_visibility_flat(points[2 * id.x].xyz, points[2 * id.x + 1].xyz);
+            shadows_visibility_flat(points[2 * id.x].xyz, points[2 * id.x + 1].xyz PIXEL);
     }
 }
 ";
 
-/// Visibility of points with geometric normals.
-pub fn visibility(
+/// Visibility of points with geometric normals, each as if at a pixel of its own.
+pub fn visibility<'a>(
     gpu: &Gpu,
-    map: &CubeShadowMap,
+    map: impl Into<AnyMap<'a>>,
     kernel: Kernel,
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
+    let map = map.into();
+    let encoding = match map {
+        AnyMap::Cube(map) => map.encoding(),
+        _ => Default::default(),
+    };
     let descriptor = PcfDescriptor {
         kernel,
-        encoding: map.encoding(),
+        map: map.kind(),
+        encoding,
         ..Default::default()
     };
     ask(gpu, map, &descriptor, 0, points)
 }
 
+/// The pixel that point `i` is taken to be at.
+pub fn pixel(i: usize) -> [f32; 2] {
+    [(i % 64) as f32 + 0.5, (i / 64) as f32 + 0.5]
+}
+
 /// Visibility from one light of a map, by any sampler.
-pub fn ask(
+pub fn ask<'a>(
     gpu: &Gpu,
-    map: &CubeShadowMap,
+    map: impl Into<AnyMap<'a>>,
     descriptor: &PcfDescriptor<'_>,
     light: usize,
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
+    ask_changed(gpu, map.into(), descriptor, light, points, |module| module)
+}
+
+/// The same with the sampler's module changed, for tests of what must fail.
+pub fn ask_changed(
+    gpu: &Gpu,
+    map: AnyMap<'_>,
+    descriptor: &PcfDescriptor<'_>,
+    light: usize,
+    points: &[(Vec3, Vec3)],
+    change: impl FnOnce(String) -> String,
+) -> Vec<f32> {
     let device = &gpu.device;
-    let sampler = PcfSampler::new(device, descriptor);
+    let sampler = PcfSampler::new(device, &gpu.queue, descriptor).unwrap();
     let call = match descriptor.many_lights {
         false => "shadows_visibility_flat(".to_owned(),
         true => format!("shadows_visibility_flat({light}u, "),
     };
-    let shader = SHADER.replace("shadows_visibility_flat(", &call);
+    let pixel_argument = if sampler.takes_pixel() { ", pixel" } else { "" };
+    let shader = SHADER
+        .replace("shadows_visibility_flat(", &call)
+        .replace(" PIXEL", pixel_argument);
+    let shader = match descriptor.map {
+        MapKind::Flat => shader.replace("shadows_visibility", "shadows_flat_visibility"),
+        _ => shader,
+    };
+    let module = change(sampler.wgsl_module(1));
     let data: Vec<[f32; 8]> = points
         .iter()
-        .map(|(p, n)| [p.x, p.y, p.z, 0.0, n.x, n.y, n.z, 0.0])
+        .enumerate()
+        .map(|(i, (p, n))| {
+            let [x, y] = pixel(i);
+            [p.x, p.y, p.z, x, n.x, n.y, n.z, y]
+        })
         .collect();
     let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: None,
@@ -67,7 +104,7 @@ pub fn ask(
     });
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
-        source: wgpu::ShaderSource::Wgsl((sampler.wgsl_module(1) + &shader).into()),
+        source: wgpu::ShaderSource::Wgsl((module + &shader).into()),
     });
     let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
         binding,
@@ -110,7 +147,10 @@ pub fn ask(
             },
         ],
     });
-    let map_group = sampler.bind_group_of(device, map, light).unwrap();
+    let map_group = match map {
+        AnyMap::Cube(map) => sampler.bind_group_of(device, map, light).unwrap(),
+        _ => sampler.bind_group(device, map).unwrap(),
+    };
     gpu.run(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);

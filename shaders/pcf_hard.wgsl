@@ -7,10 +7,9 @@ fn shadows_cube_hard(
     position: vec3f,
     normal: vec3f,
 ) -> f32 {
-    let receiver = shadows_receiver(light, position, normal);
+    let receiver = shadows_cube_receiver(light, position, normal);
     if receiver.known >= 0.0 {
         return receiver.known;
     }
-    let texel = clamp(floor(receiver.face.texel), vec2f(0.0), vec2f(light.size - 1.0));
-    return shadows_cube_texel(map, map_sampler, receiver, light.size, texel);
+    return shadows_cube_texel(map, map_sampler, receiver, light.size, floor(receiver.texel));
 }

@@ -7,12 +7,12 @@ fn shadows_cube_four_taps(
     position: vec3f,
     normal: vec3f,
 ) -> f32 {
-    let receiver = shadows_receiver(light, position, normal);
+    let receiver = shadows_cube_receiver(light, position, normal);
     if receiver.known >= 0.0 {
         return receiver.known;
     }
-    let corner = floor(receiver.face.texel + 0.5);
-    let weight = receiver.face.texel + 0.5 - corner;
+    let corner = floor(receiver.texel + 0.5);
+    let weight = receiver.texel + 0.5 - corner;
     let size = light.size;
     let a = shadows_cube_quad(map, map_sampler, receiver, size, corner + vec2f(-1.0, -1.0), weight);
     let b = shadows_cube_quad(map, map_sampler, receiver, size, corner + vec2f(1.0, -1.0), weight);

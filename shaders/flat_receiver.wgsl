@@ -1,0 +1,111 @@
+// What every kernel on a flat map needs: the light's frame, and the depth of the receiver's plane
+// at any texel.
+
+struct ShadowsFlatLight {
+    // Origin of the frame: the light itself, or a point on a directional light's near plane.
+    position: vec3f,
+    near: f32,
+    // Axes of the frame in world space, of length 1.
+    forward: vec3f,
+    // From a position across, divided by the distance where the light is a spot, to -1 .. 1.
+    scale: f32,
+    right: vec3f,
+    // Texels along a side.
+    size: f32,
+    down: vec3f,
+    // How far a spot reaches; how far depths of a directional light do.
+    range: f32,
+    // Biases: in texels, and as a factor (spot) or a difference (directional) of depth.
+    normal_offset: f32,
+    depth_bias: f32,
+    // 1 for a spot, 0 for a directional light.
+    perspective: f32,
+    // 0 where nothing is in the map: all is lit.
+    filled: f32,
+}
+
+// Depth is near / d (spot) or 1 - d / range (directional), d along the frame's forward axis. Of a
+// plane either is linear over the map: `plane` holds its value in the middle, and how it grows
+// with u and v in -1 .. 1.
+struct ShadowsFlatReceiver {
+    texel: vec2f,
+    plane: vec3f,
+    // No tap takes the plane for nearer to the light than this depth: a thirty-second of the
+    // receiver's distance (spot), or 16 widths of the map before the receiver (directional).
+    bound: f32,
+    // Depth of the plane's horizon: no receiver is at this depth or below. Parallel rays have none.
+    horizon: f32,
+    // From the frame's origin, the direction of the light's ray and the unit normal, along the
+    // frame's axes (forward, right, down).
+    local: vec3f,
+    ray: vec3f,
+    normal: vec3f,
+    // World width of a texel at the receiver.
+    width: f32,
+    scale: f32,
+    perspective: f32,
+    range: f32,
+    // 1: surely lit, 0: surely unlit, -1: ask the map.
+    known: f32,
+}
+
+// `normal` is the geometric one, of any length and either sign; it is turned toward the light.
+fn shadows_flat_receiver(
+    light: ShadowsFlatLight,
+    position: vec3f,
+    normal: vec3f,
+) -> ShadowsFlatReceiver {
+    let axes = mat3x3f(light.forward, light.right, light.down);
+    let local = (position - light.position) * axes;
+    let spot = light.perspective > 0.5;
+    let distance = length(local);
+    var receiver: ShadowsFlatReceiver;
+    if spot && distance > light.range {
+        receiver.known = 0.0;
+        return receiver;
+    }
+    // Behind a spot the map says nothing.
+    if light.filled < 0.5 || (spot && !(local.x > 0.0)) {
+        receiver.known = 1.0;
+        return receiver;
+    }
+    receiver.local = local;
+    receiver.scale = light.scale;
+    receiver.perspective = light.perspective;
+    receiver.range = light.range;
+    let away = select(1.0, local.x, spot);
+    receiver.width = 2.0 * away / (light.size * light.scale);
+    let uv = local.yz * light.scale / away;
+    receiver.texel = (uv * 0.5 + 0.5) * light.size;
+    receiver.ray = select(vec3f(1.0, 0.0, 0.0), local / distance, spot);
+    var n = normalize(normal) * axes;
+    let toward_light = -sign(dot(n, receiver.ray));
+    n *= select(toward_light, 1.0, toward_light == 0.0);
+    receiver.normal = n;
+    let sine = length(cross(n, receiver.ray));
+    let plane_distance = dot(n, local) + light.normal_offset * receiver.width * sine;
+    let across = n.yz / light.scale;
+    receiver.known = -1.0;
+    if spot {
+        // The light within the bias of the receiver's plane: nothing is between them.
+        if !(plane_distance < 0.0) {
+            receiver.known = 1.0;
+            return receiver;
+        }
+        let near = light.near * light.depth_bias;
+        receiver.plane = near / plane_distance * vec3f(n.x, across);
+        receiver.bound = 32.0 * near / local.x;
+        receiver.horizon = 0.0;
+        return receiver;
+    }
+    if !(n.x < 0.0) {
+        receiver.known = 1.0; // seen from its edge
+        return receiver;
+    }
+    let per_depth = 1.0 / (n.x * light.range);
+    let middle = 1.0 - plane_distance * per_depth + light.depth_bias;
+    receiver.plane = vec3f(middle, across * per_depth);
+    receiver.bound = dot(receiver.plane, vec3f(1.0, uv)) + 32.0 / (light.scale * light.range);
+    receiver.horizon = -3e38;
+    return receiver;
+}

@@ -1,0 +1,27 @@
+// One tap of a disk on a flat map.
+
+// Depth of the receiver's plane and the depth stored, at the texel that `local` falls on; `local` is
+// a point of the plane along the axes of the light's frame.
+fn shadows_flat_look(
+    map: texture_2d<f32>,
+    map_sampler: sampler,
+    receiver: ShadowsFlatReceiver,
+    size: f32,
+    local: vec3f,
+) -> vec2f {
+    let spot = receiver.perspective > 0.5;
+    // A point behind the spot is mirrored at the receiver, which is before it.
+    let point = select(local, 2.0 * receiver.local - local, spot && local.x <= 0.0);
+    let uv = point.yz * receiver.scale / select(1.0, point.x, spot);
+    let texel = floor((uv * 0.5 + 0.5) * size);
+    let depths = shadows_flat_depths(map, map_sampler, receiver, size, texel);
+    return vec2f(clamp(depths.x, 0.0, receiver.bound), depths.y);
+}
+
+// How much farther from its light than its blocker a receiver is: for a spot as a fraction of the
+// blocker's distance, for a directional light in world units. From sums of the plane's depths and
+// of the depths stored at the taps that are blocked.
+fn shadows_flat_gap(receiver: ShadowsFlatReceiver, plane: f32, stored: f32, blocked: f32) -> f32 {
+    let distance = (stored - plane) / blocked * receiver.range;
+    return select(distance, stored / plane - 1.0, receiver.perspective > 0.5);
+}

@@ -1,0 +1,14 @@
+// Depth of the receiver's plane at a texel (0 or less beyond the plane's horizon), and the depth
+// stored there. Beyond the map's edge nothing is.
+fn shadows_flat_depths(
+    map: texture_2d<f32>,
+    map_sampler: sampler,
+    receiver: ShadowsFlatReceiver,
+    size: f32,
+    texel: vec2f,
+) -> vec2f {
+    let place = (texel + 0.5) / size;
+    let stored = textureSampleLevel(map, map_sampler, place, 0.0).x;
+    let plane = dot(receiver.plane, vec3f(1.0, 2.0 * place - 1.0));
+    return vec2f(plane, select(0.0, stored, shadows_flat_inside(size, texel)));
+}

@@ -1,0 +1,17 @@
+// 1 where a texel sees the receiver's plane, 0 where a caster is nearer. A texel that does not see
+// the plane at all (it lies beyond the plane's horizon) says nothing of the receiver; the one that
+// mirrors it at the receiver surely sees the plane, and stands in.
+fn shadows_cube_texel(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    receiver: ShadowsCubeReceiver,
+    size: f32,
+    texel: vec2f,
+) -> f32 {
+    var depths = shadows_cube_depths(map, map_sampler, receiver, size, texel);
+    if depths.x <= receiver.horizon {
+        let mirrored = floor(2.0 * receiver.texel - texel - 0.5);
+        depths = shadows_cube_depths(map, map_sampler, receiver, size, mirrored);
+    }
+    return select(0.0, 1.0, clamp(depths.x, 0.0, receiver.bound) >= depths.y);
+}

@@ -1,0 +1,25 @@
+// 5x5 texels, weighted, from 9 taps.
+
+fn shadows_cube_weighted_5(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    light: ShadowsCubeLight,
+    position: vec3f,
+    normal: vec3f,
+) -> f32 {
+    let receiver = shadows_cube_receiver(light, position, normal);
+    if receiver.known >= 0.0 {
+        return receiver.known;
+    }
+    return shadows_cube_weighted(
+        map,
+        map_sampler,
+        receiver,
+        light.size,
+        3,
+        vec4f(1.0, 4.0, 1.0, 0.0),
+        vec4f(-1.0, -1.0, 2.0, 0.0),
+        vec4f(3.0, 3.0, 0.0, 0.0),
+        vec4f(-2.0, 1.0, 1.0, 0.0),
+    );
+}

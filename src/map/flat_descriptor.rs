@@ -1,0 +1,216 @@
+//! What a flat map is made from and told each frame.
+
+use super::descriptor::CasterSides;
+use super::flat_frame::FlatFrame;
+use crate::error::ShadowMapError;
+use crate::mesh::{Bounds, Caster};
+use crate::{Bias, DirectionalLight, SpotLight, View};
+
+/// How to make a [`ShadowMap`](crate::ShadowMap).
+#[derive(Clone, Debug)]
+pub struct ShadowMapDescriptor<'a> {
+    /// Name of the map in debuggers. Default none.
+    pub label: Option<&'a str>,
+    /// Texels along each side. Default 2048. 1 to the device's `max_texture_dimension_2d`. Memory:
+    /// 4 bytes a texel, `Depth32Float`.
+    pub size: u32,
+    /// Bias for receivers, in texels. Default [`Bias::default`], which needs no tuning. Its
+    /// `slope_scale` is the rasteriser's.
+    pub bias: Bias,
+    /// Which sides of casters are drawn; [`CasterSides::Far`] culls front faces. Default
+    /// [`CasterSides::Nearest`].
+    pub sides: CasterSides,
+    /// Whether casters before the near plane are pulled onto it, on devices with
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL). Default true. On others a
+    /// directional light's near plane lies before all casters, and a spot loses what is nearer
+    /// than its `near`.
+    pub unclipped_depth: bool,
+    /// Whether a map whose content has not changed is left alone. Default true; false draws every
+    /// frame, for measuring what that is worth.
+    pub cache: bool,
+}
+
+impl ShadowMapDescriptor<'_> {
+    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowMapError> {
+        let (size, limit) = (self.size, device.limits().max_texture_dimension_2d);
+        if size == 0 || size > limit {
+            return Err(ShadowMapError::Size { size, limit });
+        }
+        Ok(self.bias.validate()?)
+    }
+}
+
+impl Default for ShadowMapDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            size: 2048,
+            bias: Bias::default(),
+            sides: CasterSides::default(),
+            unclipped_depth: true,
+            cache: true,
+        }
+    }
+}
+
+/// The light of a [`ShadowMap`](crate::ShadowMap).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FlatLight {
+    /// A spot: the map is drawn around its cone.
+    Spot(SpotLight),
+    /// A directional light: the map is fitted to the casters, and to the view and the receivers
+    /// where the frame has them.
+    Directional(DirectionalLight),
+}
+
+/// What a [`ShadowMap`](crate::ShadowMap) is to show this frame.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowFrame<'a> {
+    /// The light.
+    pub light: FlatLight,
+    /// Everything that may cast; what cannot be on the map is left out by the map itself.
+    pub casters: &'a [Caster],
+    /// The host's camera, and the distance along its axis, in world units, up to which shadows are
+    /// to be seen. A directional light's map then covers no more than that. `None`: everything.
+    pub view: Option<(&'a View, f32)>,
+    /// Bounds of all receivers in world space. A directional light's map then covers no more than
+    /// those. `None`: receivers may be anywhere.
+    pub receivers: Option<Bounds>,
+}
+
+impl<'a> ShadowFrame<'a> {
+    /// A frame without a view and without bounds.
+    pub fn new(light: FlatLight, casters: &'a [Caster]) -> Self {
+        Self {
+            light,
+            casters,
+            view: None,
+            receivers: None,
+        }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), ShadowMapError> {
+        match self.light {
+            FlatLight::Spot(light) => light.validate()?,
+            FlatLight::Directional(light) => light.validate()?,
+        }
+        if let Some((_, distance)) = self.view
+            && !(distance.is_finite() && distance > 0.0)
+        {
+            return Err(ShadowMapError::Distance(distance));
+        }
+        if let Some(Bounds { min, max }) = self.receivers
+            && !(min.is_finite() && max.is_finite() && min.cmple(max).all())
+        {
+            let (min, max) = (min.to_array(), max.to_array());
+            return Err(ShadowMapError::Receivers { min, max });
+        }
+        Ok(())
+    }
+}
+
+/// What the last [`ShadowMap::prepare`](crate::ShadowMap::prepare) found and the next `encode` will
+/// do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ShadowMapStatistics {
+    /// Whether the map will be drawn or cleared; false where it shows all that it must already.
+    pub rendered: bool,
+    /// Casters on the map.
+    pub casters_drawn: u32,
+    /// Casters that cannot be on it.
+    pub casters_outside: u32,
+    /// Draw calls.
+    pub draws: u32,
+    /// Triangles in those draws.
+    pub triangles: u64,
+    /// GPU memory held: texture and buffers.
+    pub bytes: u64,
+}
+
+/// What receivers need to know of the light; `ShadowsFlatLight` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct FlatLightUniform {
+    pub position: [f32; 3],
+    pub near: f32,
+    pub forward: [f32; 3],
+    pub scale: f32,
+    pub right: [f32; 3],
+    pub size: f32,
+    pub down: [f32; 3],
+    pub range: f32,
+    pub normal_offset: f32,
+    pub depth_bias: f32,
+    pub perspective: f32,
+    pub filled: f32,
+}
+
+impl FlatLightUniform {
+    /// `frame` is `None` where nothing casts.
+    pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32) -> Self {
+        let Some(frame) = frame else {
+            return Self::default();
+        };
+        // In the world, at distance 1 of a spot.
+        let texel = 2.0 / (frame.scale * size as f32);
+        Self {
+            position: frame.origin.to_array(),
+            near: frame.near,
+            forward: frame.forward.to_array(),
+            scale: frame.scale,
+            right: frame.right.to_array(),
+            size: size as f32,
+            down: (-frame.up).to_array(),
+            range: frame.range,
+            normal_offset: bias.normal_offset,
+            depth_bias: match frame.perspective {
+                true => 1.0 + bias.constant * texel,
+                false => bias.constant * texel / frame.range,
+            },
+            perspective: f32::from(u8::from(frame.perspective)),
+            filled: 1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::mem::offset_of;
+
+    use super::FlatLightUniform as Uniform;
+
+    #[test]
+    fn the_light_lies_in_memory_as_wgsl_has_it() {
+        let text = include_str!("../../shaders/flat_receiver.wgsl");
+        let module = naga::front::wgsl::parse_str(text).unwrap();
+        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
+            naga::TypeInner::Struct { members, span }
+                if ty.name.as_deref() == Some("ShadowsFlatLight") =>
+            {
+                Some((members.clone(), *span as usize))
+            }
+            _ => None,
+        });
+        let (members, span) = members.unwrap();
+        let theirs: Vec<(&str, usize)> = members
+            .iter()
+            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
+            .collect();
+        let ours = [
+            ("position", offset_of!(Uniform, position)),
+            ("near", offset_of!(Uniform, near)),
+            ("forward", offset_of!(Uniform, forward)),
+            ("scale", offset_of!(Uniform, scale)),
+            ("right", offset_of!(Uniform, right)),
+            ("size", offset_of!(Uniform, size)),
+            ("down", offset_of!(Uniform, down)),
+            ("range", offset_of!(Uniform, range)),
+            ("normal_offset", offset_of!(Uniform, normal_offset)),
+            ("depth_bias", offset_of!(Uniform, depth_bias)),
+            ("perspective", offset_of!(Uniform, perspective)),
+            ("filled", offset_of!(Uniform, filled)),
+        ];
+        assert_eq!(theirs, ours);
+        assert_eq!(span, size_of::<Uniform>());
+    }
+}

@@ -1,0 +1,237 @@
+//! Kernels on a disk and their parameters.
+
+use super::kernel::{KernelUniform, MAX_TAPS};
+use super::offsets;
+use crate::error::PcfError;
+
+/// How wide a kernel is, at the receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Radius {
+    /// In texels of the map: as wide in the world as the texels are where the receiver is. Greater
+    /// than 0, at most 64.
+    Texels(f32),
+    /// In world units: a penumbra of the same width whatever the map's size. Greater than 0,
+    /// finite.
+    World(f32),
+}
+
+impl Radius {
+    /// The widest radius in texels.
+    pub const MAX_TEXELS: f32 = 64.0;
+
+    fn validate(self) -> Result<(), PcfError> {
+        let (value, limit) = match self {
+            Self::Texels(value) => (value, Self::MAX_TEXELS),
+            Self::World(value) => (value, f32::MAX),
+        };
+        if value > 0.0 && value <= limit {
+            Ok(())
+        } else {
+            Err(PcfError::Radius { radius: self })
+        }
+    }
+
+    fn texels_and_world(self) -> (f32, f32) {
+        match self {
+            Self::Texels(value) => (value, 0.0),
+            Self::World(value) => (0.0, value),
+        }
+    }
+}
+
+/// Parameters of [`Kernel::RandomDisk`](super::Kernel::RandomDisk).
+///
+/// An `n x n x d` texture of offsets (`d` texels of two offsets each), jittered within `u x v`
+/// strata and warped onto the disk, the outermost ring first, from a fixed seed; a pixel uses the
+/// column at its coordinates modulo `n` (Wolff, "OpenGL 4 Shading Language Cookbook", 2013; after
+/// Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", GPU Gems 2, 2005).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RandomDisk {
+    /// Radius of the disk. Default 3 texels.
+    pub radius: Radius,
+    /// Strata around the disk (`u`). Default 8. `u * v` is the number of taps: 8 to 256, even.
+    pub around: u32,
+    /// Rings (`v`). Default 4.
+    pub rings: u32,
+    /// Texels along a side of the texture (`n`): after so many pixels the pattern repeats. Default
+    /// 8. 1 to 256.
+    pub size: u32,
+    /// Whether only the first eight taps (the outermost) are taken where they agree. Default true.
+    /// It misses what lies inside the disk only, such as the shadow of a wire; `benches/pcf.rs`
+    /// and `tests/pcf_kernels.rs` say how often.
+    pub early_out: bool,
+}
+
+impl RandomDisk {
+    pub(super) const DEFAULT: Self = Self {
+        radius: Radius::Texels(3.0),
+        around: 8,
+        rings: 4,
+        size: 8,
+        early_out: true,
+    };
+    /// Taps after which the others may be left out.
+    pub(super) const FIRST: u32 = 8;
+    const MAX_SIZE: u32 = 256;
+    const MAX_SAMPLES: u32 = 256;
+
+    /// Taps in all.
+    pub fn taps(&self) -> u32 {
+        self.around.saturating_mul(self.rings)
+    }
+
+    pub(super) fn validate(&self) -> Result<(), PcfError> {
+        self.radius.validate()?;
+        let (taps, limit) = (self.taps(), Self::MAX_SAMPLES);
+        if taps < Self::FIRST || taps > limit || taps % 2 == 1 {
+            let (around, rings) = (self.around, self.rings);
+            return Err(PcfError::Samples {
+                around,
+                rings,
+                limit,
+            });
+        }
+        if self.size == 0 || self.size > Self::MAX_SIZE {
+            let (size, limit) = (self.size, Self::MAX_SIZE);
+            return Err(PcfError::OffsetTexture { size, limit });
+        }
+        Ok(())
+    }
+
+    pub(super) fn parameters(&self) -> KernelUniform {
+        let first = if self.early_out { Self::FIRST } else { 0 };
+        uniform(self.radius, 0.0, self.taps(), first)
+    }
+}
+
+impl Default for RandomDisk {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// Parameters of [`Kernel::Vogel`](super::Kernel::Vogel).
+///
+/// Offsets on a spiral of golden angles (Vogel 1979), turned from pixel to pixel by interleaved
+/// gradient noise (Jimenez, SIGGRAPH 2014), and from frame to frame where the host calls
+/// [`set_frame`](super::PcfSampler::set_frame).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VogelDisk {
+    /// Radius of the disk. Default 3 texels.
+    pub radius: Radius,
+    /// Taps. Default 16. 4 to 64.
+    pub taps: u32,
+}
+
+impl VogelDisk {
+    pub(super) const DEFAULT: Self = Self {
+        radius: Radius::Texels(3.0),
+        taps: 16,
+    };
+
+    pub(super) fn validate(&self) -> Result<(), PcfError> {
+        self.radius.validate()?;
+        validate_taps("taps", self.taps)
+    }
+
+    pub(super) fn parameters(&self) -> KernelUniform {
+        let mut parameters = uniform(self.radius, 0.0, self.taps, 0);
+        parameters.offsets = offsets::vogel(self.taps);
+        parameters
+    }
+}
+
+impl Default for VogelDisk {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// Parameters of [`Kernel::ContactHardening`](super::Kernel::ContactHardening).
+///
+/// The penumbra is as wide as the light's size and the distance from blocker to receiver make it
+/// (Fernando, "Percentage-Closer Soft Shadows", 2005): blockers are looked for in a disk of
+/// `max_radius`; where there are none the receiver is lit, where all taps find one it is in the
+/// umbra; elsewhere their mean depth gives the disk that is filtered, at least a texel wide. Disks
+/// lie in the receiver's tangent plane and are stretched along the light's direction as the light's
+/// own outline is, by no more than 4.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactHardening {
+    /// Radius of a spherical light in world units; for a directional light the tangent of its
+    /// angular radius (0.00465 for the sun). Default 0.1. Greater than 0, finite.
+    pub light_size: f32,
+    /// The widest penumbra's radius, which is also that of the blocker search: wider finds more,
+    /// and noisier. Default 12 texels.
+    pub max_radius: Radius,
+    /// Taps that look for blockers. Default 16. 4 to 64, at most `taps`.
+    pub search_taps: u32,
+    /// Taps that filter. Default 32. 4 to 64.
+    pub taps: u32,
+}
+
+impl ContactHardening {
+    pub(super) const DEFAULT: Self = Self {
+        light_size: 0.1,
+        max_radius: Radius::Texels(12.0),
+        search_taps: 16,
+        taps: 32,
+    };
+
+    pub(super) fn validate(&self) -> Result<(), PcfError> {
+        self.max_radius.validate()?;
+        validate_taps("taps", self.taps)?;
+        validate_taps("search_taps", self.search_taps)?;
+        if self.search_taps > self.taps {
+            return Err(PcfError::Taps {
+                what: "search_taps",
+                taps: self.search_taps,
+                limit: self.taps,
+            });
+        }
+        if self.light_size.is_finite() && self.light_size > 0.0 {
+            Ok(())
+        } else {
+            Err(PcfError::LightSize(self.light_size))
+        }
+    }
+
+    pub(super) fn parameters(&self) -> KernelUniform {
+        let mut parameters = uniform(
+            self.max_radius,
+            self.light_size,
+            self.taps,
+            self.search_taps,
+        );
+        parameters.offsets = offsets::vogel(self.taps);
+        parameters
+    }
+}
+
+impl Default for ContactHardening {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+fn validate_taps(what: &'static str, taps: u32) -> Result<(), PcfError> {
+    if (4..=MAX_TAPS).contains(&taps) {
+        Ok(())
+    } else {
+        let limit = MAX_TAPS;
+        Err(PcfError::Taps { what, taps, limit })
+    }
+}
+
+fn uniform(radius: Radius, light_size: f32, taps: u32, first_taps: u32) -> KernelUniform {
+    let (radius_texels, radius_world) = radius.texels_and_world();
+    KernelUniform {
+        radius_texels,
+        radius_world,
+        light_size,
+        frame_shift: 0.0,
+        taps,
+        first_taps,
+        pad: [0; 2],
+        offsets: [[0.0; 4]; MAX_TAPS as usize / 2],
+    }
+}

@@ -1,0 +1,143 @@
+//! The kinds of shadow map that a sampler can read.
+
+use crate::{CubeShadowMap, DepthEncoding, ShadowMap};
+
+/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MapKind {
+    /// [`CubeShadowMap`]: point lights.
+    #[default]
+    Cube,
+    /// [`ShadowMap`]: spot and directional lights.
+    Flat,
+}
+
+/// A map, of whichever kind.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum AnyMap<'a> {
+    /// A cube map.
+    Cube(&'a CubeShadowMap),
+    /// A flat map.
+    Flat(&'a ShadowMap),
+}
+
+impl<'a> AnyMap<'a> {
+    /// Which kind it is.
+    pub fn kind(self) -> MapKind {
+        match self {
+            Self::Cube(_) => MapKind::Cube,
+            Self::Flat(_) => MapKind::Flat,
+        }
+    }
+}
+
+impl<'a> From<&'a CubeShadowMap> for AnyMap<'a> {
+    fn from(map: &'a CubeShadowMap) -> Self {
+        Self::Cube(map)
+    }
+}
+
+impl<'a> From<&'a ShadowMap> for AnyMap<'a> {
+    fn from(map: &'a ShadowMap) -> Self {
+        Self::Flat(map)
+    }
+}
+
+/// What a sampler is made to read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reads {
+    pub map: MapKind,
+    pub encoding: DepthEncoding,
+    pub many_lights: bool,
+    /// Whether its sampler has a border of depth 0.
+    pub border: bool,
+}
+
+/// The files that a kind of map brings along.
+pub(super) struct MapWgsl {
+    reads: Reads,
+    pub receiver: &'static str,
+    pub depth: &'static str,
+    pub fetch: &'static str,
+    pub gather: &'static str,
+    pub texel: &'static str,
+    pub four: &'static str,
+    pub tap: &'static str,
+}
+
+impl MapWgsl {
+    pub fn new(reads: Reads) -> Self {
+        match reads.map {
+            MapKind::Cube => Self::cube(reads),
+            MapKind::Flat => Self::flat(reads),
+        }
+    }
+
+    fn flat(reads: Reads) -> Self {
+        Self {
+            reads,
+            receiver: include_str!("../../shaders/flat_receiver.wgsl"),
+            depth: match reads.border {
+                false => include_str!("../../shaders/flat_edge_test.wgsl"),
+                true => include_str!("../../shaders/flat_edge_border.wgsl"),
+            },
+            fetch: include_str!("../../shaders/flat_texel.wgsl"),
+            gather: "",
+            texel: "",
+            four: include_str!("../../shaders/flat_four.wgsl"),
+            tap: include_str!("../../shaders/flat_tap.wgsl"),
+        }
+    }
+
+    fn cube(reads: Reads) -> Self {
+        let (fetch, gather) = match reads.many_lights {
+            false => (
+                include_str!("../../shaders/cube_fetch.wgsl"),
+                include_str!("../../shaders/cube_gather.wgsl"),
+            ),
+            true => (
+                include_str!("../../shaders/cube_array_fetch.wgsl"),
+                include_str!("../../shaders/cube_array_gather.wgsl"),
+            ),
+        };
+        Self {
+            reads,
+            receiver: include_str!("../../shaders/cube_receiver.wgsl"),
+            depth: match reads.encoding {
+                DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
+                DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
+            },
+            fetch,
+            gather,
+            texel: include_str!("../../shaders/cube_texel.wgsl"),
+            four: include_str!("../../shaders/cube_four.wgsl"),
+            tap: include_str!("../../shaders/cube_tap.wgsl"),
+        }
+    }
+
+    /// Kernels are written for one cube map, and are WGSL as they stand. On other maps they differ
+    /// in the texture's type, and on flat ones in the names.
+    pub fn adapt(&self, wgsl: &str) -> String {
+        match (self.reads.map, self.reads.many_lights) {
+            (MapKind::Cube, false) => wgsl.to_owned(),
+            (MapKind::Cube, true) => wgsl.replace("texture_cube<f32>", "texture_cube_array<f32>"),
+            (MapKind::Flat, _) => wgsl
+                .replace("texture_cube<f32>", "texture_2d<f32>")
+                .replace("ShadowsCube", "ShadowsFlat")
+                .replace("shadows_cube_", "shadows_flat_"),
+        }
+    }
+
+    /// The same for a module with bindings, whose names have no kind in them for cube maps.
+    pub fn adapt_module(&self, wgsl: &str) -> String {
+        match self.reads.map {
+            MapKind::Cube => self.adapt(wgsl),
+            MapKind::Flat => {
+                let plain = wgsl.replace("shadows_cube_", "shadows_");
+                self.adapt(&plain).replace("shadows_", "shadows_flat_")
+            }
+        }
+    }
+}

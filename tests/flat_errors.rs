@@ -1,0 +1,140 @@
+//! What a flat map refuses, and that it works on afterwards.
+
+mod common;
+
+use common::shapes::square;
+use common::{noop, two_noop_devices};
+use glam::{Affine3A, Mat4, Vec3};
+use shadows::error::{BiasError, CasterError, LightError, PcfError, ShadowMapError};
+use shadows::mesh::Bounds;
+use shadows::{
+    Bias, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, DirectionalLight, FlatLight,
+    MapKind, PcfDescriptor, PcfSampler, ShadowFrame, ShadowMap, ShadowMapDescriptor, View, glam,
+    wgpu,
+};
+
+fn sun() -> FlatLight {
+    FlatLight::Directional(DirectionalLight::new(Vec3::Y))
+}
+
+fn new(descriptor: &ShadowMapDescriptor<'_>) -> Result<ShadowMap, ShadowMapError> {
+    ShadowMap::new(&noop().0, descriptor)
+}
+
+#[test]
+fn sizes_and_biases_out_of_range_are_refused() {
+    for size in [0, 8193] {
+        let descriptor = ShadowMapDescriptor {
+            size,
+            ..Default::default()
+        };
+        let expected = ShadowMapError::Size { size, limit: 8192 };
+        assert_eq!(new(&descriptor).unwrap_err(), expected);
+    }
+    let bias = Bias {
+        constant: -1.0,
+        ..Bias::NONE
+    };
+    let descriptor = ShadowMapDescriptor {
+        bias,
+        ..Default::default()
+    };
+    let field = BiasError {
+        field: "constant",
+        value: -1.0,
+    };
+    assert_eq!(new(&descriptor).unwrap_err(), ShadowMapError::Bias(field));
+}
+
+#[test]
+fn a_bad_frame_is_refused_and_the_map_works_on() {
+    let [(device, queue), (other, _)] = two_noop_devices();
+    let mut map = ShadowMap::new(&device, &ShadowMapDescriptor::default()).unwrap();
+    let casters = [square(1.0).caster(&device, Affine3A::IDENTITY)];
+    let frame = ShadowFrame::new(sun(), &casters);
+    let mut refused = |frame: &ShadowFrame<'_>| map.prepare(&device, &queue, frame).unwrap_err();
+
+    let light = FlatLight::Directional(DirectionalLight::new(Vec3::ZERO));
+    let error = refused(&ShadowFrame { light, ..frame });
+    assert_eq!(error, ShadowMapError::Light(LightError::Direction));
+
+    let foreign = [square(1.0).caster(&other, Affine3A::IDENTITY)];
+    let error = refused(&ShadowFrame::new(sun(), &foreign));
+    let expected = CasterError::Device { index: 0 };
+    assert_eq!(error, ShadowMapError::Caster(expected));
+
+    let projection = glam::camera::rh::proj::directx::perspective_infinite_reverse(0.8, 1.5, 0.1);
+    let view = View::new(
+        projection * Mat4::IDENTITY,
+        DepthConvention::InfiniteReverse,
+    )
+    .unwrap();
+    for distance in [0.0, -1.0, f32::INFINITY] {
+        let view = Some((&view, distance));
+        let error = refused(&ShadowFrame { view, ..frame });
+        assert_eq!(error, ShadowMapError::Distance(distance));
+    }
+    let receivers = Some(Bounds {
+        min: Vec3::ONE,
+        max: Vec3::ZERO,
+    });
+    let error = refused(&ShadowFrame { receivers, ..frame });
+    let (min, max) = ([1.0; 3], [0.0; 3]);
+    assert_eq!(error, ShadowMapError::Receivers { min, max });
+
+    map.prepare(&device, &queue, &frame).unwrap();
+    assert_eq!(map.statistics().casters_drawn, 1);
+}
+
+#[test]
+fn more_casters_than_a_buffer_holds_are_refused() {
+    let limits = wgpu::Limits {
+        max_buffer_size: 4096,
+        max_uniform_buffer_binding_size: 4096,
+        max_storage_buffer_binding_size: 4096,
+        ..wgpu::Limits::defaults()
+    };
+    let (device, queue) = common::noop_with(wgpu::Features::empty(), limits);
+    let mut map = ShadowMap::new(&device, &ShadowMapDescriptor::default()).unwrap();
+    let casters = vec![square(1.0).caster(&device, Affine3A::IDENTITY); 100];
+    let error = map
+        .prepare(&device, &queue, &ShadowFrame::new(sun(), &casters))
+        .unwrap_err();
+    let expected = ShadowMapError::TooManyCasters {
+        casters: 100,
+        size: 4800,
+        limit: 4096,
+    };
+    assert_eq!(error, expected);
+    map.prepare(&device, &queue, &ShadowFrame::new(sun(), &casters[..50]))
+        .unwrap();
+}
+
+#[test]
+fn a_sampler_refuses_the_other_kind_of_map() {
+    let (device, queue) = noop();
+    let flat = ShadowMap::new(&device, &ShadowMapDescriptor::default()).unwrap();
+    let cube = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default()).unwrap();
+    let sampler = |map| {
+        let descriptor = PcfDescriptor {
+            map,
+            ..Default::default()
+        };
+        PcfSampler::new(&device, &queue, &descriptor).unwrap()
+    };
+    let for_cubes = sampler(MapKind::Cube);
+    let expected = PcfError::Map {
+        made_for: MapKind::Cube,
+        given: MapKind::Flat,
+    };
+    assert_eq!(for_cubes.bind_group(&device, &flat).unwrap_err(), expected);
+    assert!(for_cubes.bind_group(&device, &cube).is_ok());
+    let for_flats = sampler(MapKind::Flat);
+    let expected = PcfError::Map {
+        made_for: MapKind::Flat,
+        given: MapKind::Cube,
+    };
+    assert_eq!(for_flats.bind_group(&device, &cube).unwrap_err(), expected);
+    assert!(for_flats.bind_group_of(&device, &cube, 0).is_err());
+    assert!(for_flats.bind_group(&device, &flat).is_ok());
+}
