@@ -146,7 +146,7 @@ pub struct Shadow {
 enum Means {
     Cube {
         map: Box<CubeShadowMap>,
-        sampler: PcfSampler,
+        sampler: Box<PcfSampler>,
         /// With the revision of the map's texture that it is for.
         group: (u64, wgpu::BindGroup),
         bias: Bias,
@@ -211,7 +211,7 @@ impl Shadow {
             lit,
             means: Means::Cube {
                 map: Box::new(map),
-                sampler,
+                sampler: Box::new(sampler),
                 group,
                 bias,
             },
