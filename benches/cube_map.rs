@@ -6,10 +6,8 @@
 //! - `one_moving_vs_all_moving`, `still_vs_all_moving`: the same scene, one sphere or none moving.
 //! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
 //!   against all moving.
-//! - `one_of_N_vs_still_N`: `prepare` with one caster of N moving against none; what a moved caster
-//!   costs beside N still ones.
-//! - `grid_vs_all_N`: finding the casters within a light's range with a grid, against testing all of
-//!   them one after the other as the map does, for a light that reaches a thousandth of the casters.
+//! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
+//!   among them, moving, against none: what moves beside what does not.
 //!
 //! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
 //! machine that slows down slows both. `--quick` takes fewer rounds.

@@ -150,12 +150,12 @@ impl Support {
             (
                 self.vertex_storage,
                 "storage buffers in vertex shaders",
-                "cube shadow maps only; ShadowVolumeRenderer::new is refused",
+                "the silhouettes of shadow volumes are found in the vertex shader alone",
             ),
             (
                 self.compute,
                 "compute shaders with indirect draws",
-                "cube shadow maps only; ShadowVolumeRenderer::new is refused",
+                "the silhouettes of shadow volumes are found on the CPU",
             ),
             (
                 self.clamp_to_border,

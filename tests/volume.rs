@@ -18,3 +18,5 @@ mod shapes;
 mod stage;
 #[path = "volume/truth.rs"]
 mod truth;
+#[path = "volume/ways.rs"]
+mod ways;

@@ -1,7 +1,6 @@
 //! Omnidirectional shadow maps.
 
 use std::collections::HashMap;
-use std::sync::atomic::Ordering;
 
 use glam::Mat4;
 
@@ -9,11 +8,9 @@ use super::assign::assign;
 use super::descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 use super::draws::DrawLists;
 use super::face::CubeFace;
-use super::light::{Depths, LightUniform};
+use super::light::LightUniform;
 use super::plan::SlotPlan;
-use super::resources::{
-    self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind, UNIFORM_STRIDE,
-};
+use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
 use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
@@ -36,37 +33,55 @@ use crate::{Bias, PointLight};
 /// alone. This is found by comparing, so there is no flag to set; only a mesh that the host deforms
 /// in its own buffer needs [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision). The
 /// order of the casters does not matter. A still scene costs one comparison of 80 bytes a caster
-/// and no GPU work; a caster that moves costs two culling tests a light, and the faces it left or
-/// entered their draws.
+/// and no GPU work; a caster that moves costs a culling test a light, and the faces it left or
+/// entered their draws; a light that moves tests all casters, spheres first.
+///
+/// `prepare` for 16 lights that reach some 700 casters each, on one core of a shared server, medians
+/// of the bench `cube_map`:
+///
+/// | casters | none moved | one moved | one light moved |
+/// |---|---|---|---|
+/// | 100 | 0.02 ms | 0.06 ms | 0.06 ms |
+/// | 10,000 | 0.04 ms | 0.09 ms | 0.17 ms |
+/// | 100,000 | 0.46 ms | 0.61 ms | 0.82 ms |
+///
+/// Comparing the casters costs more than finding those in a light's range, so there is no spatial
+/// structure to keep up to date.
+///
+/// # What depths are at fault for
+///
+/// On the 64 spheres of the example `compare` (1280 x 720 pixels, one bilinear tap) 0.28 % of the
+/// pixels are wrong at 512 texels a face, 0.14 % at 1024 and 0.07 % at 2048, none of them away from
+/// an outline.
 #[derive(Debug)]
 pub struct CubeShadowMap {
     pub(super) size: u32,
-    bias: Bias,
-    label: String,
-    array: bool,
-    format: wgpu::TextureFormat,
-    encoding: DepthEncoding,
+    pub(super) bias: Bias,
+    pub(super) label: String,
+    pub(super) array: bool,
+    pub(super) format: wgpu::TextureFormat,
+    pub(super) encoding: DepthEncoding,
     pub(super) allocation: Allocation,
     pub(super) cache: bool,
     pub(super) budget: Option<u32>,
     pub(super) textures: Textures,
-    kind: PipelineKind,
-    pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    face_uniforms: wgpu::Buffer,
-    face_group: wgpu::BindGroup,
-    lights: resources::Lights,
-    instances: wgpu::Buffer,
+    pub(super) kind: PipelineKind,
+    pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
+    pub(super) face_uniforms: wgpu::Buffer,
+    pub(super) face_group: wgpu::BindGroup,
+    pub(super) lights: resources::Lights,
+    pub(super) instances: wgpu::Buffer,
     pub(super) scene: Scene,
     pub(super) slots: Vec<Slot>,
     /// For each light of the frame its slot.
     pub(super) order: Vec<usize>,
     pub(super) plans: Vec<SlotPlan>,
-    draws: DrawLists,
+    pub(super) draws: DrawLists,
     // What the uniforms hold, by light and by slot.
-    written_lights: Vec<Option<LightUniform>>,
-    written_faces: Vec<Option<[f32; 2]>>,
-    statistics: CubeStatistics,
-    reordered: u64,
+    pub(super) written_lights: Vec<Option<LightUniform>>,
+    pub(super) written_faces: Vec<Option<[f32; 2]>>,
+    pub(super) statistics: CubeStatistics,
+    pub(super) reordered: u64,
 }
 
 impl CubeShadowMap {
@@ -180,50 +195,6 @@ impl CubeShadowMap {
         statistics.prepare = clock.elapsed();
         self.statistics = statistics;
         Ok(())
-    }
-
-    /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
-    /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        for (index, slot) in self.slots.iter().enumerate() {
-            let pending = slot.pending.swap(0, Ordering::Relaxed);
-            for face in CubeFace::ALL {
-                if pending & face.bit() == 0 {
-                    continue;
-                }
-                let Some(mut pass) = self.begin_pass(encoder, index, face) else {
-                    continue; // prepare made the texture of every slot with pending faces
-                };
-                let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
-                pass.set_bind_group(0, &self.face_group, &[offset]);
-                for draw in self.draws.of(index, face.layer() as usize) {
-                    draw.record(&mut pass, &self.pipelines, &self.instances);
-                }
-                slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
-            }
-        }
-    }
-
-    /// Begins a pass that clears one face of a light, for a host that draws its own geometry
-    /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
-    /// one sample, the comparison and clear depth of its [`DepthEncoding`]. `None` if the light has
-    /// no texels (see [`Allocation::AtOnce`]) or the last frame had no such light.
-    ///
-    /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew on this face
-    /// is cleared, so pass such a host's other casters through its own draws too. The next
-    /// `prepare` takes the face's content for unknown and draws it again.
-    pub fn begin_face<'encoder>(
-        &self,
-        encoder: &'encoder mut wgpu::CommandEncoder,
-        light: usize,
-        face: CubeFace,
-    ) -> Option<wgpu::RenderPass<'encoder>> {
-        let &index = self.order.get(light)?;
-        let pass = self.begin_pass(encoder, index, face)?;
-        let slot = &self.slots[index];
-        slot.pending.fetch_and(!face.bit(), Ordering::Relaxed);
-        slot.touched.fetch_or(face.bit(), Ordering::Relaxed);
-        Some(pass)
     }
 
     /// The matrix of a face for a light of the last [`prepare`](Self::prepare), world space to clip
@@ -354,135 +325,5 @@ impl CubeShadowMap {
                 slot.set_light(light, &self.scene);
             }
         }
-    }
-
-    /// Makes the instance buffer large enough.
-    fn reserve(
-        &mut self,
-        device: &wgpu::Device,
-        plans: &[SlotPlan],
-    ) -> Result<(), CubeShadowMapError> {
-        let mut count = 0;
-        for (slot, plan) in self.slots.iter().zip(plans) {
-            for face in CubeFace::ALL {
-                if plan.drawn & face.bit() != 0 {
-                    count += slot.faces[face.layer() as usize].content.casters as usize;
-                }
-            }
-        }
-        let limit = device.limits().max_buffer_size;
-        let size = count as u64 * INSTANCE_SIZE;
-        if size > limit {
-            return Err(CubeShadowMapError::TooManyCasters {
-                instances: count,
-                size,
-                limit,
-            });
-        }
-        if size > self.instances.size() {
-            let room = (count.next_power_of_two() as u64).min(limit / INSTANCE_SIZE);
-            self.instances = resources::instances(device, &self.label, room);
-        }
-        Ok(())
-    }
-
-    fn record_draws(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        plans: &[SlotPlan],
-        frame: &CubeFrame<'_>,
-    ) {
-        self.draws.clear();
-        for (index, plan) in plans.iter().enumerate() {
-            if plan.drawn == 0 {
-                continue;
-            }
-            let slot = &self.slots[index];
-            self.draws
-                .add(index, slot, plan.drawn, &self.scene, frame.casters);
-            if let Some(light) = slot.light {
-                self.write_faces(queue, index, &light);
-            }
-        }
-        for draw in self.draws.iter() {
-            let key = draw.key();
-            self.pipelines
-                .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
-        }
-        if !self.draws.instances.is_empty() {
-            let bytes = bytemuck::cast_slice(&self.draws.instances);
-            queue.write_buffer(&self.instances, 0, bytes);
-        }
-    }
-
-    fn write_faces(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
-        let content = Some([light.near, light.range]);
-        if self.written_faces[slot] == content {
-            return;
-        }
-        self.written_faces[slot] = content;
-        for face in CubeFace::ALL {
-            let uniform = FaceUniform {
-                clip_from_light: face.clip_from_light(light.near).to_cols_array(),
-                range: light.range,
-                padding: [0.0; 3],
-            };
-            let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
-            queue.write_buffer(&self.face_uniforms, offset, bytemuck::bytes_of(&uniform));
-        }
-    }
-
-    fn write_lights(&mut self, queue: &wgpu::Queue, lights: &[PointLight]) {
-        for (place, wanted) in lights.iter().enumerate() {
-            let index = self.order[place];
-            let slot = &self.slots[index];
-            let depths = match (self.textures.slot(index), slot.shown) {
-                (None, _) => Depths::NoCaster,
-                (Some(_), Some(shown))
-                    if slot.casting == 0
-                        && shown == *wanted
-                        && self.allocation == Allocation::WithFirstCaster =>
-                {
-                    Depths::NoCaster
-                }
-                (Some(_), Some(_)) if self.array => Depths::Cube(index as i32),
-                (Some(_), Some(_)) => Depths::Cube(0),
-                (Some(_), None) => Depths::NotYet,
-            };
-            let light = slot.shown.unwrap_or(*wanted);
-            let uniform = LightUniform::new(&light, depths, self.size, &self.bias, self.format);
-            if self.written_lights[place] == Some(uniform) {
-                continue;
-            }
-            self.written_lights[place] = Some(uniform);
-            let bytes = bytemuck::bytes_of(&uniform);
-            queue.write_buffer(&self.lights.uniforms, place as u64 * UNIFORM_STRIDE, bytes);
-            if let Some(all) = &self.lights.all {
-                queue.write_buffer(all, place as u64 * bytes.len() as u64, bytes);
-            }
-        }
-    }
-
-    fn begin_pass<'encoder>(
-        &self,
-        encoder: &'encoder mut wgpu::CommandEncoder,
-        slot: usize,
-        face: CubeFace,
-    ) -> Option<wgpu::RenderPass<'encoder>> {
-        let texture = self.textures.slot(slot)?;
-        Some(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(&format!("{} {slot} {face:?}", self.label)),
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &texture.faces[face.layer() as usize],
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(self.encoding.clear_depth()),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        }))
     }
 }

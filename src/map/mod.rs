@@ -6,6 +6,7 @@ mod cross;
 mod cube;
 mod descriptor;
 mod draws;
+mod encode;
 mod face;
 mod flat;
 mod flat_descriptor;
@@ -18,6 +19,7 @@ mod schedule;
 mod slot;
 mod statistics;
 mod texture;
+mod upload;
 mod visible;
 
 pub use bias::Bias;

@@ -21,4 +21,6 @@ pub use bounds::Bounds;
 pub use caster::{Caster, CasterMesh, HostPositions};
 pub(crate) use data::MeshData;
 pub(crate) use records::EdgeRecord;
+#[cfg(test)]
+pub(crate) use records::edge_records;
 pub use topology::Topology;

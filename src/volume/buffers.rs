@@ -3,7 +3,13 @@
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
-use super::silhouette::Way;
+use super::silhouette::{Way, Ways};
+
+/// Tests read what was extracted.
+const READ_BACK: wgpu::BufferUsages = match cfg!(test) {
+    true => wgpu::BufferUsages::COPY_SRC,
+    false => wgpu::BufferUsages::empty(),
+};
 
 /// A buffer that grows.
 #[derive(Debug)]
@@ -80,7 +86,10 @@ impl Buffers {
             batches: grown("batches", U::UNIFORM | U::COPY_DST),
             instances: grown("instances", U::STORAGE | U::COPY_DST),
             template: grown("argument template", U::COPY_SRC | U::COPY_DST),
-            arguments: grown("arguments", U::STORAGE | U::INDIRECT | U::COPY_DST),
+            arguments: grown(
+                "arguments",
+                U::STORAGE | U::INDIRECT | U::COPY_DST | READ_BACK,
+            ),
             casters: grown("casters", U::UNIFORM | U::COPY_DST),
             chunks: Vec::new(),
             generation: 0,
@@ -191,8 +200,9 @@ impl Buffers {
 
 fn chunk(label: &str, place: usize) -> [Grown; 3] {
     use wgpu::BufferUsages as U;
-    // Only caps are read as indices.
-    let usages = [U::STORAGE, U::STORAGE | U::INDEX, U::STORAGE];
+    // Only caps are read as indices. The CPU may write caps and sides.
+    let list = U::STORAGE | U::COPY_DST | READ_BACK;
+    let usages = [U::STORAGE, list | U::INDEX, list];
     std::array::from_fn(|i| Grown::new(format!("{label} {} {place}", NAMES[i]), usages[i]))
 }
 
@@ -211,21 +221,22 @@ fn spread<T: bytemuck::NoUninit>(items: &[T], device: &wgpu::Device) -> Vec<u8> 
 }
 
 impl PlanLimits {
-    /// What the device's limits allow.
-    pub fn of(limits: &wgpu::Limits) -> Self {
+    /// What the device's limits allow to those who look for silhouettes in these ways.
+    pub fn of(limits: &wgpu::Limits, ways: &Ways) -> Self {
         let storage_bytes = limits
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
         // Dynamic offsets are 32 bits wide.
         let uniform_bytes = limits.max_buffer_size.min(u64::from(u32::MAX));
-        let casters = [
-            uniform_bytes / window::<CasterParams>(limits),
+        let of_compute = [
             uniform_bytes / window::<BatchParams>(limits),
             storage_bytes / size_of::<InstanceParams>() as u64,
             storage_bytes / size_of::<Arguments>() as u64,
-        ]
-        .into_iter()
-        .fold(u64::MAX, u64::min);
+        ];
+        let of_compute = of_compute
+            .into_iter()
+            .filter(|_| ways.contain(Way::Compute));
+        let casters = of_compute.fold(uniform_bytes / window::<CasterParams>(limits), u64::min);
         Self {
             buffer_bytes: limits.max_buffer_size,
             storage_bytes,

@@ -111,7 +111,7 @@ impl ShadowVolumeRenderer {
                 view: frame.view.depth(),
             });
         }
-        let limits = PlanLimits::of(&device.limits());
+        let limits = PlanLimits::of(&device.limits(), &self.ways);
         let mut plan = Plan::new(frame, device, &limits, &self.ways, &self.kept())?;
         if !plan.draws.is_empty() {
             let generation = self.buffers.generation();
@@ -275,3 +275,7 @@ impl ShadowVolumeRenderer {
         self.groups.update(&self.plan, &parts);
     }
 }
+
+#[cfg(test)]
+#[path = "agreement.rs"]
+mod agreement;

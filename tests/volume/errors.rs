@@ -6,7 +6,7 @@ use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::mesh::Adjacency;
 use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
+    ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
 use crate::shapes;
@@ -42,6 +42,13 @@ fn two_devices() -> [(wgpu::Device, wgpu::Queue); 2] {
 
 fn new(device: &wgpu::Device, descriptor: ShadowVolumeDescriptor<'_>) -> Result<(), Error> {
     ShadowVolumeRenderer::new(device, &descriptor).map(|_| ())
+}
+
+fn by_compute() -> ShadowVolumeDescriptor<'static> {
+    ShadowVolumeDescriptor {
+        silhouettes: Silhouettes::Compute,
+        ..Default::default()
+    }
 }
 
 fn view(depth: DepthConvention) -> View {
@@ -146,7 +153,7 @@ fn limits_that_are_too_low_are_named() {
     };
     let (device, _) = noop(wgpu::Features::empty(), limits);
     assert_eq!(
-        new(&device, ShadowVolumeDescriptor::default()),
+        new(&device, by_compute()),
         Err(Error::Limit {
             name: "max_storage_buffers_per_shader_stage",
             needed: 6,
@@ -157,7 +164,7 @@ fn limits_that_are_too_low_are_named() {
         wgpu::Features::empty(),
         wgpu::Limits::downlevel_webgl2_defaults(),
     );
-    let error = new(&device, ShadowVolumeDescriptor::default());
+    let error = new(&device, by_compute());
     assert!(matches!(error, Err(Error::Limit { .. })), "{error:?}");
 }
 
@@ -298,8 +305,7 @@ fn more_casters_than_fit_are_refused() {
         ..wgpu::Limits::defaults()
     };
     let (device, queue) = noop(wgpu::Features::empty(), limits);
-    let mut renderer =
-        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let mut renderer = ShadowVolumeRenderer::new(&device, &by_compute()).unwrap();
     let view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 17);
     let frame = |count| ShadowVolumeFrame {
@@ -328,8 +334,7 @@ fn a_batch_is_split_where_a_buffer_would_be_too_large() {
         ..wgpu::Limits::defaults()
     };
     let (device, queue) = noop(wgpu::Features::empty(), limits);
-    let mut renderer =
-        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let mut renderer = ShadowVolumeRenderer::new(&device, &by_compute()).unwrap();
     let casters = cubes(&device, 16);
     let frame = ShadowVolumeFrame {
         view: &view(DepthConvention::InfiniteReverse),

@@ -159,7 +159,7 @@ impl Stage {
         ReferenceScene::new(&objects).unwrap()
     }
 
-    fn descriptor(&self) -> ShadowVolumeDescriptor<'_> {
+    pub fn descriptor(&self) -> ShadowVolumeDescriptor<'_> {
         ShadowVolumeDescriptor {
             label: Some("test"),
             depth_stencil_format: self.format,
@@ -167,6 +167,7 @@ impl Stage {
             depth: self.depth,
             color_formats: &[],
             cap_bias_ulps: self.cap_bias_ulps,
+            ..Default::default()
         }
     }
 

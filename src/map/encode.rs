@@ -1,0 +1,74 @@
+//! The passes of a cube map.
+
+use std::sync::atomic::Ordering;
+
+use super::cube::CubeShadowMap;
+use super::face::CubeFace;
+use super::resources::UNIFORM_STRIDE;
+
+impl CubeShadowMap {
+    /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
+    /// call before the next `prepare` records nothing. What is recorded must be submitted.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        for (index, slot) in self.slots.iter().enumerate() {
+            let pending = slot.pending.swap(0, Ordering::Relaxed);
+            for face in CubeFace::ALL {
+                if pending & face.bit() == 0 {
+                    continue;
+                }
+                let Some(mut pass) = self.begin_pass(encoder, index, face) else {
+                    continue; // prepare made the texture of every slot with pending faces
+                };
+                let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
+                pass.set_bind_group(0, &self.face_group, &[offset]);
+                for draw in self.draws.of(index, face.layer() as usize) {
+                    draw.record(&mut pass, &self.pipelines, &self.instances);
+                }
+                slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Begins a pass that clears one face of a light, for a host that draws its own geometry
+    /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
+    /// one sample, the comparison and clear depth of its [`DepthEncoding`]. `None` if the light has
+    /// no texels (see [`Allocation::AtOnce`]) or the last frame had no such light.
+    ///
+    /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew on this face
+    /// is cleared, so pass such a host's other casters through its own draws too. The next
+    /// `prepare` takes the face's content for unknown and draws it again.
+    pub fn begin_face<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        light: usize,
+        face: CubeFace,
+    ) -> Option<wgpu::RenderPass<'encoder>> {
+        let &index = self.order.get(light)?;
+        let pass = self.begin_pass(encoder, index, face)?;
+        let slot = &self.slots[index];
+        slot.pending.fetch_and(!face.bit(), Ordering::Relaxed);
+        slot.touched.fetch_or(face.bit(), Ordering::Relaxed);
+        Some(pass)
+    }
+
+    fn begin_pass<'encoder>(
+        &self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        slot: usize,
+        face: CubeFace,
+    ) -> Option<wgpu::RenderPass<'encoder>> {
+        let texture = self.textures.slot(slot)?;
+        Some(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&format!("{} {slot} {face:?}", self.label)),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &texture.faces[face.layer() as usize],
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(self.encoding.clear_depth()),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        }))
+    }
+}

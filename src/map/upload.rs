@@ -1,0 +1,121 @@
+//! What a frame of a cube map uploads.
+
+use super::cube::CubeShadowMap;
+use super::descriptor::{Allocation, CubeFrame};
+use super::face::CubeFace;
+use super::light::{Depths, LightUniform};
+use super::plan::SlotPlan;
+use super::resources::{self, FaceUniform, INSTANCE_SIZE, UNIFORM_STRIDE};
+use crate::PointLight;
+use crate::error::CubeShadowMapError;
+
+impl CubeShadowMap {
+    /// Makes the instance buffer large enough.
+    pub(super) fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        plans: &[SlotPlan],
+    ) -> Result<(), CubeShadowMapError> {
+        let mut count = 0;
+        for (slot, plan) in self.slots.iter().zip(plans) {
+            for face in CubeFace::ALL {
+                if plan.drawn & face.bit() != 0 {
+                    count += slot.faces[face.layer() as usize].content.casters as usize;
+                }
+            }
+        }
+        let limit = device.limits().max_buffer_size;
+        let size = count as u64 * INSTANCE_SIZE;
+        if size > limit {
+            return Err(CubeShadowMapError::TooManyCasters {
+                instances: count,
+                size,
+                limit,
+            });
+        }
+        if size > self.instances.size() {
+            let room = (count.next_power_of_two() as u64).min(limit / INSTANCE_SIZE);
+            self.instances = resources::instances(device, &self.label, room);
+        }
+        Ok(())
+    }
+
+    pub(super) fn record_draws(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        plans: &[SlotPlan],
+        frame: &CubeFrame<'_>,
+    ) {
+        self.draws.clear();
+        for (index, plan) in plans.iter().enumerate() {
+            if plan.drawn == 0 {
+                continue;
+            }
+            let slot = &self.slots[index];
+            self.draws
+                .add(index, slot, plan.drawn, &self.scene, frame.casters);
+            if let Some(light) = slot.light {
+                self.write_faces(queue, index, &light);
+            }
+        }
+        for draw in self.draws.iter() {
+            let key = draw.key();
+            self.pipelines
+                .entry(key)
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
+        }
+        if !self.draws.instances.is_empty() {
+            let bytes = bytemuck::cast_slice(&self.draws.instances);
+            queue.write_buffer(&self.instances, 0, bytes);
+        }
+    }
+
+    fn write_faces(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
+        let content = Some([light.near, light.range]);
+        if self.written_faces[slot] == content {
+            return;
+        }
+        self.written_faces[slot] = content;
+        for face in CubeFace::ALL {
+            let uniform = FaceUniform {
+                clip_from_light: face.clip_from_light(light.near).to_cols_array(),
+                range: light.range,
+                padding: [0.0; 3],
+            };
+            let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
+            queue.write_buffer(&self.face_uniforms, offset, bytemuck::bytes_of(&uniform));
+        }
+    }
+
+    pub(super) fn write_lights(&mut self, queue: &wgpu::Queue, lights: &[PointLight]) {
+        for (place, wanted) in lights.iter().enumerate() {
+            let index = self.order[place];
+            let slot = &self.slots[index];
+            let depths = match (self.textures.slot(index), slot.shown) {
+                (None, _) => Depths::NoCaster,
+                (Some(_), Some(shown))
+                    if slot.casting == 0
+                        && shown == *wanted
+                        && self.allocation == Allocation::WithFirstCaster =>
+                {
+                    Depths::NoCaster
+                }
+                (Some(_), Some(_)) if self.array => Depths::Cube(index as i32),
+                (Some(_), Some(_)) => Depths::Cube(0),
+                (Some(_), None) => Depths::NotYet,
+            };
+            let light = slot.shown.unwrap_or(*wanted);
+            let uniform = LightUniform::new(&light, depths, self.size, &self.bias, self.format);
+            if self.written_lights[place] == Some(uniform) {
+                continue;
+            }
+            self.written_lights[place] = Some(uniform);
+            let bytes = bytemuck::bytes_of(&uniform);
+            queue.write_buffer(&self.lights.uniforms, place as u64 * UNIFORM_STRIDE, bytes);
+            if let Some(all) = &self.lights.all {
+                queue.write_buffer(all, place as u64 * bytes.len() as u64, bytes);
+            }
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! The three ways to find silhouettes give the same volume, edge for edge.
+
+#[allow(dead_code)]
+#[path = "../../examples/host/gpu.rs"]
+mod gpu;
+#[allow(dead_code)]
+#[path = "../../tests/volume/shapes.rs"]
+mod shapes;
+
+use glam::camera::rh::{proj::directx as proj, view};
+use glam::{Affine3A, Quat, Vec3};
+use wgpu::util::DeviceExt as _;
+
+use super::*;
+use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
+use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, View};
+use gpu::Gpu;
+use shapes::Shape;
+
+/// One instance's volume, in an order of its own.
+#[derive(Debug, PartialEq)]
+struct Volume {
+    front: Vec<[u32; 3]>,
+    back: Vec<[u32; 3]>,
+    sides: Vec<u32>,
+}
+
+fn frame<'a>(view: &'a View, light: Vec3, casters: &'a [Caster]) -> ShadowVolumeFrame<'a> {
+    ShadowVolumeFrame {
+        view,
+        light: HomogeneousLight::point(light),
+        range: None,
+        casters,
+    }
+}
+
+fn camera() -> View {
+    let camera = view::look_at_mat4(Vec3::new(1.0, 5.0, 9.0), Vec3::ZERO, Vec3::Y);
+    let projection = proj::perspective_infinite_reverse(0.9, 1.0, 0.1);
+    View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap()
+}
+
+fn casters(gpu: &Gpu) -> Vec<Caster> {
+    let place = Affine3A::from_rotation_translation(
+        Quat::from_rotation_x(0.3) * Quat::from_rotation_y(0.8),
+        Vec3::new(0.3, 1.0, -0.2),
+    );
+    let caster = |shape: Shape| {
+        let adjacency = Adjacency::new(&shape.positions, &shape.indices).unwrap();
+        let mesh = crate::CasterMesh::new(&gpu.device, &shape.positions, &adjacency).unwrap();
+        Caster::new(mesh, place)
+    };
+    vec![
+        caster(shapes::sphere(24)),
+        caster(shapes::sphere(9).turned(|triangle| triangle % 3 == 0)),
+        caster(shapes::fins(3)),
+        caster(shapes::fins(4).with(&shapes::cube())),
+    ]
+}
+
+fn renderer(gpu: &Gpu, silhouettes: Silhouettes) -> ShadowVolumeRenderer {
+    let descriptor = ShadowVolumeDescriptor {
+        silhouettes,
+        ..Default::default()
+    };
+    ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap()
+}
+
+/// What lies in the buffers after an extraction.
+fn extracted(gpu: &Gpu, way: Silhouettes, light: Vec3, casters: &[Caster]) -> Vec<Volume> {
+    let mut renderer = renderer(gpu, way);
+    let view = camera();
+    let frame = frame(&view, light, casters);
+    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    gpu.run(|encoder| renderer.encode(encoder));
+    let words = |buffer| bytemuck::pod_collect_to_vec::<u8, u32>(&gpu.read_buffer(buffer));
+    let bound = renderer.buffers.bound();
+    let arguments = bound.map(|bound| words(bound.arguments));
+    let volume = |(index, slot): (usize, &super::super::kept::Slot)| {
+        let [_, caps, sides] = renderer.buffers.chunk(slot.chunk).unwrap();
+        let (caps, sides) = (words(caps), words(sides));
+        let step = renderer.plan.casters[index].side_vertices;
+        let cap_base = slot.instance.cap_base;
+        let (front, back, count) = match slot.way {
+            Way::Cpu => {
+                let middle = cap_base + slot.counts.front;
+                let end = middle + slot.counts.back;
+                (cap_base..middle, middle..end, slot.counts.sides)
+            }
+            _ => {
+                let own = &arguments.as_ref().unwrap()[16 * index..][..16];
+                assert_eq!(own[10] % step, 0);
+                let front = own[2]..own[2] + own[0];
+                (front, own[7]..own[7] + own[5], own[10] / step)
+            }
+        };
+        let list = |range: std::ops::Range<u32>| {
+            let (corners, _) = caps[range.start as usize..range.end as usize].as_chunks::<3>();
+            let mut corners = corners.to_vec();
+            corners.sort_unstable();
+            corners
+        };
+        let first = slot.instance.side_base as usize;
+        let mut sides = sides[first..first + count as usize].to_vec();
+        sides.sort_unstable();
+        Volume {
+            front: list(front),
+            back: list(back),
+            sides,
+        }
+    };
+    renderer.plan.slots.iter().enumerate().map(volume).collect()
+}
+
+const COUNT: &str = "
+@group(0) @binding(1) var<storage, read> records: array<array<u32, 19>>;
+@group(0) @binding(2) var<storage, read_write> counts: array<i32>;
+fn corner(record: u32, n: u32) -> vec3f {
+    return vec3f(
+        bitcast<f32>(records[record][3u * n]),
+        bitcast<f32>(records[record][3u * n + 1u]),
+        bitcast<f32>(records[record][3u * n + 2u]),
+    );
+}
+@compute @workgroup_size(64)
+fn count(@builtin(global_invocation_id) id: vec3u) {
+    let i = id.x;
+    if i < arrayLength(&counts) {
+        counts[i] = side_count(Edge(
+            corner(i, 0u), corner(i, 1u), corner(i, 2u), corner(i, 3u), corner(i, 4u),
+            corner(i, 5u), records[i][18],
+        ));
+    }
+}
+";
+
+/// The sides that the vertex shader's own functions find, those of one edge added up.
+fn found_by_vertices(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> Vec<Vec<u32>> {
+    let mut renderer = renderer(gpu, Silhouettes::Vertex);
+    let view = camera();
+    let frame = frame(&view, light, casters);
+    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    let instances = renderer.plan.slots.iter().zip(&renderer.plan.casters);
+    instances
+        .map(|(slot, params)| {
+            let data = slot.mesh.data().unwrap();
+            let records = edge_records(data, slot.mesh.kind());
+            let counts = counted(gpu, bytemuck::bytes_of(params), &records);
+            let mut counts = counts.into_iter();
+            let mut sides = Vec::new();
+            for (edge, record) in (0u32..).zip(&data.edges) {
+                let pairs = match slot.mesh.kind() {
+                    MeshKind::Closed => 1,
+                    MeshKind::General => record[3].div_ceil(2),
+                };
+                let sum: i32 = counts.by_ref().take(pairs as usize).sum();
+                let side = edge << 1 | u32::from(sum < 0);
+                sides.extend((0..sum.unsigned_abs()).map(|_| side));
+            }
+            assert_eq!(counts.next(), None);
+            sides
+        })
+        .collect()
+}
+
+fn counted(gpu: &Gpu, params: &[u8], records: &[EdgeRecord]) -> Vec<i32> {
+    let device = &gpu.device;
+    let buffer = |contents, usage| {
+        let label = None;
+        device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label,
+            contents,
+            usage,
+        })
+    };
+    let zeros = vec![0u8; 4 * records.len()];
+    let storage = wgpu::BufferUsages::STORAGE;
+    let buffers = [
+        buffer(params, wgpu::BufferUsages::UNIFORM),
+        buffer(bytemuck::cast_slice(records), storage),
+        buffer(&zeros, storage | wgpu::BufferUsages::COPY_SRC),
+    ];
+    let source = Feed::Records.source() + COUNT;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: None,
+        module: &module,
+        entry_point: Some("count"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let entries: Vec<_> = (0..)
+        .zip(&buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &entries,
+    });
+    gpu.run(|encoder| {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups((records.len() as u32).div_ceil(64), 1, 1);
+    });
+    bytemuck::pod_collect_to_vec(&gpu.read_buffer(&buffers[2]))
+}
+
+/// Far, near, in the plane of faces, inside.
+const LIGHTS: [[f32; 3]; 4] = [
+    [-2.0, 6.0, 2.5],
+    [0.3, 2.3, 0.1],
+    [0.3, 1.0, 40.0],
+    [0.35, 1.05, -0.15],
+];
+
+#[test]
+fn the_three_ways_find_the_same_sides_and_caps() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let casters = casters(&gpu);
+    for light in LIGHTS.map(Vec3::from) {
+        let cpu = extracted(&gpu, Silhouettes::Cpu, light, &casters);
+        assert_eq!(cpu.len(), casters.len());
+        assert!(
+            cpu.iter()
+                .all(|v| !v.front.is_empty() && !v.sides.is_empty() || light.x == 0.35)
+        );
+        assert!(cpu == extracted(&gpu, Silhouettes::Compute, light, &casters));
+        let sides: Vec<_> = cpu.iter().map(|v| v.sides.clone()).collect();
+        assert!(sides == found_by_vertices(&gpu, light, &casters));
+    }
+}
+
+#[test]
+fn another_light_has_another_volume() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let casters = casters(&gpu);
+    let [here, there] = [Vec3::from(LIGHTS[0]), Vec3::from(LIGHTS[1])];
+    let cpu = extracted(&gpu, Silhouettes::Cpu, here, &casters);
+    assert!(cpu != extracted(&gpu, Silhouettes::Compute, there, &casters));
+    let sides: Vec<_> = cpu.iter().map(|v| v.sides.clone()).collect();
+    assert!(sides != found_by_vertices(&gpu, there, &casters));
+}
