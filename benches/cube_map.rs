@@ -9,18 +9,23 @@
 //! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
 //!   among them, moving, against none: what moves beside what does not.
 //!
+//! - `grid_vs_spheres_N`: on the CPU alone, a hundredth of N casters and 16 lights moving: keeping a
+//!   uniform grid up to date and asking it for what each light reaches, against testing every
+//!   caster's sphere for each light, as the map does.
+//!
 //! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
 //! machine that slows down slows both. `--quick` takes fewer rounds.
 
 #[path = "../examples/host/mod.rs"]
 mod host;
 
+use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
 use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
-use shadows::glam::{Affine3A, Vec3, Vec3A};
+use shadows::glam::{Affine3A, DVec3, DVec4, Vec3, Vec3A, Vec4Swizzles as _};
 use shadows::mesh::Adjacency;
 use shadows::{
     Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu,
@@ -37,6 +42,7 @@ fn main() {
     prepare(&gpu, if quick { 5 } else { 25 });
     for count in [100, 10_000, 100_000] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
+        grid(count, if quick { 5 } else { 25 });
     }
 }
 
@@ -202,4 +208,89 @@ fn one_of_many(gpu: &Gpu, count: usize, rounds: u32) {
         &mut light,
         &mut still,
     );
+}
+
+/// Cells of one light's range, each with the casters whose centres lie in it.
+#[derive(Default)]
+struct Grid {
+    cells: HashMap<[i32; 3], Vec<u32>>,
+}
+
+const RANGE: f64 = 15.0;
+
+impl Grid {
+    fn cell(at: DVec3) -> [i32; 3] {
+        (at / RANGE).floor().as_ivec3().to_array()
+    }
+
+    fn insert(&mut self, index: u32, at: DVec3) {
+        self.cells.entry(Self::cell(at)).or_default().push(index);
+    }
+
+    fn move_to(&mut self, index: u32, from: DVec3, to: DVec3) {
+        if Self::cell(from) != Self::cell(to) {
+            if let Some(cell) = self.cells.get_mut(&Self::cell(from)) {
+                cell.retain(|&other| other != index);
+            }
+            self.insert(index, to);
+        }
+    }
+
+    /// Casters whose spheres (of one radius) reach into a light's range.
+    fn reached(&self, spheres: &[DVec4], light: DVec3) -> usize {
+        let [x, y, z] = Self::cell(light);
+        let mut found = 0;
+        // A sphere's centre may be outside the range by its radius: two cells each way hold it.
+        for dx in -2..=2 {
+            for dy in -2..=2 {
+                for dz in -2..=2 {
+                    if let Some(cell) = self.cells.get(&[x + dx, y + dy, z + dz]) {
+                        let near = |&&i: &&u32| reaches(&spheres[i as usize], light);
+                        found += cell.iter().filter(near).count();
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+fn reaches(sphere: &DVec4, light: DVec3) -> bool {
+    let reach = RANGE + sphere.w;
+    sphere.xyz().distance_squared(light) <= reach * reach
+}
+
+fn grid(count: usize, rounds: u32) {
+    let side = (count as f64).sqrt().ceil();
+    let mut spheres: Vec<DVec4> = (0..count)
+        .map(|i| DVec4::new(i as f64 % side, 0.0, (i as f64 / side).floor(), 0.35))
+        .collect();
+    let mut grid = Grid::default();
+    for (i, sphere) in spheres.iter().enumerate() {
+        grid.insert(i as u32, sphere.xyz());
+    }
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for round in 0..rounds as usize {
+        let lights = (0..16).map(|i| {
+            let at = |k: usize| (k as f64 + 0.5 + 0.01 * round as f64) / 4.0 * side;
+            DVec3::new(at(i % 4), 2.0, at(i / 4))
+        });
+        let lights: Vec<DVec3> = lights.collect();
+        let start = Instant::now();
+        for k in 0..count.div_ceil(100) {
+            let i = (k * 7919 + round) % count;
+            let from = spheres[i].xyz();
+            let to = from + DVec3::new(0.3, 0.0, 0.2);
+            grid.move_to(i as u32, from, to);
+            spheres[i] = to.extend(spheres[i].w);
+        }
+        let sum = |one: &dyn Fn(DVec3) -> usize| lights.iter().map(|&l| one(l)).sum::<usize>();
+        let found = sum(&|light| grid.reached(&spheres, light));
+        with.push(start.elapsed());
+        let start = Instant::now();
+        let all = sum(&|light| spheres.iter().filter(|s| reaches(s, light)).count());
+        without.push(start.elapsed());
+        assert_eq!(found, all, "the grid lost some");
+    }
+    ratio(&format!("grid_vs_spheres_{count}"), &mut with, &mut without);
 }

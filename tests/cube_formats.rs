@@ -71,7 +71,10 @@ fn shell(gpu: &Gpu) -> Shell {
         let (a, b) = direction.any_orthonormal_pair();
         let alike = (0..16).all(|i| {
             let (sine, cosine) = (i as f32 * 0.39).sin_cos();
-            blocked(direction + (a * cosine + b * sine) * 12.0 / 256.0) == here
+            let ring = |texels: f32| (a * cosine + b * sine) * 2.0 * texels / 256.0;
+            [1.5, 3.0, 4.5, 6.0]
+                .into_iter()
+                .all(|texels| blocked(direction + ring(texels)) == here)
         });
         if alike {
             points.push((light().position + direction * 10.0, direction));

@@ -135,7 +135,7 @@ fn interior(field: &Field, light: FlatLight, reach: f32) -> Vec<(Vec3, bool)> {
             let point = Vec3::new(random.next() * 6.0, 0.0, random.next() * 6.0);
             let truth = blocked(point);
             let alike = (0..24).all(|i| {
-                let (sine, cosine) = (i as f32 * 0.7854).sin_cos();
+                let (sine, cosine) = (i as f32 * std::f32::consts::FRAC_PI_4).sin_cos();
                 let radius = reach * (1 + i / 8) as f32 / 3.0;
                 blocked(point + Vec3::new(cosine, 0.0, sine) * radius) == truth
             });

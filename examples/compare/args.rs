@@ -98,7 +98,7 @@ pub enum Technique {
     CubeHard,
     /// Cube shadow map, one bilinear (2 x 2) comparison per pixel.
     Cube2x2,
-    /// Cube shadow map, 16 taps in a disk.
+    /// Cube shadow map, four bilinear comparisons per pixel: 16 texels.
     Cube16,
     /// Cube shadow map of 1024 texels a face, 2 x 2 comparison.
     Cube1024,

@@ -10,6 +10,7 @@ use shadows::{
 };
 
 use crate::host::gpu::Gpu;
+use crate::host::pipelines::visibility_module;
 use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene_gpu::SceneGpu;
 
@@ -146,7 +147,7 @@ pub struct Shadow {
 enum Means {
     Cube {
         map: Box<CubeShadowMap>,
-        sampler: PcfSampler,
+        sampler: Box<PcfSampler>,
         /// With the revision of the map's texture that it is for.
         group: (u64, wgpu::BindGroup),
         bias: Bias,
@@ -197,7 +198,7 @@ impl Shadow {
         let lit = renderer.lit_pipeline(
             gpu,
             &ShadowAccess {
-                module: Some(&sampler.wgsl_module(1)),
+                module: Some(&visibility_module(&sampler)),
                 layout: Some(sampler.bind_group_layout()),
                 stencil: None,
             },
@@ -211,7 +212,7 @@ impl Shadow {
             lit,
             means: Means::Cube {
                 map: Box::new(map),
-                sampler,
+                sampler: Box::new(sampler),
                 group,
                 bias,
             },

@@ -45,8 +45,10 @@ use crate::{Bias, PointLight};
 /// | 10,000 | 0.04 ms | 0.09 ms | 0.17 ms |
 /// | 100,000 | 0.46 ms | 0.61 ms | 0.82 ms |
 ///
-/// Comparing the casters costs more than finding those in a light's range, so there is no spatial
-/// structure to keep up to date.
+/// There is no spatial structure to keep up to date. With a hundredth of the casters and all 16
+/// lights moving, a uniform grid takes 20 times as long as testing every caster's sphere among 100
+/// casters, 0.6 to 0.8 times among 10,000, and a quarter among 100,000 (it would save about 1 ms of
+/// that frame; `grid_vs_spheres_N` of the same bench).
 ///
 /// # What depths are at fault for
 ///

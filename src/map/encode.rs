@@ -31,8 +31,9 @@ impl CubeShadowMap {
 
     /// Begins a pass that clears one face of a light, for a host that draws its own geometry
     /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
-    /// one sample, the comparison and clear depth of its [`DepthEncoding`]. `None` if the light has
-    /// no texels (see [`Allocation::AtOnce`]) or the last frame had no such light.
+    /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding).
+    /// `None` if the light has no texels (see [`Allocation::AtOnce`](crate::Allocation::AtOnce)) or
+    /// the last frame had no such light.
     ///
     /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew on this face
     /// is cleared, so pass such a host's other casters through its own draws too. The next

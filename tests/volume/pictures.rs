@@ -216,6 +216,36 @@ fn caps_do_not_fight_with_a_host_of_other_arithmetic() {
 }
 
 #[test]
+fn every_format_and_convention_bears_a_host_of_other_arithmetic() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let axes = [Vec3::new(3.0, 1.0, 2.0), Vec3::new(-1.0, 2.0, 0.4)];
+    for depth in crate::choices::depths(&gpu) {
+        for format in [
+            wgpu::TextureFormat::Depth24PlusStencil8,
+            wgpu::TextureFormat::Depth32FloatStencil8,
+        ] {
+            if !gpu.device.features().contains(format.required_features()) {
+                continue;
+            }
+            for (axis, method) in axes.into_iter().zip([Method::ZFail, Method::Auto]) {
+                let turned = Affine3A::from_rotation_translation(
+                    Quat::from_axis_angle(axis.normalize(), 1.1),
+                    Vec3::new(0.37, 1.9, -0.23),
+                );
+                let mut stage = Stage {
+                    premultiplied: true,
+                    depth,
+                    format,
+                    ..Stage::new(lamp(), vec![Body::caster(shapes::sphere(24), turned)])
+                };
+                stage.savings.method = method;
+                assert_exact(&gpu, &stage, &format!("{depth:?}, {format:?}, {method:?}"));
+            }
+        }
+    }
+}
+
+#[test]
 fn mirrored_and_orthographic_cameras_turn_faces_the_right_way() {
     let Some(gpu) = Gpu::for_test() else { return };
     for lens in [Lens::Mirrored, Lens::Orthographic] {
