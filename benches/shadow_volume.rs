@@ -5,6 +5,7 @@
 //! interleaved rounds so that a machine that slows down slows both.
 //! - `ratio auto_vs_textbook`: the default renderer over `ShadowVolumeDescriptor::textbook()`.
 //! - `ratio zfail_vs_textbook`: the same with z-fail forced, so without what z-pass saves.
+//! - `ratio infinite_vs_textbook`: the default with volumes that do not end at the light's range.
 //!
 //! Then `prepare` with ten thousand casters, all of them beside the view:
 //! - `ratio skipped_vs_drawn`: a skipped caster over one that is drawn, both on the CPU.
@@ -23,7 +24,7 @@ use host::scene_gpu::SceneGpu;
 use host::timer::Timer;
 use shadows::glam::{Affine3A, Vec3};
 use shadows::{
-    Caster, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    Caster, Extrusion, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
     ShadowVolumeRenderer, View,
 };
 
@@ -157,11 +158,18 @@ fn main() -> anyhow::Result<()> {
             })?,
         ),
         (
+            "infinite",
+            studio.volumes(ShadowVolumeDescriptor {
+                extrusion: Extrusion::Infinite,
+                ..Default::default()
+            })?,
+        ),
+        (
             "textbook",
             studio.volumes(ShadowVolumeDescriptor::textbook())?,
         ),
     ];
-    let mut times = [const { Vec::new() }; 3];
+    let mut times = [const { Vec::new() }; 4];
     for round in 0..=rounds {
         for ((_, volumes), times) in contestants.iter_mut().zip(&mut times) {
             let time = studio.frame(volumes);
@@ -176,8 +184,9 @@ fn main() -> anyhow::Result<()> {
     }
     let [skipped, drawn] = skipped_and_drawn(&studio, rounds.min(7))?;
     println!("a caster skipped {skipped:.3} us, drawn {drawn:.3} us, of {SKIPPED}");
-    println!("ratio auto_vs_textbook {:.3}", medians[0] / medians[2]);
-    println!("ratio zfail_vs_textbook {:.3}", medians[1] / medians[2]);
+    println!("ratio auto_vs_textbook {:.3}", medians[0] / medians[3]);
+    println!("ratio zfail_vs_textbook {:.3}", medians[1] / medians[3]);
+    println!("ratio infinite_vs_textbook {:.3}", medians[2] / medians[3]);
     println!("ratio skipped_vs_drawn {:.3}", skipped / drawn);
     Ok(())
 }

@@ -32,7 +32,7 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub method: Method,
     /// How z-fail closes volumes at their far end. Default [`Caps::AsNeeded`].
     pub caps: Caps,
-    /// How far volumes reach. Default [`Extrusion::Infinite`].
+    /// How far volumes reach. Default [`Extrusion::ToRange`].
     pub extrusion: Extrusion,
     /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
     /// and the draws clipped to what the range covers on screen. Default `true`.
@@ -56,7 +56,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             cap_bias_ulps: 16,
             method: Method::Auto,
             caps: Caps::AsNeeded,
-            extrusion: Extrusion::Infinite,
+            extrusion: Extrusion::ToRange,
             culling: true,
             keep_between_frames: true,
             silhouettes: Silhouettes::Auto,
@@ -66,12 +66,13 @@ impl Default for ShadowVolumeDescriptor<'_> {
 
 impl ShadowVolumeDescriptor<'_> {
     /// The method as it is usually written down (Everitt and Kilgard, 2002): every caster in
-    /// z-fail, with both caps, whether or not its shadow can be seen, the silhouettes searched every
+    /// z-fail, with both caps, to infinity, whether or not its shadow can be seen, the silhouettes searched every
     /// frame. For comparison: it gives the same picture for more work.
     pub fn textbook() -> Self {
         Self {
             method: Method::ZFail,
             caps: Caps::Full,
+            extrusion: Extrusion::Infinite,
             culling: false,
             keep_between_frames: false,
             ..Self::default()

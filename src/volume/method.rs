@@ -62,11 +62,11 @@ pub enum Caps {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Extrusion {
     /// To infinity.
-    #[default]
     Infinite,
     /// Past the frame's `range`, for less to fill: every shadow is complete within the range, and
     /// beyond it, where the light must have no effect, there may be none. Casters around the light,
     /// and lights without a range, have infinite volumes all the same.
+    #[default]
     ToRange,
 }
 

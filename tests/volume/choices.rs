@@ -321,10 +321,14 @@ fn the_scissor_spares_what_the_light_does_not_reach() {
         )
     };
     let truth = stage.truth();
-    let (clipped, _) = draw(&gpu, &stage, Savings::default());
+    let endless = Savings {
+        extrusion: Extrusion::Infinite,
+        ..Default::default()
+    };
+    let (clipped, _) = draw(&gpu, &stage, endless);
     let whole = Savings {
         unculled: true,
-        ..Default::default()
+        ..endless
     };
     let (unclipped, _) = draw(&gpu, &stage, whole);
     for picture in [&clipped, &unclipped] {
@@ -338,7 +342,7 @@ fn the_scissor_spares_what_the_light_does_not_reach() {
     // The twin: clipped to a light elsewhere, a part of the shadow is missing.
     let mut elsewhere = stage.clone();
     elsewhere.range = Some(1.2);
-    let (broken, _) = draw(&gpu, &elsewhere, Savings::default());
+    let (broken, _) = draw(&gpu, &elsewhere, endless);
     assert!(truth.errors(&broken).wrong > 50);
 }
 

@@ -149,11 +149,11 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
         method: Method::ZFail,
         ..Default::default()
     };
-    let to_range = Savings {
-        extrusion: Extrusion::ToRange,
+    let infinite = Savings {
+        extrusion: Extrusion::Infinite,
         ..Default::default()
     };
-    let third = if seed % 2 == 0 { TEXTBOOK } else { to_range };
+    let third = if seed % 2 == 0 { TEXTBOOK } else { infinite };
     let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
     for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
         let silhouettes = ways[(seed / 4 + turn) as usize % 3];
