@@ -164,5 +164,6 @@ pub use pcf::{Kernel, PcfDescriptor, PcfSampler};
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    LightJoin, LightJoinDescriptor, ShadowMask, ShadowMaskDescriptor, ShadowVolumeDescriptor,
+    ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
 };

@@ -12,6 +12,8 @@ mod light_pass;
 mod passes;
 #[path = "volume/pictures.rs"]
 mod pictures;
+#[path = "volume/screen.rs"]
+mod screen;
 #[path = "volume/shapes.rs"]
 mod shapes;
 #[path = "volume/stage.rs"]
