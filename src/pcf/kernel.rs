@@ -172,8 +172,6 @@ pub(super) struct KernelUniform {
     pub frame_shift: f32,
     pub taps: u32,
     pub first_taps: u32,
-    pub pad: [u32; 2],
-    pub offsets: [[f32; 4]; MAX_TAPS as usize / 2],
 }
 
 /// The most taps that a table of offsets holds.
@@ -216,7 +214,6 @@ mod tests {
             ("frame_shift", offset_of!(KernelUniform, frame_shift)),
             ("taps", offset_of!(KernelUniform, taps)),
             ("first_taps", offset_of!(KernelUniform, first_taps)),
-            ("offsets", offset_of!(KernelUniform, offsets)),
         ];
         assert_eq!(theirs, ours);
         assert_eq!(span, size_of::<KernelUniform>());
