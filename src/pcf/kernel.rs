@@ -55,10 +55,10 @@ impl Kernel {
         Self::ContactHardening(ContactHardening::DEFAULT),
     ];
 
-    /// The kernel's radius: how far from a shadow's true edge its result may be anything but 0 or
-    /// 1. Disks reach half a texel further, to the centre of the texel that a tap falls on, and are
-    /// measured on the surface: towards the corners of a face and of a frustum, texels are smaller
-    /// than straight ahead, and a radius of one texel may cover `sqrt(3)` of them.
+    /// The kernel's radius: how far from a shadow's true edge its result may be anything but lit or
+    /// unlit. Disks reach half a texel further, to the centre of the texel that a tap falls on, and
+    /// are measured on the surface: towards the corners of a face and of a frustum, texels are
+    /// smaller than straight ahead, and a radius of one texel may cover `sqrt(3)` of them.
     pub fn radius(self) -> Radius {
         match self {
             Self::Hard => Radius::Texels(0.5),
