@@ -69,9 +69,11 @@ fn shell(gpu: &Gpu) -> Shell {
         // Away from the shadows' outlines: six texels around all see the same.
         let here = blocked(direction);
         let (a, b) = direction.any_orthonormal_pair();
-        let alike = (0..16).all(|i| {
+        // Rings inside as well: small casters and gaps fit between the outer one and the centre.
+        let alike = (0..48).all(|i| {
             let (sine, cosine) = (i as f32 * 0.39).sin_cos();
-            blocked(direction + (a * cosine + b * sine) * 12.0 / 256.0) == here
+            let texels = 4.0 * (1 + i / 16) as f32;
+            blocked(direction + (a * cosine + b * sine) * texels / 256.0) == here
         });
         if alike {
             points.push((light().position + direction * 10.0, direction));
