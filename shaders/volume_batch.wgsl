@@ -3,10 +3,11 @@
 const WORKGROUP: u32 = 256u;
 
 // Words of indirect arguments an instance owns, and where in them the counts lie.
-const ARGS_STRIDE: u32 = 16u;
+const ARGS_STRIDE: u32 = 18u;
 const ARGS_FRONT: u32 = 0u; // indexed draw of the caps that count +1
 const ARGS_BACK: u32 = 5u; // indexed draw of the caps that count -1
-const ARGS_SIDES: u32 = 10u; // draw of the sides
+const ARGS_QUADS: u32 = 10u; // draw of the sides, six vertices each
+const ARGS_TRIANGLES: u32 = 14u; // draw of the sides, three vertices each
 
 struct Batch {
     first_instance: u32,
@@ -15,11 +16,9 @@ struct Batch {
     // In words of 4 bytes.
     position_stride: u32,
     position_offset: u32,
-    // 6 for a quad, 3 where the far edge is one point at infinity.
-    side_vertices: u32,
     // 0: an edge record names its two triangles; 1: its first use and their number.
     general: u32,
-    padding: u32,
+    padding: vec2u,
 }
 
 struct Instance {

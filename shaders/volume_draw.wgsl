@@ -1,4 +1,4 @@
-// The three kinds of faces of a shadow volume, from the lists that an extraction left. Every vertex
+// The four kinds of faces of a shadow volume, from the lists that an extraction left. Every vertex
 // is pulled by its index.
 
 @group(0) @binding(1) var<storage, read> positions: array<f32>;
@@ -24,18 +24,35 @@ fn shadows_volume_dark_cap(
     return far_point(position(vertex));
 }
 
+// The edge that a side is made of, in the direction in which the caps' boundary runs through it.
+fn directed_edge(place: u32) -> vec2u {
+    let side = sides[caster.side_base + place];
+    let edge = edges[side >> 1u].xy;
+    return select(edge, edge.yx, (side & 1u) == 1u);
+}
+
 // A cap that runs through an edge is bounded there by the edge's side.
 @vertex
 fn shadows_volume_side(
     @builtin(vertex_index) vertex: u32,
 ) -> @invariant @builtin(position) vec4f {
-    let side = sides[caster.side_base + vertex / caster.side_vertices];
+    let edge = directed_edge(vertex / caster.side_vertices);
     let corner = vertex % caster.side_vertices;
-    let edge = edges[side >> 1u];
-    let flipped = (side & 1u) == 1u;
-    let end = position(select(edge.x, edge.y, side_corner_is_second(corner) != flipped));
+    let end = position(select(edge.x, edge.y, side_corner_is_second(corner)));
     if side_corner_is_far(corner) {
         return far_point(end);
     }
     return near_point(end);
+}
+
+@vertex
+fn shadows_volume_fan(
+    @builtin(vertex_index) vertex: u32,
+) -> @invariant @builtin(position) vec4f {
+    let edge = directed_edge(vertex / 3u);
+    let corner = vertex % 3u;
+    if corner == 0u {
+        return fan_apex();
+    }
+    return far_point(position(select(edge.x, edge.y, fan_corner_is_second(corner))));
 }

@@ -46,9 +46,11 @@ fn shadows_volume_edges(
     if local == 0u {
         let total = atomicLoad(&side_count);
         if total > 0u {
-            let step = batch.side_vertices;
-            let vertices = &args[index * ARGS_STRIDE + ARGS_SIDES];
-            side_first = instance.side_base + atomicAdd(vertices, total * step) / step;
+            // Which of the two is drawn depends on the camera; the list does not.
+            let word = index * ARGS_STRIDE;
+            let before = atomicAdd(&args[word + ARGS_QUADS], total * 6u);
+            atomicAdd(&args[word + ARGS_TRIANGLES], total * 3u);
+            side_first = instance.side_base + before / 6u;
         }
     }
     workgroupBarrier();

@@ -6,6 +6,10 @@ struct Caster {
     world_from_object: mat4x4f,
     // World space, homogeneous.
     light: vec4f,
+    // xyz: far vertices lie where its product with the direction from the light is 1; 0: at infinity.
+    far_plane: vec4f,
+    // A point of that plane, or at infinity, homogeneous: where the fan's triangles meet.
+    apex: vec4f,
     // In words of 4 bytes.
     position_stride: u32,
     position_offset: u32,
@@ -23,7 +27,7 @@ fn near_point(position: vec3f) -> vec4f {
     return shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
 }
 
-// The point at infinity behind a vertex, seen from the light. A vertex at the very place of the
+// The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the very place of the
 // light has no such direction: it stays where it is, the same for every face that meets there, so
 // that the surface is still closed and no vertex is (0, 0, 0, 0).
 fn far_point(position: vec3f) -> vec4f {
@@ -32,10 +36,11 @@ fn far_point(position: vec3f) -> vec4f {
     if all(direction == vec3f(0.0)) {
         return near_point(position);
     }
-    return caster.clip_from_world * vec4f(direction, 0.0);
+    let w = dot(caster.far_plane.xyz, direction);
+    return caster.clip_from_world * vec4f(direction + w * caster.light.xyz, w);
 }
 
-// A side runs b a a', b a' b' for an edge from a to b, where a' and b' are at infinity; for a
+// A side runs b a a', b a' b' for an edge from a to b, where a' and b' are far; for a
 // directional light a' = b' and one triangle is left.
 fn side_corner_is_second(corner: u32) -> bool {
     return ((0x29u >> corner) & 1u) == 1u;
@@ -43,6 +48,15 @@ fn side_corner_is_second(corner: u32) -> bool {
 
 fn side_corner_is_far(corner: u32) -> bool {
     return ((0x34u >> corner) & 1u) == 1u;
+}
+
+// The dark cap as a fan: a triangle apex b' a' for each side, so that it runs back through a' b'.
+fn fan_corner_is_second(corner: u32) -> bool {
+    return corner == 1u;
+}
+
+fn fan_apex() -> vec4f {
+    return caster.clip_from_world * caster.apex;
 }
 
 @fragment

@@ -85,3 +85,18 @@ fn shadows_volume_side(
     }
     return near_point(end);
 }
+
+@vertex
+fn shadows_volume_fan(
+    @builtin(vertex_index) vertex: u32,
+    edge: Edge,
+) -> @invariant @builtin(position) vec4f {
+    let count = side_count(edge);
+    let corner = select(vertex % 3u, turned(vertex % 3u), count < 0);
+    if vertex / 3u >= u32(abs(count)) || corner == 0u {
+        return fan_apex();
+    }
+    var corners = array(edge.a, edge.b, edge.c);
+    let end = select(edge.code, edge.code >> 2u, fan_corner_is_second(corner));
+    return far_point(corners[end & 3u]);
+}

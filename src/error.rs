@@ -488,6 +488,9 @@ pub enum ShadowVolumeError {
         /// Bytes possible.
         limit: u64,
     },
+    /// The target size has no pixels.
+    #[error("a target of {0:?} pixels has none; pass its width and height, or None")]
+    TargetSize([u32; 2]),
     /// The positions lie in a buffer of the host, where the CPU cannot read them.
     #[error(
         "caster {index}: its positions are in the host's buffer, and only Silhouettes::Compute reads them there; make the mesh with CasterMesh::new or a renderer that may use compute"

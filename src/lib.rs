@@ -92,10 +92,8 @@
 //!     &device,
 //!     &queue,
 //!     &ShadowVolumeFrame {
-//!         view: &view,
-//!         light: light.homogeneous(),
 //!         range: Some(light.range),
-//!         casters: &casters,
+//!         ..ShadowVolumeFrame::new(&view, light.homogeneous(), &casters)
 //!     },
 //! )?;
 //! let mut encoder = device.create_command_encoder(&Default::default());
@@ -169,5 +167,6 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    Caps, Extrusion, Method, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
+    Silhouettes, VolumeStatistics,
 };

@@ -1,6 +1,6 @@
 //! Lights, and their homogeneous form.
 
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 
 use crate::error::LightError;
 
@@ -144,6 +144,13 @@ impl HomogeneousLight {
     /// A light at a point of world space.
     pub fn point(position: Vec3) -> Self {
         Self(position.extend(1.0))
+    }
+
+    /// A light at a point of world space in f64, in a world whose coordinates are counted from
+    /// `origin`: see [`Caster::placed`](crate::Caster::placed). A directional light is the same from
+    /// everywhere.
+    pub fn placed(position: DVec3, origin: DVec3) -> Self {
+        Self::point((position - origin).as_vec3())
     }
 
     /// A light infinitely far away; `toward_light` points from the scene to the light.

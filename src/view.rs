@@ -101,6 +101,21 @@ impl View {
         })
     }
 
+    /// A view from a matrix in f64, in a world whose coordinates are counted from `origin`: see
+    /// [`Caster::placed`](crate::Caster::placed). The host draws with the view's own
+    /// [`clip_from_world`](Self::clip_from_world).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), for the matrix from `origin`, rounded to f32.
+    pub fn placed(
+        clip_from_world: DMat4,
+        origin: DVec3,
+        depth: DepthConvention,
+    ) -> Result<Self, ViewError> {
+        let relative = clip_from_world * DMat4::from_translation(origin);
+        Self::new(relative.as_mat4(), depth)
+    }
+
     /// The matrix the view was made from.
     pub fn clip_from_world(&self) -> Mat4 {
         self.clip_from_world
@@ -120,6 +135,23 @@ impl View {
     /// (1,1), (-1,1).
     pub fn near_corners(&self) -> [DVec3; 4] {
         self.near_corners
+    }
+
+    /// For each corner of the near rectangle, the direction of the sight line through it, away from
+    /// the viewer, of any length.
+    pub(crate) fn sight_lines(&self) -> [DVec3; 4] {
+        if self.eye.w != 0.0 {
+            let eye = self.eye.xyz() / self.eye.w;
+            return self.near_corners.map(|corner| corner - eye);
+        }
+        let depth = self.clip_from_world.row(2).xyz().as_dvec3();
+        let deeper = depth * f64::from(self.depth.away());
+        let along = self.eye.xyz();
+        [if along.dot(deeper) < 0.0 {
+            -along
+        } else {
+            along
+        }; 4]
     }
 
     /// A sphere around the near rectangle: centre and radius in world space.
@@ -155,7 +187,7 @@ fn maps_depth(z: DVec4, w: DVec4, depth: DepthConvention) -> bool {
 }
 
 /// The vector orthogonal to three others in four dimensions (their generalised cross product).
-fn null_vector(a: DVec4, b: DVec4, c: DVec4) -> DVec4 {
+pub(crate) fn null_vector(a: DVec4, b: DVec4, c: DVec4) -> DVec4 {
     let minor = |p: fn(DVec4) -> DVec3| p(a).dot(p(b).cross(p(c)));
     DVec4::new(
         minor(|v| v.yzw()),

@@ -168,8 +168,19 @@ fn a_small_run_writes_everything() {
     }
     let scratch = Scratch::new("small");
     let out = scratch.path("made/on/the/way");
+    let techniques = TECHNIQUES.join(",");
     let output = compare(&[
-        "--size", "160x90", "--frames", "3", "--face", "128", "--export", "--out", &out,
+        "--size",
+        "160x90",
+        "--frames",
+        "3",
+        "--face",
+        "128",
+        "--export",
+        "--out",
+        &out,
+        "--technique",
+        &techniques,
     ]);
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{told}");

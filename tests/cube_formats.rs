@@ -69,11 +69,12 @@ fn shell(gpu: &Gpu) -> Shell {
         // Away from the shadows' outlines: six texels around all see the same.
         let here = blocked(direction);
         let (a, b) = direction.any_orthonormal_pair();
-        // Rings inside as well: small casters and gaps fit between the outer one and the centre.
-        let alike = (0..48).all(|i| {
+        let alike = (0..16).all(|i| {
             let (sine, cosine) = (i as f32 * 0.39).sin_cos();
-            let texels = 4.0 * (1 + i / 16) as f32;
-            blocked(direction + (a * cosine + b * sine) * texels / 256.0) == here
+            let ring = |texels: f32| (a * cosine + b * sine) * 2.0 * texels / 256.0;
+            [1.5, 3.0, 4.5, 6.0]
+                .into_iter()
+                .all(|texels| blocked(direction + ring(texels)) == here)
         });
         if alike {
             points.push((light().position + direction * 10.0, direction));

@@ -16,7 +16,7 @@ fn make(kernel: Kernel) -> Result<PcfSampler, PcfError> {
 }
 
 fn refused(kernel: Kernel) -> PcfError {
-    make(kernel).err().expect("it must be refused")
+    make(kernel).expect_err("it must be refused")
 }
 
 #[test]

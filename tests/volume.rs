@@ -1,7 +1,13 @@
 //! Shadow volumes against the exact answer: not one interior pixel may be wrong.
 
+#[path = "volume/chain.rs"]
+mod chain;
+#[path = "volume/choices.rs"]
+mod choices;
 #[path = "volume/errors.rs"]
 mod errors;
+#[path = "volume/far_away.rs"]
+mod far_away;
 #[path = "volume/hard.rs"]
 mod hard;
 #[path = "../examples/host/mod.rs"]
@@ -12,6 +18,8 @@ mod light_pass;
 mod passes;
 #[path = "volume/pictures.rs"]
 mod pictures;
+#[path = "volume/random.rs"]
+mod random;
 #[path = "volume/shapes.rs"]
 mod shapes;
 #[path = "volume/stage.rs"]

@@ -10,6 +10,7 @@ use shadows::{
 };
 
 use crate::host::gpu::Gpu;
+use crate::host::pipelines::visibility_module;
 use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene_gpu::SceneGpu;
 
@@ -197,7 +198,7 @@ impl Shadow {
         let lit = renderer.lit_pipeline(
             gpu,
             &ShadowAccess {
-                module: Some(&sampler.wgsl_module(1)),
+                module: Some(&visibility_module(&sampler)),
                 layout: Some(sampler.bind_group_layout()),
                 stencil: None,
             },
@@ -273,10 +274,8 @@ impl Shadow {
             }
             Means::Volume { renderer, .. } => {
                 let frame = ShadowVolumeFrame {
-                    view: &inputs.view,
-                    light: inputs.light,
                     range: inputs.light_range(),
-                    casters,
+                    ..ShadowVolumeFrame::new(&inputs.view, inputs.light, casters)
                 };
                 renderer.prepare(&gpu.device, &gpu.queue, &frame)?;
             }

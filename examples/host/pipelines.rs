@@ -1,6 +1,6 @@
 //! The host's pipelines: ambient light with depth, and lit passes for any way to find shadows.
 
-use shadows::{DepthConvention, wgpu};
+use shadows::{DepthConvention, MapKind, PcfSampler, wgpu};
 
 /// The convention of the host's depth buffer.
 pub const DEPTH: DepthConvention = DepthConvention::InfiniteReverse;
@@ -12,12 +12,30 @@ pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 /// How a light pass learns where there is shadow.
 #[derive(Clone, Default)]
 pub struct ShadowAccess<'a> {
-    /// WGSL that declares `shadows_visibility(vec3f) -> f32` and its bindings in group 1.
+    /// WGSL that declares `host_visibility(world: vec3f, pixel: vec2f) -> f32` and its bindings in
+    /// group 1, such as [`visibility_module`].
     pub module: Option<&'a str>,
     /// Layout of group 1.
     pub layout: Option<&'a wgpu::BindGroupLayout>,
     /// The stencil test, if that decides.
     pub stencil: Option<wgpu::StencilState>,
+}
+
+/// A sampler's module for group 1, called as the host calls it whatever the kernel.
+pub fn visibility_module(sampler: &PcfSampler) -> String {
+    let name = match sampler.map() {
+        MapKind::Flat => "shadows_flat_visibility",
+        _ => "shadows_visibility",
+    };
+    let pixel = if sampler.takes_pixel() { ", pixel" } else { "" };
+    format!(
+        "{}
+fn host_visibility(world: vec3f, pixel: vec2f) -> f32 {{
+    return {name}(world{pixel});
+}}
+",
+        sampler.wgsl_module(1)
+    )
 }
 
 /// The pipeline of a lit pass.

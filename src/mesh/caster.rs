@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
-use glam::{Affine3A, DAffine3, DMat3, Vec3};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3};
 use wgpu::util::DeviceExt as _;
 
 use super::data::{MeshData, edge_records};
@@ -407,6 +407,22 @@ impl Caster {
             mesh,
             world_from_object,
         }
+    }
+
+    /// A mesh placed in f64, in a world whose coordinates are counted from `origin`.
+    ///
+    /// For scenes so far from their origin that f32 cannot place them: with `origin` at the camera
+    /// (or anywhere near it), what is near the camera keeps all its digits. View and light must be
+    /// placed from the same origin ([`View::placed`](crate::View::placed),
+    /// [`HomogeneousLight::placed`](crate::HomogeneousLight::placed)), and the host draws the mesh
+    /// with [`world_from_object`](Self::world_from_object) as it is here. An origin that stays where
+    /// it is for a while, rather than following the camera, lets volumes be kept between frames.
+    pub fn placed(mesh: CasterMesh, world_from_object: DAffine3, origin: DVec3) -> Self {
+        let relative = DAffine3 {
+            translation: world_from_object.translation - origin,
+            ..world_from_object
+        };
+        Self::new(mesh, relative.as_affine3a())
     }
 
     /// The transform in f64 (bit for bit the same numbers).

@@ -26,12 +26,7 @@ struct Volume {
 }
 
 fn frame<'a>(view: &'a View, light: Vec3, casters: &'a [Caster]) -> ShadowVolumeFrame<'a> {
-    ShadowVolumeFrame {
-        view,
-        light: HomogeneousLight::point(light),
-        range: None,
-        casters,
-    }
+    ShadowVolumeFrame::new(view, HomogeneousLight::point(light), casters)
 }
 
 fn camera() -> View {
@@ -75,11 +70,12 @@ fn extracted(gpu: &Gpu, way: Silhouettes, light: Vec3, casters: &[Caster]) -> Ve
     gpu.run(|encoder| renderer.encode(encoder));
     let words = |buffer| bytemuck::pod_collect_to_vec::<u8, u32>(&gpu.read_buffer(buffer));
     let bound = renderer.buffers.bound();
-    let arguments = bound.map(|bound| words(bound.arguments));
+    let arguments = bound.map(|bound| {
+        bytemuck::pod_collect_to_vec::<u8, Arguments>(&gpu.read_buffer(bound.arguments))
+    });
     let volume = |(index, slot): (usize, &super::super::kept::Slot)| {
         let [_, caps, sides] = renderer.buffers.chunk(slot.chunk).unwrap();
         let (caps, sides) = (words(caps), words(sides));
-        let step = renderer.plan.casters[index].side_vertices;
         let cap_base = slot.instance.cap_base;
         let (front, back, count) = match slot.way {
             Way::Cpu => {
@@ -88,10 +84,11 @@ fn extracted(gpu: &Gpu, way: Silhouettes, light: Vec3, casters: &[Caster]) -> Ve
                 (cap_base..middle, middle..end, slot.counts.sides)
             }
             _ => {
-                let own = &arguments.as_ref().unwrap()[16 * index..][..16];
-                assert_eq!(own[10] % step, 0);
-                let front = own[2]..own[2] + own[0];
-                (front, own[7]..own[7] + own[5], own[10] / step)
+                let own = &arguments.as_ref().unwrap()[index];
+                let [front, back] = [own.front, own.back].map(|a| a[2]..a[2] + a[0]);
+                let [quads, triangles] = [own.quads[0], own.triangles[0]];
+                assert_eq!((quads % 6, triangles), (0, quads / 2));
+                (front, back, quads / 6)
             }
         };
         let list = |range: std::ops::Range<u32>| {

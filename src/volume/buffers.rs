@@ -101,12 +101,13 @@ impl Buffers {
     pub fn reserve(&mut self, device: &wgpu::Device, plan: &Plan, limits: &PlanLimits) {
         let mut made = false;
         let most = device.limits().max_buffer_size;
-        let mut get = |grown: &mut Grown, count: usize, each: u64| {
+        let storage = limits.storage_bytes;
+        let mut get = |grown: &mut Grown, count: usize, each: u64, most: u64| {
             grown.get(device, count as u64 * each, most, &mut made);
         };
         let count = plan.casters.len();
         let caster = window::<CasterParams>(&device.limits());
-        get(&mut self.casters, count, caster);
+        get(&mut self.casters, count, caster, most);
         if plan.uses(Way::Compute) {
             // There are at most as many batches as casters. How many there are depends on what is
             // kept, and must not decide whether it can be.
@@ -114,15 +115,17 @@ impl Buffers {
                 &mut self.batches,
                 count,
                 window::<BatchParams>(&device.limits()),
+                most,
             );
             get(
                 &mut self.instances,
                 count,
                 size_of::<InstanceParams>() as u64,
+                storage,
             );
             let arguments = size_of::<Arguments>() as u64;
-            get(&mut self.template, count, arguments);
-            get(&mut self.arguments, count, arguments);
+            get(&mut self.template, count, arguments, most);
+            get(&mut self.arguments, count, arguments, storage);
         }
         // Nothing is listed where vertex shaders do all the work, and there may be no storage.
         let listed = plan.uses(Way::Compute) || plan.uses(Way::Cpu);

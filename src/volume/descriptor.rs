@@ -1,5 +1,6 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
+use super::method::{Caps, Count, Extrusion, Method, Skip};
 use super::{Silhouettes, limits};
 use crate::error::ShadowVolumeError;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
@@ -26,6 +27,16 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// [`wgsl::POSITION`](crate::wgsl::POSITION); more makes up for other arithmetic. It has no
     /// effect on where shadows fall, except for casters that the host itself does not draw.
     pub cap_bias_ulps: u32,
+    /// Which faces count, those before the visible point or those behind it. Default
+    /// [`Method::Auto`].
+    pub method: Method,
+    /// How z-fail closes volumes at their far end. Default [`Caps::AsNeeded`].
+    pub caps: Caps,
+    /// How far volumes reach. Default [`Extrusion::Infinite`].
+    pub extrusion: Extrusion,
+    /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
+    /// and the draws clipped to what the range covers on screen. Default `true`.
+    pub culling: bool,
     /// Whether a caster's volume is kept for the next frame if neither the light nor the caster
     /// moves: its silhouette is then not searched again. Default `true`; `false` is of use only to
     /// measure what it saves.
@@ -43,8 +54,27 @@ impl Default for ShadowVolumeDescriptor<'_> {
             depth: DepthConvention::default(),
             color_formats: &[],
             cap_bias_ulps: 16,
+            method: Method::Auto,
+            caps: Caps::AsNeeded,
+            extrusion: Extrusion::Infinite,
+            culling: true,
             keep_between_frames: true,
             silhouettes: Silhouettes::Auto,
+        }
+    }
+}
+
+impl ShadowVolumeDescriptor<'_> {
+    /// The method as it is usually written down (Everitt and Kilgard, 2002): every caster in
+    /// z-fail, with both caps, whether or not its shadow can be seen, the silhouettes searched every
+    /// frame. For comparison: it gives the same picture for more work.
+    pub fn textbook() -> Self {
+        Self {
+            method: Method::ZFail,
+            caps: Caps::Full,
+            culling: false,
+            keep_between_frames: false,
+            ..Self::default()
         }
     }
 }
@@ -112,9 +142,26 @@ pub struct ShadowVolumeFrame<'a> {
     /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
     /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
     pub range: Option<f32>,
-    /// What casts shadows. The host must draw these surfaces into its depth buffer, too; a caster
-    /// that it does not draw still casts, if its triangles are wound outward.
+    /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
+    /// of it: the draws are then clipped to what `range` covers on screen. `None`: they are not.
+    pub target_size: Option<[u32; 2]>,
+    /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
+    /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound
+    /// outward; z-pass relies on their being drawn.)
     pub casters: &'a [Caster],
+}
+
+impl<'a> ShadowVolumeFrame<'a> {
+    /// A frame with a light of no range, and no target size.
+    pub fn new(view: &'a View, light: HomogeneousLight, casters: &'a [Caster]) -> Self {
+        Self {
+            view,
+            light,
+            range: None,
+            target_size: None,
+            casters,
+        }
+    }
 }
 
 /// What the last [`prepare`](crate::ShadowVolumeRenderer::prepare) came to.
@@ -123,8 +170,18 @@ pub struct ShadowVolumeFrame<'a> {
 pub struct VolumeStatistics {
     /// Casters whose volumes are drawn.
     pub casters_drawn: u32,
-    /// Casters left out: beyond the light's range, or without triangles.
+    /// Those of them that are counted in front of the visible surfaces.
+    pub casters_z_pass: u32,
+    /// Those of them that are counted behind the visible surfaces.
+    pub casters_z_fail: u32,
+    /// Casters left out, for any of the next three reasons.
     pub casters_skipped: u32,
+    /// Casters left out because their meshes have no triangles.
+    pub skipped_empty: u32,
+    /// Casters left out because they are beyond the light's range.
+    pub skipped_out_of_range: u32,
+    /// Casters left out because nothing they could shadow is in view.
+    pub skipped_out_of_view: u32,
     /// Draw calls that `render` records.
     pub draws: u32,
     /// Casters whose silhouettes were searched for this frame; those of the other casters drawn
@@ -136,4 +193,21 @@ pub struct VolumeStatistics {
     pub gpu_bytes: u64,
     /// Triangles of all casters drawn.
     pub triangles: u64,
+}
+
+impl VolumeStatistics {
+    pub(super) fn skip(&mut self, reason: Skip) {
+        *match reason {
+            Skip::Empty => &mut self.skipped_empty,
+            Skip::OutOfRange => &mut self.skipped_out_of_range,
+            Skip::OutOfView => &mut self.skipped_out_of_view,
+        } += 1;
+    }
+
+    pub(super) fn draw(&mut self, count: Count) {
+        *match count {
+            Count::Pass => &mut self.casters_z_pass,
+            Count::Fail => &mut self.casters_z_fail,
+        } += 1;
+    }
 }

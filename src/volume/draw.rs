@@ -3,6 +3,7 @@
 use super::ShadowVolumeDescriptor;
 use super::buffers::Buffers;
 use super::layout::{storage, uniform};
+use super::method::Count;
 use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces, Plan};
 use super::silhouette::{LIGHT_SIDE, Way};
@@ -60,24 +61,31 @@ impl Feed {
         };
         match (self, faces) {
             (Self::Pulled, _) => Vec::new(),
-            (Self::Records, Faces::Sides) => vec![Some(layout(&EDGE, size_of::<EdgeRecord>()))],
+            (Self::Records, Faces::Sides | Faces::Fan) => {
+                vec![Some(layout(&EDGE, size_of::<EdgeRecord>()))]
+            }
             (Self::Records, _) => vec![Some(layout(&CORNERS, size_of::<[[f32; 3]; 3]>()))],
         }
     }
 }
 
-/// z-fail: a back face behind the visible point counts +1, a front face -1, modulo 256 because the
-/// faces come in any order.
-fn z_fail() -> wgpu::StencilState {
-    let count = |depth_fail_op| wgpu::StencilFaceState {
+/// z-fail: a back face behind the visible point counts +1, a front face -1; z-pass: a front face
+/// before it +1, a back face -1. Modulo 256, because the faces come in any order.
+fn counting(count: Count) -> wgpu::StencilState {
+    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
+    let face = |pass_op, depth_fail_op| wgpu::StencilFaceState {
         compare: wgpu::CompareFunction::Always,
-        fail_op: wgpu::StencilOperation::Keep,
+        fail_op: Keep,
         depth_fail_op,
-        pass_op: wgpu::StencilOperation::Keep,
+        pass_op,
+    };
+    let (front, back) = match count {
+        Count::Fail => (face(Keep, DecrementWrap), face(Keep, IncrementWrap)),
+        Count::Pass => (face(IncrementWrap, Keep), face(DecrementWrap, Keep)),
     };
     wgpu::StencilState {
-        front: count(wgpu::StencilOperation::DecrementWrap),
-        back: count(wgpu::StencilOperation::IncrementWrap),
+        front,
+        back,
         read_mask: 0xff,
         write_mask: 0xff,
     }
@@ -99,13 +107,32 @@ pub(super) fn light_pass() -> wgpu::StencilState {
     }
 }
 
-/// One pipeline for each kind of faces and each way that "front" may turn on screen.
+/// One pipeline for each kind of faces, way to count and way that "front" may turn on screen.
 #[derive(Debug)]
 pub(super) struct DrawPipelines {
     /// Binds caster and, where they are pulled, positions, edges, sides.
     pub layout: wgpu::BindGroupLayout,
-    pipelines: [[wgpu::RenderPipeline; 2]; 3],
+    pipelines: Vec<(Style, wgpu::RenderPipeline)>,
 }
+
+/// What a pipeline is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Style {
+    pub count: Count,
+    pub faces: Faces,
+    /// Whether faces that are clockwise on screen are the volume's front.
+    pub clockwise: bool,
+}
+
+/// z-pass needs no caps, except the fan where rays may start beyond a finite volume.
+const KINDS: [(Count, Faces); 6] = [
+    (Count::Fail, Faces::LightCap),
+    (Count::Fail, Faces::DarkCap),
+    (Count::Fail, Faces::Sides),
+    (Count::Fail, Faces::Fan),
+    (Count::Pass, Faces::Sides),
+    (Count::Pass, Faces::Fan),
+];
 
 impl DrawPipelines {
     pub fn new(
@@ -136,20 +163,21 @@ impl DrawPipelines {
                 immediate_size: 0,
             }),
         };
-        let pipelines = [Faces::LightCap, Faces::DarkCap, Faces::Sides].map(|faces| {
-            [wgpu::FrontFace::Ccw, wgpu::FrontFace::Cw].map(|f| factory.make(faces, f))
+        let styles = KINDS.into_iter().flat_map(|(count, faces)| {
+            [false, true].map(|clockwise| Style {
+                count,
+                faces,
+                clockwise,
+            })
         });
+        let pipelines = styles.map(|style| (style, factory.make(style))).collect();
         Self { layout, pipelines }
     }
 
-    pub fn get(&self, faces: Faces, clockwise: bool) -> &wgpu::RenderPipeline {
-        let [light_cap, dark_cap, sides] = &self.pipelines;
-        let [ccw, cw] = match faces {
-            Faces::LightCap => light_cap,
-            Faces::DarkCap => dark_cap,
-            Faces::Sides => sides,
-        };
-        if clockwise { cw } else { ccw }
+    /// The pipeline, for every style that a plan uses.
+    pub fn get(&self, style: Style) -> Option<&wgpu::RenderPipeline> {
+        let found = self.pipelines.iter().find(|(known, _)| *known == style);
+        found.map(|(_, pipeline)| pipeline)
     }
 }
 
@@ -158,11 +186,10 @@ pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, plan: &Plan, b
     let slot = &plan.slots[draw.instance as usize];
     let caster = &plan.casters[draw.instance as usize];
     match slot.way {
-        Way::Vertex => issue_records(pass, draw.faces, &slot.mesh, caster),
+        Way::Vertex => issue_records(pass, draw.style.faces, &slot.mesh, caster),
         Way::Cpu => {
-            if draw.faces == Faces::Sides {
-                let vertices = slot.counts.sides * caster.side_vertices;
-                return pass.draw(0..vertices, 0..1);
+            if let Some(each) = vertices_a_side(draw.style.faces, caster) {
+                return pass.draw(0..slot.counts.sides * each, 0..1);
             }
             let Some([_, caps, _]) = buffers.chunk(slot.chunk) else {
                 return;
@@ -181,8 +208,10 @@ pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, plan: &Plan, b
                 return;
             };
             let own = u64::from(draw.instance) * size_of::<Arguments>() as u64;
-            if draw.faces == Faces::Sides {
-                return pass.draw_indirect(bound.arguments, own + Arguments::SIDES);
+            match vertices_a_side(draw.style.faces, caster) {
+                Some(3) => return pass.draw_indirect(bound.arguments, own + Arguments::TRIANGLES),
+                Some(_) => return pass.draw_indirect(bound.arguments, own + Arguments::QUADS),
+                None => {}
             }
             let list = match draw.back {
                 false => Arguments::FRONT,
@@ -191,6 +220,15 @@ pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, plan: &Plan, b
             pass.set_index_buffer(caps.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed_indirect(bound.arguments, own + list);
         }
+    }
+}
+
+/// Vertices for each side, of faces that come from sides.
+fn vertices_a_side(faces: Faces, caster: &CasterParams) -> Option<u32> {
+    match faces {
+        Faces::Sides => Some(caster.side_vertices),
+        Faces::Fan => Some(3),
+        Faces::LightCap | Faces::DarkCap => None,
     }
 }
 
@@ -204,17 +242,17 @@ fn issue_records(
     let Some(records) = mesh.records() else {
         return;
     };
-    if faces != Faces::Sides {
+    let Some(each) = vertices_a_side(faces, caster) else {
         pass.set_vertex_buffer(0, records.triangles.slice(..));
         return pass.draw(0..3, 0..mesh.triangle_count());
-    }
+    };
     // Two triangles that both count are extruded twice where they run through the edge alike.
     let copies = match (mesh.kind(), caster.both_sides) {
         (MeshKind::Closed, 0) => 1,
         _ => 2,
     };
     pass.set_vertex_buffer(0, records.edges.slice(..));
-    pass.draw(0..copies * caster.side_vertices, 0..records.edge_count);
+    pass.draw(0..copies * each, 0..records.edge_count);
 }
 
 struct Factory<'a> {
@@ -227,12 +265,14 @@ struct Factory<'a> {
 }
 
 impl Factory<'_> {
-    fn make(&self, faces: Faces, front_face: wgpu::FrontFace) -> wgpu::RenderPipeline {
-        let label = format!("{} {faces:?} {front_face:?}", self.label);
+    fn make(&self, style: Style) -> wgpu::RenderPipeline {
+        let faces = style.faces;
+        let label = format!("{} {style:?}", self.label);
         let entry_point = match faces {
             Faces::LightCap => "shadows_volume_light_cap",
             Faces::DarkCap => "shadows_volume_dark_cap",
             Faces::Sides => "shadows_volume_side",
+            Faces::Fan => "shadows_volume_fan",
         };
         let targets = self.targets();
         // A pass without colour needs no fragment stage, and is faster without.
@@ -253,13 +293,16 @@ impl Factory<'_> {
                     buffers: &self.feed.vertex_buffers(faces),
                 },
                 primitive: wgpu::PrimitiveState {
-                    front_face,
+                    front_face: match style.clockwise {
+                        false => wgpu::FrontFace::Ccw,
+                        true => wgpu::FrontFace::Cw,
+                    },
                     cull_mode: None,
                     // Faces beyond a finite far plane must count; clamped, they do.
                     unclipped_depth: self.descriptor.depth.clips_far(),
                     ..Default::default()
                 },
-                depth_stencil: Some(self.depth_stencil(faces)),
+                depth_stencil: Some(self.depth_stencil(style)),
                 multisample: wgpu::MultisampleState {
                     count: self.descriptor.sample_count,
                     ..Default::default()
@@ -280,20 +323,20 @@ impl Factory<'_> {
         formats.map(|format| format.map(target)).collect()
     }
 
-    fn depth_stencil(&self, faces: Faces) -> wgpu::DepthStencilState {
+    fn depth_stencil(&self, style: Style) -> wgpu::DepthStencilState {
         let depth = self.descriptor.depth;
-        let bias = match faces {
+        let bias = match style.faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
-            // At infinity it is behind everything as it is.
-            Faces::DarkCap => 0,
+            // At infinity, or beyond the light's range, they are behind everything as they are.
+            Faces::DarkCap | Faces::Fan => 0,
         };
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),
             // A cap at the visible depth itself is behind it: strictly nearer passes.
             depth_compare: Some(depth.nearer()),
-            stencil: z_fail(),
+            stencil: counting(style.count),
             bias: wgpu::DepthBiasState {
                 constant: bias * depth.away(),
                 ..Default::default()

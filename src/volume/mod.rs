@@ -1,9 +1,10 @@
 //! Stencil shadow volumes: exact hard shadows, counted in the stencil buffer.
 //!
-//! The method is z-fail ("Carmack's reverse"): a volume's faces count where they lie *behind* the
-//! visible point, so that the eye may be inside a volume and the near plane may cut it, as long as
-//! the volume is closed and reaches to infinity (Everitt and Kilgard, "Practical and Robust
-//! Stenciled Shadow Volumes for Hardware-Accelerated Rendering", 2002).
+//! The method that is always right is z-fail ("Carmack's reverse"): a volume's faces count where
+//! they lie *behind* the visible point, so that the eye may be inside a volume and the near plane may
+//! cut it, as long as the volume is closed and reaches to infinity (Everitt and Kilgard, "Practical
+//! and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering", 2002). Where a caster
+//! provably needs less, less is drawn of its volume: see [`Method`], [`Caps`] and [`Extrusion`].
 //!
 //! The volume is the boundary of a chain of light caps, whose coefficients are decided once for
 //! each triangle and stored; an edge is extruded as often as that chain's boundary runs through it
@@ -14,16 +15,21 @@ mod buffers;
 mod descriptor;
 mod draw;
 mod groups;
+mod hull;
 mod kept;
 mod layout;
 mod limits;
+mod method;
 mod params;
 mod plan;
 mod regions;
 mod renderer;
 mod rule;
+mod scissor;
 mod silhouette;
+mod world_box;
 
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+pub use method::{Caps, Extrusion, Method};
 pub use renderer::ShadowVolumeRenderer;
 pub use silhouette::Silhouettes;

@@ -11,9 +11,8 @@ pub(super) struct BatchParams {
     pub edge_count: u32,
     pub position_stride: u32,
     pub position_offset: u32,
-    pub side_vertices: u32,
     pub general: u32,
-    pub padding: u32,
+    pub padding: [u32; 2],
 }
 
 /// `Instance` in `volume_batch.wgsl`.
@@ -36,6 +35,8 @@ pub(super) struct CasterParams {
     pub clip_from_world: [[f32; 4]; 4],
     pub world_from_object: [[f32; 4]; 4],
     pub light: [f32; 4],
+    pub far_plane: [f32; 4],
+    pub apex: [f32; 4],
     pub position_stride: u32,
     pub position_offset: u32,
     pub side_base: u32,
@@ -47,15 +48,16 @@ pub(super) struct CasterParams {
 
 /// The indirect arguments of one instance, before anything is counted.
 ///
-/// Two indexed draws (index count, instances, first index, base vertex, first instance), one plain
-/// draw (vertex count, instances, first vertex, first instance), and what fills 64 bytes.
+/// Two indexed draws (index count, instances, first index, base vertex, first instance) and two plain
+/// ones (vertex count, instances, first vertex, first instance): the list of sides with six vertices
+/// each and with three.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(super) struct Arguments {
     pub front: [u32; 5],
     pub back: [u32; 5],
-    pub sides: [u32; 4],
-    pub padding: [u32; 2],
+    pub quads: [u32; 4],
+    pub triangles: [u32; 4],
 }
 
 impl Arguments {
@@ -63,16 +65,18 @@ impl Arguments {
     pub const FRONT: u64 = 0;
     /// The same, caps that count -1.
     pub const BACK: u64 = 20;
-    /// The same, sides.
-    pub const SIDES: u64 = 40;
+    /// The same, six vertices a side.
+    pub const QUADS: u64 = 40;
+    /// The same, three vertices a side.
+    pub const TRIANGLES: u64 = 56;
 
     /// Arguments of an empty volume whose caps will lie in `cap_base .. cap_end` (in indices).
     pub fn new(cap_base: u32, cap_end: u32) -> Self {
         Self {
             front: [0, 1, cap_base, 0, 0],
             back: [0, 1, cap_end, 0, 0],
-            sides: [0, 1, 0, 0],
-            padding: [0; 2],
+            quads: [0, 1, 0, 0],
+            triangles: [0, 1, 0, 0],
         }
     }
 }
@@ -149,7 +153,6 @@ mod tests {
                 edge_count,
                 position_stride,
                 position_offset,
-                side_vertices,
                 general,
                 padding
             );
@@ -174,6 +177,8 @@ mod tests {
                 clip_from_world,
                 world_from_object,
                 light,
+                far_plane,
+                apex,
                 position_stride,
                 position_offset,
                 side_base,
@@ -192,11 +197,19 @@ mod tests {
             ("ARGS_STRIDE", size_of::<Arguments>() as u32 / 4),
             ("ARGS_FRONT", offset_of!(Arguments, front) as u32 / 4),
             ("ARGS_BACK", offset_of!(Arguments, back) as u32 / 4),
-            ("ARGS_SIDES", offset_of!(Arguments, sides) as u32 / 4),
+            ("ARGS_QUADS", offset_of!(Arguments, quads) as u32 / 4),
+            (
+                "ARGS_TRIANGLES",
+                offset_of!(Arguments, triangles) as u32 / 4,
+            ),
         ];
         assert_eq!(Arguments::FRONT, offset_of!(Arguments, front) as u64);
         assert_eq!(Arguments::BACK, offset_of!(Arguments, back) as u64);
-        assert_eq!(Arguments::SIDES, offset_of!(Arguments, sides) as u64);
+        assert_eq!(Arguments::QUADS, offset_of!(Arguments, quads) as u64);
+        assert_eq!(
+            Arguments::TRIANGLES,
+            offset_of!(Arguments, triangles) as u64
+        );
         for source in [silhouette::facing_source(), silhouette::edges_source()] {
             let module = parse(&source);
             for (name, value) in constants {

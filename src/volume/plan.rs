@@ -4,29 +4,33 @@ use std::collections::HashMap;
 
 use glam::Mat4;
 
+use super::draw::Style;
 use super::kept::{Kept, Slot};
+use super::method::{Count, DarkCap, Form, Options, Rules, Skip};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::regions::{Overflow, Place, Regions, Words};
-use super::rule::{self, ObjectLight, WorldBox};
+use super::rule::{self, ObjectLight};
+use super::scissor::Rect;
 use super::silhouette::{Counts, Way, Ways};
+use super::world_box::WorldBox;
 use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::{CasterMesh, MeshKind};
 
-/// The three kinds of faces of a volume.
+/// The kinds of faces of a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Faces {
     LightCap,
     DarkCap,
     Sides,
+    /// The dark cap as a fan over the silhouette.
+    Fan,
 }
 
 /// One draw. Ordered so that draws of one pipeline follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Draw {
-    pub faces: Faces,
-    /// Whether faces that are clockwise on screen are the volume's front.
-    pub clockwise: bool,
+    pub style: Style,
     /// Place in [`Plan::instances`].
     pub instance: u32,
     /// Whether the caps are those that count -1.
@@ -60,6 +64,8 @@ pub(super) struct Plan {
     /// For each instance, what its volume follows from.
     pub slots: Vec<Slot>,
     pub statistics: VolumeStatistics,
+    /// What of the target is drawn to, and the target's size.
+    pub scissor: Option<(Rect, [u32; 2])>,
 }
 
 /// What of the device's limits the plan depends on.
@@ -75,9 +81,17 @@ pub(super) struct PlanLimits {
     pub workgroups: u32,
 }
 
+/// What of the renderer the plan depends on.
+pub(super) struct Means<'a> {
+    pub options: Options,
+    pub ways: &'a Ways,
+    pub kept: Kept<'a>,
+}
+
 /// A caster that is drawn.
 struct Subject {
     light: ObjectLight,
+    form: Form,
     both_sides: bool,
     mirrored: bool,
     way: Way,
@@ -89,11 +103,11 @@ impl Plan {
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
         limits: &PlanLimits,
-        ways: &Ways,
-        kept: &Kept<'_>,
+        means: &Means<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
-        let groups = subjects(frame, ways)?;
+        let mut statistics = VolumeStatistics::default();
+        let groups = subjects(frame, means, &mut statistics)?;
         let count = groups.iter().map(Vec::len).sum();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -104,7 +118,7 @@ impl Plan {
         let mut plan = Self::default();
         let mut regions = Regions::new(limits.storage_bytes);
         for subject in groups.iter().flatten() {
-            plan.add(subject, frame, &mut regions, limits, kept)?;
+            plan.add(subject, frame, &mut regions, limits, &means.kept)?;
         }
         plan.chunks = regions.chunks().to_vec();
         plan.draws.sort_unstable();
@@ -113,8 +127,9 @@ impl Plan {
             casters_skipped: (frame.casters.len() - count) as u32,
             draws: plan.draws.len() as u32,
             triangles: plan.batches.iter().map(Batch::triangles).sum(),
-            ..Default::default()
+            ..statistics
         };
+        plan.scissor = means.options.scissor(frame);
         plan.count_extraction();
         Ok(plan)
     }
@@ -185,7 +200,7 @@ impl Plan {
             slot.counts = kept.counts;
             slot.ready = true;
         }
-        let batch = self.batch(&slot, frame, limits.workgroups);
+        let batch = self.batch(&slot, limits.workgroups);
         self.batch_of.push(batch);
         self.instances.push(slot.instance);
         self.slots.push(slot);
@@ -197,10 +212,12 @@ impl Plan {
             clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
             world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
             light: rule::world_light(frame.light),
+            far_plane: subject.form.far.plane.as_vec3().extend(0.0).to_array(),
+            apex: subject.form.far.apex.as_vec4().to_array(),
             position_stride: params.position_stride,
             position_offset: params.position_offset,
             side_base: place.side,
-            side_vertices: params.side_vertices,
+            side_vertices: subject.form.side_vertices,
             object_light: subject.light.light,
             object_light_rest: subject.light.rest,
             both_sides: u32::from(subject.both_sides),
@@ -210,7 +227,7 @@ impl Plan {
     }
 
     /// The batch that the next instance belongs to.
-    fn batch(&mut self, slot: &Slot, frame: &ShadowVolumeFrame<'_>, most: u32) -> u32 {
+    fn batch(&mut self, slot: &Slot, most: u32) -> u32 {
         let open = self.batches.last_mut().filter(|batch| {
             batch.mesh.key() == slot.mesh.key()
                 && batch.chunk == slot.chunk
@@ -223,7 +240,7 @@ impl Plan {
             None => self.batches.push(Batch {
                 mesh: slot.mesh.clone(),
                 chunk: slot.chunk,
-                params: batch_params(&slot.mesh, self.instances.len() as u32, frame),
+                params: batch_params(&slot.mesh, self.instances.len() as u32),
                 instance_count: 1,
                 ready: slot.ready,
                 way: slot.way,
@@ -235,23 +252,32 @@ impl Plan {
     fn draw(&mut self, subject: &Subject, frame: &ShadowVolumeFrame<'_>, instance: u32) {
         // A cap that counts +1 is counter-clockwise seen from the light, in the mesh's own space.
         let clockwise = subject.mirrored != rule::is_left_handed(frame.view);
+        let form = &subject.form;
         let mut push = |faces, clockwise, back| {
             self.draws.push(Draw {
-                faces,
-                clockwise,
+                style: Style {
+                    count: form.count,
+                    faces,
+                    clockwise,
+                },
                 instance,
                 back,
             });
         };
         push(Faces::Sides, clockwise, false);
+        if form.dark_cap == DarkCap::Fan {
+            push(Faces::Fan, clockwise, false);
+        }
+        if form.count == Count::Pass {
+            return;
+        }
         for back in [false, true] {
             // Where vertex shaders decide, they turn the caps that count -1 over.
             if back && (!subject.both_sides || subject.way == Way::Vertex) {
                 continue;
             }
             push(Faces::LightCap, clockwise != back, back);
-            // With a directional light all sides meet in one point at infinity: no area is left.
-            if !frame.light.is_directional() {
+            if form.dark_cap == DarkCap::Full {
                 push(Faces::DarkCap, clockwise == back, back);
             }
         }
@@ -271,6 +297,9 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
     {
         return Err(LightError::Range(range).into());
     }
+    if let Some(size) = frame.target_size.filter(|size| size.contains(&0)) {
+        return Err(ShadowVolumeError::TargetSize(size));
+    }
     for (index, caster) in frame.casters.iter().enumerate() {
         caster.validate(index, device)?;
     }
@@ -280,18 +309,25 @@ fn validate(frame: &ShadowVolumeFrame<'_>, device: &wgpu::Device) -> Result<(), 
 /// The casters that are drawn, those of one mesh together, in the order of first appearance.
 fn subjects(
     frame: &ShadowVolumeFrame<'_>,
-    ways: &Ways,
+    means: &Means<'_>,
+    statistics: &mut VolumeStatistics,
 ) -> Result<Vec<Vec<Subject>>, ShadowVolumeError> {
+    let rules = Rules::new(frame, means.options);
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     for (index, caster) in frame.casters.iter().enumerate() {
         let map = caster.transform();
         let light = ObjectLight::new(frame.light, &map, index)?;
         let world = WorldBox::of(caster);
-        if caster.mesh.triangle_count() == 0 || !rule::in_range(&world, frame.light, frame.range) {
+        let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
+        if let Some(skip) = empty.or_else(|| rules.skips(&world)) {
+            statistics.skip(skip);
             continue;
         }
-        let way = ways
+        let form = rules.form(&world);
+        statistics.draw(form.count);
+        let way = means
+            .ways
             .of(&caster.mesh)
             .ok_or(ShadowVolumeError::HostPositions { index })?;
         let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
@@ -300,6 +336,7 @@ fn subjects(
         });
         groups[group].push(Subject {
             light,
+            form,
             both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
             mirrored: map.matrix3.determinant() < 0.0,
             way,
@@ -361,11 +398,7 @@ fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
     }
 }
 
-fn batch_params(
-    mesh: &CasterMesh,
-    first_instance: u32,
-    frame: &ShadowVolumeFrame<'_>,
-) -> BatchParams {
+fn batch_params(mesh: &CasterMesh, first_instance: u32) -> BatchParams {
     let (stride, offset) = mesh.layout();
     BatchParams {
         first_instance,
@@ -374,8 +407,7 @@ fn batch_params(
         // In words they fit 32 bits: the positions lie in one storage binding.
         position_stride: (stride / 4) as u32,
         position_offset: (offset / 4) as u32,
-        side_vertices: if frame.light.is_directional() { 3 } else { 6 },
         general: u32::from(mesh.kind() == MeshKind::General),
-        padding: 0,
+        padding: [0; 2],
     }
 }

@@ -6,8 +6,9 @@ use super::buffers::{Buffers, window};
 use super::draw::{self, DrawPipelines, Feed, issue};
 use super::groups::{Groups, Parts};
 use super::kept::Kept;
+use super::method::Options;
 use super::params::{Arguments, BatchParams, CasterParams};
-use super::plan::{Batch, Plan, PlanLimits};
+use super::plan::{Batch, Means, Plan, PlanLimits};
 use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
 use super::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
@@ -47,6 +48,7 @@ pub struct ShadowVolumeRenderer {
     groups: Groups,
     plan: Plan,
     keep: bool,
+    options: Options,
     /// Whether `encode` was called since the last `prepare`.
     encoded: AtomicBool,
 }
@@ -83,6 +85,7 @@ impl ShadowVolumeRenderer {
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             plan: Plan::default(),
+            options: Options::of(descriptor),
             keep: descriptor.keep_between_frames,
             encoded: AtomicBool::new(false),
             label,
@@ -112,7 +115,12 @@ impl ShadowVolumeRenderer {
             });
         }
         let limits = PlanLimits::of(&device.limits(), &self.ways);
-        let mut plan = Plan::new(frame, device, &limits, &self.ways, &self.kept())?;
+        let means = Means {
+            options: self.options,
+            ways: &self.ways,
+            kept: self.kept(),
+        };
+        let mut plan = Plan::new(frame, device, &limits, &means)?;
         if !plan.draws.is_empty() {
             let generation = self.buffers.generation();
             self.buffers.reserve(device, &plan, &limits);
@@ -164,8 +172,16 @@ impl ShadowVolumeRenderer {
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
     /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only).
     ///
-    /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0, nothing else.
+    /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
+    /// gave a target size and a range, also the scissor rectangle, which is then the whole target.
+    /// Nothing else.
     pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if self.plan.draws.is_empty() {
+            return;
+        }
+        if let Some(([x, y, width, height], _)) = self.plan.scissor {
+            pass.set_scissor_rect(x, y, width, height);
+        }
         let mut current = None;
         for draw in &self.plan.draws {
             let batch = self.plan.batch_of[draw.instance as usize] as usize;
@@ -177,14 +193,20 @@ impl ShadowVolumeRenderer {
             let (Some(pipelines), Some(group)) = (pipelines, self.groups.get(batch)) else {
                 continue;
             };
-            let state = (draw.faces, draw.clockwise, way == Way::Vertex);
+            let state = (draw.style, way == Way::Vertex);
             if current != Some(state) {
-                pass.set_pipeline(pipelines.get(draw.faces, draw.clockwise));
+                let Some(pipeline) = pipelines.get(draw.style) else {
+                    continue;
+                };
+                pass.set_pipeline(pipeline);
                 current = Some(state);
             }
             let step = window::<CasterParams>(&self.device.limits()) as u32;
             pass.set_bind_group(0, &group.draw, &[draw.instance * step]);
             issue(pass, draw, &self.plan, &self.buffers);
+        }
+        if let Some((_, [width, height])) = self.plan.scissor {
+            pass.set_scissor_rect(0, 0, width, height);
         }
     }
 

@@ -2,54 +2,10 @@
 
 use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4Swizzles as _};
 
+use super::world_box::WorldBox;
 use crate::error::CasterError;
 use crate::mesh::MeshKind;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
-
-/// A caster's box in world space, with what f32 arithmetic may add to it.
-pub(super) struct WorldBox {
-    centre: DVec3,
-    half: DVec3,
-}
-
-impl WorldBox {
-    pub fn of(caster: &Caster) -> Self {
-        let map = caster.transform();
-        let bounds = caster.mesh.bounds();
-        let (centre, half) = bounds.transformed(&map);
-        let reach = bounds.min.abs().max(bounds.max.abs()).as_dvec3();
-        let m = map.matrix3;
-        let magnitude = m.x_axis.abs() * reach.x
-            + m.y_axis.abs() * reach.y
-            + m.z_axis.abs() * reach.z
-            + map.translation.abs();
-        Self {
-            centre,
-            half: half + rounding(magnitude),
-        }
-    }
-
-    /// Distance from a point; 0 inside.
-    pub fn distance(&self, point: DVec3) -> f64 {
-        let outside = (point - self.centre).abs() - self.half - rounding(point.abs());
-        outside.max(DVec3::ZERO).length()
-    }
-}
-
-/// More than a vertex shader's roundings can move a coordinate whose terms have this magnitude.
-fn rounding(magnitude: DVec3) -> DVec3 {
-    magnitude * (4.0 * f64::from(f32::EPSILON))
-}
-
-/// Whether the light reaches any of the caster.
-pub(super) fn in_range(world: &WorldBox, light: HomogeneousLight, range: Option<f32>) -> bool {
-    match range {
-        Some(range) if !light.is_directional() => {
-            world.distance(light.0.xyz().as_dvec3()) <= f64::from(range)
-        }
-        _ => true,
-    }
-}
 
 /// Whether every triangle has to count, turned toward the light, or the light-facing ones suffice.
 ///
@@ -69,11 +25,10 @@ pub(super) fn counts_both_sides(
     if caster.mesh.kind() == MeshKind::General {
         return true;
     }
-    let light_outside = light.is_directional() || world.distance(light.0.xyz().as_dvec3()) > 0.0;
     let (near, radius) = view.near_sphere();
     // The near rectangle stems from a matrix of f32, too.
     let radius = radius * (1.0 + 8.0 * f64::from(f32::EPSILON));
-    !(light_outside && world.distance(near) > radius)
+    !(world.excludes(light) && world.distance(near) > radius)
 }
 
 /// The light in a mesh's own space, in two f32 that add up to it.

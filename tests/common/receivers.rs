@@ -1,6 +1,5 @@
 //! Visibility of given points, read by a compute shader through the crate's own WGSL: no camera,
 //! no rasteriser between the point that is asked for and the answer.
-
 #![allow(dead_code)] // each test uses its own part
 
 use shadows::glam::Vec3;

@@ -5,7 +5,7 @@ use shadows::glam::camera::rh::proj::directx as proj;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::mesh::Adjacency;
 use shadows::{
-    Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
+    Caster, CasterMesh, DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
@@ -176,10 +176,8 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
     let good_view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 2);
     let good = ShadowVolumeFrame {
-        view: &good_view,
-        light: LIGHT,
         range: Some(100.0),
-        casters: &casters,
+        ..ShadowVolumeFrame::new(&good_view, LIGHT, &casters)
     };
     let standard = view(DepthConvention::Standard);
     let changed = |transform| {
@@ -251,6 +249,13 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
         ),
         (
             ShadowVolumeFrame {
+                target_size: Some([640, 0]),
+                ..good
+            },
+            Error::TargetSize([640, 0]),
+        ),
+        (
+            ShadowVolumeFrame {
                 casters: &flat,
                 ..good
             },
@@ -308,12 +313,7 @@ fn more_casters_than_fit_are_refused() {
     let mut renderer = ShadowVolumeRenderer::new(&device, &by_compute()).unwrap();
     let view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 17);
-    let frame = |count| ShadowVolumeFrame {
-        view: &view,
-        light: LIGHT,
-        range: None,
-        casters: &casters[..count],
-    };
+    let frame = |count| ShadowVolumeFrame::new(&view, LIGHT, &casters[..count]);
     assert_eq!(
         renderer.prepare(&device, &queue, &frame(17)),
         Err(Error::TooManyCasters {
@@ -330,22 +330,18 @@ fn more_casters_than_fit_are_refused() {
 fn a_batch_is_split_where_a_buffer_would_be_too_large() {
     let limits = wgpu::Limits {
         max_buffer_size: 65_536,
-        max_storage_buffer_binding_size: 1_024,
+        max_storage_buffer_binding_size: 1_152,
         ..wgpu::Limits::defaults()
     };
     let (device, queue) = noop(wgpu::Features::empty(), limits);
     let mut renderer = ShadowVolumeRenderer::new(&device, &by_compute()).unwrap();
     let casters = cubes(&device, 16);
-    let frame = ShadowVolumeFrame {
-        view: &view(DepthConvention::InfiniteReverse),
-        light: LIGHT,
-        range: None,
-        casters: &casters,
-    };
+    let view = view(DepthConvention::InfiniteReverse);
+    let frame = ShadowVolumeFrame::new(&view, LIGHT, &casters);
     renderer.prepare(&device, &queue, &frame).unwrap();
     let statistics = renderer.statistics();
-    // 144 bytes of caps each: seven to a chunk of 1024 bytes, so three chunks, two passes each.
-    assert_eq!(statistics.dispatches, 6);
+    // 144 bytes of caps each: eight to a chunk of 1152 bytes, so two chunks, two passes each.
+    assert_eq!(statistics.dispatches, 4);
     assert_eq!(statistics.casters_drawn, 16);
     assert_eq!(statistics.triangles, 16 * 12);
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -356,19 +352,21 @@ fn a_batch_is_split_where_a_buffer_would_be_too_large() {
 #[test]
 fn casters_out_of_range_cost_nothing() {
     let (device, queue) = bare();
-    let mut renderer =
-        ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
+    let descriptor = ShadowVolumeDescriptor {
+        method: Method::ZFail,
+        ..Default::default()
+    };
+    let mut renderer = ShadowVolumeRenderer::new(&device, &descriptor).unwrap();
     let view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 3);
     let mut frame = ShadowVolumeFrame {
-        view: &view,
-        light: HomogeneousLight::point(Vec3::ZERO),
         range: Some(3.9),
-        casters: &casters,
+        ..ShadowVolumeFrame::new(&view, HomogeneousLight::point(Vec3::ZERO), &casters)
     };
     renderer.prepare(&device, &queue, &frame).unwrap();
     let none = renderer.statistics();
     assert_eq!((none.casters_drawn, none.casters_skipped), (0, 3));
+    assert_eq!(none.skipped_out_of_range, 3);
     assert_eq!((none.draws, none.dispatches, none.gpu_bytes), (0, 0, 0));
     // The nearest points of the boxes are 4, 7 and 10 away.
     for (range, drawn) in [(4.0, 1), (6.9, 1), (7.0, 2), (10.0, 3)] {

@@ -1,7 +1,7 @@
 //! Meshes, transforms, lights, cameras, formats.
 
 use shadows::glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
-use shadows::{DepthConvention, HomogeneousLight, ShadowVolumeDescriptor, wgpu};
+use shadows::{DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor, wgpu};
 
 use crate::host::gpu::Gpu;
 use crate::shapes::{self, Shape};
@@ -196,11 +196,13 @@ fn caps_do_not_fight_with_a_host_of_other_arithmetic() {
     if !gpu.device.features().contains(format.required_features()) {
         return;
     }
-    let stage = Stage {
+    let mut stage = Stage {
         premultiplied: true,
         format,
         ..Stage::new(lamp(), vec![Body::caster(shapes::sphere(24), turned)])
     };
+    // z-pass has no caps.
+    stage.savings.method = Method::ZFail;
     assert_exact(&gpu, &stage, "premultiplied");
     let unbiased = Stage {
         cap_bias_ulps: 0,
@@ -211,6 +213,36 @@ fn caps_do_not_fight_with_a_host_of_other_arithmetic() {
         found.wrong > 0,
         "the bias has nothing to do here: {found:?}"
     );
+}
+
+#[test]
+fn every_format_and_convention_bears_a_host_of_other_arithmetic() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let axes = [Vec3::new(3.0, 1.0, 2.0), Vec3::new(-1.0, 2.0, 0.4)];
+    for depth in crate::choices::depths(&gpu) {
+        for format in [
+            wgpu::TextureFormat::Depth24PlusStencil8,
+            wgpu::TextureFormat::Depth32FloatStencil8,
+        ] {
+            if !gpu.device.features().contains(format.required_features()) {
+                continue;
+            }
+            for (axis, method) in axes.into_iter().zip([Method::ZFail, Method::Auto]) {
+                let turned = Affine3A::from_rotation_translation(
+                    Quat::from_axis_angle(axis.normalize(), 1.1),
+                    Vec3::new(0.37, 1.9, -0.23),
+                );
+                let mut stage = Stage {
+                    premultiplied: true,
+                    depth,
+                    format,
+                    ..Stage::new(lamp(), vec![Body::caster(shapes::sphere(24), turned)])
+                };
+                stage.savings.method = method;
+                assert_exact(&gpu, &stage, &format!("{depth:?}, {format:?}, {method:?}"));
+            }
+        }
+    }
 }
 
 #[test]

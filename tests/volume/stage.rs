@@ -5,8 +5,8 @@ use shadows::glam::{Affine3A, DAffine3, DMat4, Mat4, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
-    Caster, CasterMesh, DepthConvention, HomogeneousLight, HostPositions, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
+    Caps, Caster, CasterMesh, DepthConvention, Extrusion, HomogeneousLight, HostPositions, Method,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -70,6 +70,23 @@ pub struct Stage {
     pub host_layout: Option<(usize, usize)>,
     pub light_pass: LightPass,
     pub lens: Lens,
+    /// Pixels along an edge of the picture.
+    pub side: u32,
+    pub range: Option<f32>,
+    pub savings: Savings,
+    /// The camera, where it is not the one that the fields above describe.
+    pub placed_view: Option<View>,
+}
+
+/// What of the volumes is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Savings {
+    pub method: Method,
+    pub caps: Caps,
+    pub extrusion: Extrusion,
+    /// Whether nothing is skipped or clipped.
+    pub unculled: bool,
+    pub silhouettes: Silhouettes,
 }
 
 impl Stage {
@@ -91,10 +108,17 @@ impl Stage {
             host_layout: None,
             light_pass: LightPass::Screen,
             lens: Lens::Perspective,
+            side: SIDE,
+            range: None,
+            savings: Savings::default(),
+            placed_view: None,
         }
     }
 
     pub fn view(&self) -> View {
+        if let Some(view) = self.placed_view {
+            return view;
+        }
         let far = 1000.0 * self.near;
         let (fov, near) = (self.field_of_view, self.near);
         let projection = match self.depth {
@@ -111,7 +135,13 @@ impl Stage {
         let projection = match self.lens {
             Lens::Perspective => projection,
             Lens::Mirrored => Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)) * projection,
-            Lens::Orthographic => proj::orthographic(-5.0, 5.0, -5.0, 5.0, near, far),
+            Lens::Orthographic => {
+                let (one, zero) = match self.depth {
+                    DepthConvention::Standard => (far, near),
+                    _ => (near, far),
+                };
+                proj::orthographic(-5.0, 5.0, -5.0, 5.0, zero, one)
+            }
         };
         View::new(projection * camera, self.depth).unwrap()
     }
@@ -131,16 +161,18 @@ impl Stage {
         };
         let image = |(x, y): (f32, f32)| {
             // A picture moved by -offset shows at its centres what was at centre + offset.
-            let pixel = 2.0 / SIDE as f32;
+            let pixel = 2.0 / self.side as f32;
             let shift = Mat4::from_translation(Vec3::new(-x * pixel, y * pixel, 0.0));
             let view = View::new(shift * self.view().clip_from_world(), self.depth).unwrap();
-            scene.render(&view, SIDE, SIDE, self.light, None).unwrap()
+            scene
+                .render(&view, self.side, self.side, self.light, self.range)
+                .unwrap()
         };
         Truth {
             centres: image((0.0, 0.0)),
             samples: offsets
                 .iter()
-                .map(|&offset| image(offset).visibility())
+                .map(|&offset| image(offset).classes().collect())
                 .collect(),
         }
     }
@@ -165,8 +197,12 @@ impl Stage {
             depth_stencil_format: self.format,
             sample_count: self.samples,
             depth: self.depth,
-            color_formats: &[],
             cap_bias_ulps: self.cap_bias_ulps,
+            method: self.savings.method,
+            caps: self.savings.caps,
+            extrusion: self.savings.extrusion,
+            culling: !self.savings.unculled,
+            silhouettes: self.savings.silhouettes,
             ..Default::default()
         }
     }
@@ -200,7 +236,7 @@ impl Stage {
         renderer: &mut ShadowVolumeRenderer,
         format: wgpu::TextureFormat,
     ) -> (Vec<u8>, Vec<u8>) {
-        let color = gpu.target([SIDE, SIDE], format, 1);
+        let color = gpu.target([self.side; 2], format, 1);
         self.prepare(gpu, renderer, &self.casters(gpu));
         let picture = gpu.checked(|| self.record(gpu, Some(renderer), Some(&view_of(&color))));
         (
@@ -215,11 +251,11 @@ impl Stage {
     }
 
     fn prepare(&self, gpu: &Gpu, renderer: &mut ShadowVolumeRenderer, casters: &[Caster]) {
+        let view = self.view();
         let frame = ShadowVolumeFrame {
-            view: &self.view(),
-            light: self.light,
-            range: None,
-            casters,
+            range: self.range,
+            target_size: Some([self.side; 2]),
+            ..ShadowVolumeFrame::new(&view, self.light, casters)
         };
         renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     }
@@ -277,7 +313,7 @@ impl Stage {
         renderer: Option<&ShadowVolumeRenderer>,
         extra: Option<&wgpu::TextureView>,
     ) -> Vec<u8> {
-        let size = [SIDE, SIDE];
+        let size = [self.side; 2];
         let depth = gpu.target(size, self.format, self.samples);
         let color = gpu.target(size, wgpu::TextureFormat::R8Unorm, self.samples);
         let picture = gpu.target(size, wgpu::TextureFormat::R8Unorm, 1);

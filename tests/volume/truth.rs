@@ -14,24 +14,25 @@ pub struct Errors {
 /// What is right, at the centres and at the samples.
 pub struct Truth {
     pub centres: ReferenceImage,
-    pub samples: Vec<Vec<u8>>,
+    pub samples: Vec<Vec<Class>>,
 }
 
 impl Truth {
-    /// Whether a shadow edge passes between the samples of a pixel, unseen by its centre.
-    fn is_split(&self, pixel: usize, centre: u8) -> bool {
+    /// Whether an edge of the shadow or of the light's range passes between the samples of a pixel,
+    /// unseen by its centre.
+    fn is_split(&self, pixel: usize, centre: Class) -> bool {
         self.samples.iter().any(|sample| sample[pixel] != centre)
     }
 
     /// A pixel is wrong if any of its samples is.
     pub fn errors(&self, picture: &[u8]) -> Errors {
         let reference = &self.centres;
-        let truth = reference.visibility();
+        let truth: Vec<_> = reference.classes().zip(reference.visibility()).collect();
         let wrong = |keep: fn(u8) -> bool| {
             let seen = picture.iter().zip(&truth).enumerate();
             let visible: Vec<u8> = seen
-                .map(|(pixel, (&value, &centre))| match keep(value) {
-                    _ if self.is_split(pixel, centre) => centre,
+                .map(|(pixel, (&value, &(class, right)))| match keep(value) {
+                    _ if self.is_split(pixel, class) => right,
                     true => 255,
                     false => 0,
                 })

@@ -126,12 +126,7 @@ fn what_was_prepared_and_not_encoded_is_searched_again() {
     let casters = stage.casters(&gpu);
     let mut renderer = renderer(&gpu, &stage, Silhouettes::Compute);
     let view = stage.view();
-    let frame = ShadowVolumeFrame {
-        view: &view,
-        light: stage.light,
-        range: None,
-        casters: &casters,
-    };
+    let frame = ShadowVolumeFrame::new(&view, stage.light, &casters);
     for _ in 0..2 {
         renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
         assert_eq!(renderer.statistics().casters_extracted, 2);
@@ -256,12 +251,7 @@ fn positions_of_the_host_are_refused_where_they_cannot_be_read() {
         let mut renderer = renderer(&gpu, &stage, way);
         let view = stage.view();
         let mut prepare = |casters: &[Caster]| {
-            let frame = ShadowVolumeFrame {
-                view: &view,
-                light: stage.light,
-                range: None,
-                casters,
-            };
+            let frame = ShadowVolumeFrame::new(&view, stage.light, casters);
             renderer.prepare(&gpu.device, &gpu.queue, &frame)
         };
         assert_eq!(prepare(&casters), Ok(()));
@@ -292,12 +282,9 @@ fn on_webgl2(silhouettes: Silhouettes) -> Result<Option<String>, ShadowVolumeErr
     let fins = shapes::fins(3);
     let adjacency = Adjacency::new(&fins.positions, &fins.indices).unwrap();
     let mesh = CasterMesh::new(&device, &fins.positions, &adjacency).unwrap();
-    let frame = ShadowVolumeFrame {
-        view: &mixed(lamp()).view(),
-        light: lamp(),
-        range: None,
-        casters: &[Caster::new(mesh, at(0.0, 0.5, 0.0))],
-    };
+    let view = mixed(lamp()).view();
+    let casters = [Caster::new(mesh, at(0.0, 0.5, 0.0))];
+    let frame = ShadowVolumeFrame::new(&view, lamp(), &casters);
     renderer.prepare(&device, &queue, &frame)?;
     assert!(renderer.statistics().draws > 0);
     let mut encoder = device.create_command_encoder(&Default::default());

@@ -1,0 +1,183 @@
+//! What choosing costs and saves: the renderer's own choices beside the textbook's volumes, and the
+//! price of a caster that is skipped.
+//!
+//! On the scene `spheres`, 1280 x 720, per frame: prepare, extraction and stencil pass, in
+//! interleaved rounds so that a machine that slows down slows both.
+//! - `ratio auto_vs_textbook`: the default renderer over `ShadowVolumeDescriptor::textbook()`.
+//! - `ratio zfail_vs_textbook`: the same with z-fail forced, so without what z-pass saves.
+//!
+//! Then `prepare` with ten thousand casters, all of them beside the view:
+//! - `ratio skipped_vs_drawn`: a skipped caster over one that is drawn, both on the CPU.
+//!
+//! `--quick` takes fewer rounds.
+
+#[allow(dead_code)]
+#[path = "../examples/host/mod.rs"]
+mod host;
+
+use std::time::Instant;
+
+use host::gpu::Gpu;
+use host::renderer::{self, Renderer};
+use host::scene_gpu::SceneGpu;
+use host::timer::Timer;
+use shadows::glam::{Affine3A, Vec3};
+use shadows::{
+    Caster, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, View,
+};
+
+const SIZE: [u32; 2] = [1280, 720];
+const SKIPPED: usize = 10_000;
+
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// The scene, its targets and what a renderer is told.
+struct Studio {
+    gpu: Gpu,
+    timer: Timer,
+    host: Renderer,
+    scene: SceneGpu,
+    view: View,
+    light: HomogeneousLight,
+    range: Option<f32>,
+}
+
+impl Studio {
+    fn new() -> anyhow::Result<Self> {
+        let gpu = Gpu::new(None)?;
+        let scene = host::scene::spheres();
+        let scene_gpu = SceneGpu::new(&gpu, &scene)?;
+        let light = HomogeneousLight(scene.light);
+        Ok(Self {
+            timer: Timer::new(&gpu),
+            host: Renderer::new(&gpu, SIZE, &scene, &scene_gpu)?,
+            view: renderer::view(&scene, SIZE)?,
+            range: (!light.is_directional()).then_some(scene.range),
+            scene: scene_gpu,
+            light,
+            gpu,
+        })
+    }
+
+    fn volumes(&self, options: ShadowVolumeDescriptor<'_>) -> anyhow::Result<ShadowVolumeRenderer> {
+        let descriptor = ShadowVolumeDescriptor {
+            depth_stencil_format: self.host.depth_stencil_format(),
+            depth: renderer::DEPTH,
+            ..options
+        };
+        Ok(ShadowVolumeRenderer::new(&self.gpu.device, &descriptor)?)
+    }
+
+    fn prepare(&self, volumes: &mut ShadowVolumeRenderer, casters: &[Caster]) -> f64 {
+        let start = Instant::now();
+        let frame = ShadowVolumeFrame {
+            range: self.range,
+            target_size: Some(SIZE),
+            ..ShadowVolumeFrame::new(&self.view, self.light, casters)
+        };
+        volumes
+            .prepare(&self.gpu.device, &self.gpu.queue, &frame)
+            .expect("a sound frame");
+        start.elapsed().as_secs_f64() * 1e3
+    }
+
+    /// Milliseconds of one frame's shadows.
+    fn frame(&self, volumes: &mut ShadowVolumeRenderer) -> f64 {
+        self.gpu
+            .run(|encoder| self.host.draw_ambient(encoder, &self.scene));
+        let prepare = self.prepare(volumes, &self.scene.casters);
+        prepare
+            + self.timer.time(&self.gpu, |encoder| {
+                volumes.encode(encoder);
+                volumes.render(&mut self.host.begin_stencil_pass(encoder));
+            })
+    }
+
+    /// Ten thousand casters of one mesh, each moved by an offset.
+    fn crowd(&self, offset: Vec3) -> Vec<Caster> {
+        let one = &self.scene.casters[0];
+        let moved = |i: usize| {
+            let place = offset + Vec3::new((i % 100) as f32, 0.0, (i / 100) as f32) * 1e-3;
+            let transform = Affine3A::from_translation(place) * one.world_from_object;
+            Caster::new(one.mesh.clone(), transform)
+        };
+        (0..SKIPPED).map(moved).collect()
+    }
+}
+
+/// Microseconds a caster on the CPU: skipped, and drawn.
+fn skipped_and_drawn(studio: &Studio, rounds: usize) -> anyhow::Result<[f64; 2]> {
+    // Behind the camera, on the side away from the light: nothing of their shadows is in view.
+    let [near, ..] = studio.view.near_corners();
+    let behind = (near.as_vec3() - studio.light.0.truncate()).normalize_or_zero() * 1e4;
+    let crowds = [studio.crowd(behind), studio.crowd(Vec3::ZERO)];
+    let mut renderers = [
+        studio.volumes(ShadowVolumeDescriptor {
+            label: Some("skipped"),
+            ..Default::default()
+        })?,
+        studio.volumes(Default::default())?,
+    ];
+    let mut times = [Vec::new(), Vec::new()];
+    for round in 0..=rounds {
+        for (place, crowd) in crowds.iter().enumerate() {
+            // Without a range, or the range would skip them before the view can.
+            let view = &studio.view;
+            let frame = ShadowVolumeFrame::new(view, studio.light, crowd);
+            let start = Instant::now();
+            renderers[place].prepare(&studio.gpu.device, &studio.gpu.queue, &frame)?;
+            let time = start.elapsed().as_secs_f64() * 1e6 / SKIPPED as f64;
+            studio.gpu.run(|encoder| renderers[place].encode(encoder));
+            if round > 0 {
+                times[place].push(time);
+            }
+        }
+    }
+    let [skipped, drawn] = renderers.map(|renderer| renderer.statistics());
+    assert_eq!(skipped.skipped_out_of_view as usize, SKIPPED, "{skipped:?}");
+    assert_eq!(drawn.casters_drawn as usize, SKIPPED, "{drawn:?}");
+    Ok(times.map(|mut times| median(&mut times)))
+}
+
+fn main() -> anyhow::Result<()> {
+    let quick = std::env::args().any(|argument| argument == "--quick");
+    let rounds = if quick { 5 } else { 21 };
+    let studio = Studio::new()?;
+    let mut contestants = [
+        ("auto", studio.volumes(ShadowVolumeDescriptor::default())?),
+        (
+            "zfail",
+            studio.volumes(ShadowVolumeDescriptor {
+                method: Method::ZFail,
+                ..Default::default()
+            })?,
+        ),
+        (
+            "textbook",
+            studio.volumes(ShadowVolumeDescriptor::textbook())?,
+        ),
+    ];
+    let mut times = [const { Vec::new() }; 3];
+    for round in 0..=rounds {
+        for ((_, volumes), times) in contestants.iter_mut().zip(&mut times) {
+            let time = studio.frame(volumes);
+            if round > 0 {
+                times.push(time);
+            }
+        }
+    }
+    let medians = times.map(|mut times| median(&mut times));
+    for ((name, volumes), median) in contestants.iter().zip(medians) {
+        println!("{name}: {median:.2} ms; {:?}", volumes.statistics());
+    }
+    let [skipped, drawn] = skipped_and_drawn(&studio, rounds.min(7))?;
+    println!("a caster skipped {skipped:.3} us, drawn {drawn:.3} us, of {SKIPPED}");
+    println!("ratio auto_vs_textbook {:.3}", medians[0] / medians[2]);
+    println!("ratio zfail_vs_textbook {:.3}", medians[1] / medians[2]);
+    println!("ratio skipped_vs_drawn {:.3}", skipped / drawn);
+    Ok(())
+}

@@ -1,0 +1,286 @@
+//! How a caster's volume is counted and closed, and whether it is drawn at all.
+//!
+//! **z-pass** (Heidmann, "Real Shadows, Real Time", 1991) counts the faces in front of the visible
+//! point P: +1 front, -1 back. **z-fail** counts those behind it: +1 back, -1 front. Along a ray
+//! from a point N of the near rectangle through P to infinity the winding number of a closed volume
+//! changes by +1 at a front face and by -1 at a back face, and is 0 at infinity. So z-fail counts
+//! winding(P), and z-pass winding(P) - winding(N). Hence
+//! - z-pass is right exactly where winding(N) = 0, so where no part of the caster lies between the
+//!   near rectangle and the light: in the pyramid between the two, a prism for a directional light.
+//! - Both may share one buffer, caster by caster: each adds the same winding(P), modulo 256.
+//! - z-pass needs no cap that cannot lie between N and P: no light cap, for P is the first surface
+//!   that the host draws and the light cap is such a surface, and no dark cap at infinity.
+//!
+//! Where far faces are kept by `unclipped_depth`, near ones are, too: rays then start at the eye
+//! (from infinity behind it in an orthographic view), and the pyramid is that much larger.
+//!
+//! **The dark cap** closes the sides, so its boundary must be theirs, projected to infinity. The
+//! light cap projected there is one such chain; a fan from one point over the silhouette is another.
+//! Their difference is a chain on the sphere of directions without boundary: a whole number of times
+//! the whole sphere. With the light outside the caster's box all directions from it to the box, and
+//! so both chains, lie in one open hemisphere, and that number is 0. With the light inside it may
+//! not be, and the full cap is drawn.
+//!
+//! **Finite volumes** end in a plane across the axis from the light through the caster's middle, not
+//! on a sphere: the plane touches the sphere of the light's range from outside, so no chord cuts
+//! through lit space. There any two caps with one boundary are the same chain, and the fan serves.
+
+use glam::{DVec3, DVec4, Vec4Swizzles as _};
+
+use super::ShadowVolumeFrame;
+use super::descriptor::ShadowVolumeDescriptor;
+use super::hull::Hull;
+use super::scissor::{self, Rect};
+use super::world_box::WorldBox;
+use crate::{HomogeneousLight, View};
+
+/// Which of a volume's faces are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// z-pass for each caster for which it is proven right in this frame, z-fail for the others.
+    #[default]
+    Auto,
+    /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
+    /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    ZPass,
+    /// z-fail for all casters: always right, and more to fill.
+    ZFail,
+}
+
+/// How z-fail closes a volume at its far end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Caps {
+    /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the
+    /// silhouette for a point light outside the caster's bounds; the full cap inside.
+    #[default]
+    AsNeeded,
+    /// The light cap once more at infinity, triangle by triangle.
+    Full,
+}
+
+/// How far the volumes of a point light reach.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Extrusion {
+    /// To infinity.
+    #[default]
+    Infinite,
+    /// Past the frame's `range`, for less to fill: every shadow is complete within the range, and
+    /// beyond it, where the light must have no effect, there may be none. Casters around the light,
+    /// and lights without a range, have infinite volumes all the same.
+    ToRange,
+}
+
+/// Which of the renderer's savings are on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Options {
+    pub method: Method,
+    pub caps: Caps,
+    pub extrusion: Extrusion,
+    pub culling: bool,
+}
+
+impl Options {
+    pub fn of(descriptor: &ShadowVolumeDescriptor<'_>) -> Self {
+        Self {
+            method: descriptor.method,
+            caps: descriptor.caps,
+            extrusion: descriptor.extrusion,
+            culling: descriptor.culling,
+        }
+    }
+
+    /// What of the target is drawn to, and the target's size; `None` for all of it.
+    pub fn scissor(&self, frame: &ShadowVolumeFrame<'_>) -> Option<(Rect, [u32; 2])> {
+        let target = frame.target_size.filter(|_| self.culling)?;
+        let range = frame.range.filter(|_| !frame.light.is_directional())?;
+        let centre = frame.light.0.xyz().as_dvec3();
+        let rect = scissor::of_sphere(frame.view, centre, range.into(), target);
+        Some((rect.unwrap_or_default(), target))
+    }
+}
+
+/// Which side of the visible point counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Count {
+    Pass,
+    Fail,
+}
+
+/// The far end of a volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DarkCap {
+    None,
+    Fan,
+    Full,
+}
+
+/// Why a caster is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Skip {
+    Empty,
+    OutOfRange,
+    OutOfView,
+}
+
+/// What is drawn of a caster.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Form {
+    pub count: Count,
+    pub dark_cap: DarkCap,
+    /// Vertices of a side: 6 for a quad, 3 where its far edge is one point at infinity.
+    pub side_vertices: u32,
+    pub far: FarEnd,
+}
+
+/// Where far vertices go: `direction + w light` with `w = plane . direction`, homogeneous.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FarEnd {
+    /// The axis over the distance of the plane; 0 for infinity.
+    pub plane: DVec3,
+    /// The fan's own point, homogeneous.
+    pub apex: DVec4,
+}
+
+/// What the choices of one frame depend on.
+#[derive(Debug)]
+pub(super) struct Rules {
+    options: Options,
+    light: HomogeneousLight,
+    range: Option<f64>,
+    /// Where rays start.
+    origins: Vec<DVec4>,
+    /// From there to the light: what misses it casts no shadow on the near rectangle.
+    near: Hull,
+    /// From all that is visible to the light: what misses it casts no visible shadow.
+    visible: Hull,
+    light_reaches_view: bool,
+}
+
+impl Rules {
+    pub fn new(frame: &ShadowVolumeFrame<'_>, options: Options) -> Self {
+        let light = frame.light.0.as_dvec4();
+        let range = frame.range.filter(|_| !frame.light.is_directional());
+        let range = range.map(f64::from);
+        let view = frame.view;
+        let origins = origins(view);
+        let mut frustum: Vec<DVec4> = view.near_corners().map(|c| c.extend(1.0)).to_vec();
+        // Endless: a far plane hides little, and its corners are badly known in f32 matrices.
+        frustum.extend(view.sight_lines().map(|d| d.normalize().extend(0.0)));
+        let seen = Hull::new(&frustum);
+        let light_reaches_view = range.is_none_or(|range| !seen.misses_sphere(light.xyz(), range));
+        frustum.push(unit(light));
+        Self {
+            options,
+            light: frame.light,
+            range,
+            near: Hull::new(&with(&origins, unit(light))),
+            visible: Hull::new(&frustum),
+            light_reaches_view,
+            origins,
+        }
+    }
+
+    /// Why the caster need not be drawn, if it need not.
+    pub fn skips(&self, world: &WorldBox) -> Option<Skip> {
+        if !self.options.culling {
+            return None;
+        }
+        let beyond = |range| world.distance(self.light.0.xyz().as_dvec3()) > range;
+        if self.range.is_some_and(beyond) {
+            return Some(Skip::OutOfRange);
+        }
+        if !self.light_reaches_view || self.visible.misses(world) {
+            return Some(Skip::OutOfView);
+        }
+        None
+    }
+
+    /// What is drawn of a caster that is not skipped.
+    pub fn form(&self, world: &WorldBox) -> Form {
+        let count = match self.options.method {
+            Method::ZFail => Count::Fail,
+            Method::ZPass => Count::Pass,
+            Method::Auto if self.near.misses(world) => Count::Pass,
+            Method::Auto => Count::Fail,
+        };
+        let far = self.far_end(world);
+        let full = self.options.caps == Caps::Full;
+        let directional = self.light.is_directional();
+        let dark_cap = match count {
+            Count::Pass if self.starts_beyond(far.plane) => DarkCap::Fan,
+            Count::Pass => DarkCap::None,
+            Count::Fail if full || !world.excludes(self.light) => DarkCap::Full,
+            Count::Fail if directional => DarkCap::None,
+            Count::Fail => DarkCap::Fan,
+        };
+        Form {
+            count,
+            dark_cap,
+            side_vertices: if directional && !full { 3 } else { 6 },
+            far,
+        }
+    }
+
+    fn far_end(&self, world: &WorldBox) -> FarEnd {
+        let light = self.light.0.xyz().as_dvec3();
+        let axis = (world.centre() - light).normalize_or_zero();
+        let infinite = FarEnd {
+            plane: DVec3::ZERO,
+            apex: axis.extend(0.0),
+        };
+        let from_light = axis.dot(light);
+        let (nearest, farthest) = (world.nearest(axis), world.farthest(axis));
+        // Only what is wholly on one side of the light can be cast onto one plane; a thousandth
+        // keeps rounding from moving a vertex to the other side.
+        let one_sided = nearest - from_light > 1e-3 * (farthest - from_light);
+        match (self.range, self.options.extrusion) {
+            (Some(range), Extrusion::ToRange) if one_sided && world.excludes(self.light) => {
+                // Beyond the caster, too, or its far part would be turned inside out. The factor
+                // covers what f32 makes of the plane.
+                let distance = range.max(farthest - from_light) * 1.001;
+                FarEnd {
+                    plane: axis / distance,
+                    apex: (light + axis * distance).extend(1.0),
+                }
+            }
+            _ => infinite,
+        }
+    }
+
+    /// Whether a ray may start beyond the plane that ends the volume, and so pass its dark cap on
+    /// the way to a point within the range.
+    fn starts_beyond(&self, plane: DVec3) -> bool {
+        let light = self.light.0.xyz().as_dvec3();
+        // Well before the plane, so that rounding cannot matter.
+        let before = |p: &DVec4| plane.dot(p.xyz() - light * p.w) < 0.999 * p.w;
+        plane != DVec3::ZERO && !self.origins.iter().all(before)
+    }
+}
+
+/// The points from which rays start, such that all others are between them.
+fn origins(view: &View) -> Vec<DVec4> {
+    let near = view.near_corners().map(|corner| corner.extend(1.0));
+    if !view.depth().clips_far() {
+        return near.to_vec();
+    }
+    let eye = view.eye();
+    let eye = if eye.w == 0.0 {
+        (-view.sight_lines()[0].normalize()).extend(0.0)
+    } else {
+        eye / eye.w
+    };
+    with(&near, eye)
+}
+
+fn with(points: &[DVec4], last: DVec4) -> Vec<DVec4> {
+    points.iter().copied().chain([last]).collect()
+}
+
+/// A direction of length 1; points as they are.
+fn unit(light: DVec4) -> DVec4 {
+    if light.w == 0.0 {
+        light.xyz().normalize().extend(0.0)
+    } else {
+        light
+    }
+}

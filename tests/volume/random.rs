@@ -1,0 +1,237 @@
+//! Five hundred random scenes: meshes of both kinds, lights near and inside, eyes inside volumes,
+//! fields of view from 20 to 150 degrees, every depth convention and format, 1x and 4x.
+
+use shadows::glam::{Affine3A, Quat, Vec3};
+use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, wgpu};
+
+use crate::choices::{TEXTBOOK, depths};
+use crate::host::gpu::Gpu;
+use crate::shapes::{self, Shape};
+use crate::stage::{Body, Savings, Stage};
+use crate::truth::Errors;
+
+const SCENES: u64 = 500;
+const SIDE: u32 = 64;
+
+/// A small generator, so that a seed is a scene for ever (Steele et al., "Fast Splittable
+/// Pseudorandom Number Generators", 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn within(&mut self, from: f32, to: f32) -> f32 {
+        from + (to - from) * ((self.next() >> 40) as f32 / (1 << 24) as f32)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
+
+    fn point(&mut self, half: f32) -> Vec3 {
+        Vec3::from_array([0; 3].map(|_| self.within(-half, half)))
+    }
+
+    fn shape(&mut self) -> Shape {
+        let rings = 3 + self.below(6) as u32;
+        match self.below(8) {
+            0 => shapes::cube(),
+            1 => shapes::sphere(rings),
+            2 => shapes::sphere(rings).reversed(),
+            3 => shapes::square(1.0).tilted(),
+            4 => shapes::fins(2 + self.below(4) as u32),
+            5 => {
+                let cut = self.within(-0.5, 0.5);
+                shapes::sphere(rings).cut(|corners| corners.iter().all(|c| c.y > cut))
+            }
+            6 => {
+                let step = 2 + self.below(3);
+                shapes::sphere(rings).turned(|triangle| triangle % step == 0)
+            }
+            _ => self.soup(),
+        }
+    }
+
+    /// Triangles that have nothing to do with one another.
+    fn soup(&mut self) -> Shape {
+        let mut soup = shapes::square(1.0).cut(|_| false);
+        for _ in 0..3 + self.below(8) {
+            let first = soup.positions.len() as u32;
+            let middle = self.point(0.6);
+            let corners = [0; 3].map(|_| (middle + self.point(0.7)).to_array());
+            soup.positions.extend(corners);
+            soup.indices.extend([first, first + 1, first + 2]);
+        }
+        soup
+    }
+
+    fn transform(&mut self) -> Affine3A {
+        let axis = (self.point(1.0) + Vec3::splat(1e-3)).normalize();
+        let turn = Quat::from_axis_angle(axis, self.within(0.0, 6.0));
+        let mirror = if self.below(4) == 0 { -1.0 } else { 1.0 };
+        let size = self.within(0.3, 1.3);
+        let stretch = Vec3::new(mirror, self.within(0.4, 1.5), 1.0) * size;
+        let place = self.point(2.5) + Vec3::new(0.0, 2.2, 0.0);
+        Affine3A::from_scale_rotation_translation(stretch, turn, place)
+    }
+}
+
+fn scene(seed: u64, gpu: &Gpu) -> Stage {
+    let random = &mut Random(seed);
+    let bodies: Vec<Body> = (0..1 + random.below(4))
+        .map(|_| Body::caster(random.shape(), random.transform()))
+        .collect();
+    // Far, near, inside a caster's box, or infinitely far.
+    let light = match random.below(6) {
+        0 | 1 => HomogeneousLight::point(random.point(6.0) + Vec3::new(0.0, 7.0, 0.0)),
+        2 => HomogeneousLight::point(random.point(2.0) + Vec3::new(0.0, 2.5, 0.0)),
+        3 => {
+            let middle = Vec3::from(bodies[0].transform.translation);
+            HomogeneousLight::point(middle + random.point(0.2))
+        }
+        _ => {
+            let side = random.point(1.0);
+            HomogeneousLight::directional(Vec3::new(side.x, 0.3 + side.y.abs(), side.z))
+        }
+    };
+    let mut stage = Stage::new(light, bodies);
+    place_camera(&mut stage, random);
+    let depths = depths(gpu);
+    stage.depth = depths[random.below(depths.len())];
+    let float = wgpu::TextureFormat::Depth32FloatStencil8;
+    let has_float = gpu.device.features().contains(float.required_features());
+    if has_float && random.below(2) == 0 {
+        stage.format = float;
+    }
+    // Four samples cost five reference pictures.
+    stage.samples = if random.below(8) == 0 { 4 } else { 1 };
+    stage.side = SIDE;
+    if !light.is_directional() && random.below(3) == 0 {
+        stage.range = Some(random.within(5.0, 12.0));
+    }
+    stage
+}
+
+/// Somewhere around, or in the shadow behind a caster.
+fn place_camera(stage: &mut Stage, random: &mut Random) {
+    let away = random.within(0.0, 6.28);
+    let outside = Vec3::new(8.0 * away.sin(), random.within(1.0, 7.0), 8.0 * away.cos());
+    let body = Vec3::from(stage.bodies[1].transform.translation);
+    let from_light = match stage.light.is_directional() {
+        true => -stage.light.0.truncate(),
+        false => body - stage.light.0.truncate(),
+    };
+    let behind = body + from_light.normalize_or(Vec3::NEG_Y) * random.within(0.2, 1.5);
+    stage.eye = if random.below(3) == 0 {
+        behind
+    } else {
+        outside
+    };
+    stage.eye.y = stage.eye.y.max(0.2);
+    stage.target = random.point(1.5) + Vec3::new(0.0, 0.8, 0.0);
+    if stage.target.distance(stage.eye) < 0.5 {
+        stage.target.x += 3.0;
+    }
+    stage.field_of_view = random.within(20.0, 150.0).to_radians();
+    stage.near = [0.02, 0.1, 0.5][random.below(3)];
+}
+
+fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
+    let stage = scene(seed, gpu);
+    let truth = stage.truth();
+    let z_fail = Savings {
+        method: Method::ZFail,
+        ..Default::default()
+    };
+    let to_range = Savings {
+        extrusion: Extrusion::ToRange,
+        ..Default::default()
+    };
+    let third = if seed % 2 == 0 { TEXTBOOK } else { to_range };
+    let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+    for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
+        let silhouettes = ways[(seed / 4 + turn) as usize % 3];
+        let savings = Savings {
+            silhouettes,
+            ..savings
+        };
+        let picture = Stage {
+            savings,
+            ..stage.clone()
+        }
+        .draw(gpu);
+        let found = truth.errors(&picture);
+        assert_eq!(
+            found.wrong, 0,
+            "seed {seed}, {savings:?}: {found:?}; {:?}, {:?}, {}x, range {:?}",
+            stage.depth, stage.format, stage.samples, stage.range
+        );
+        total.interior += found.interior;
+        total.lit += found.lit;
+        total.shadowed += found.shadowed;
+    }
+}
+
+fn assert_all_exact(part: u64) {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut total = Errors {
+        interior: 0,
+        lit: 0,
+        shadowed: 0,
+        wrong: 0,
+    };
+    for seed in (0..SCENES).filter(|seed| seed % 4 == part) {
+        assert_exact(&gpu, seed, &mut total);
+    }
+    assert!(total.interior > 300_000, "{total:?}");
+    assert!(total.lit > 100_000 && total.shadowed > 50_000, "{total:?}");
+}
+
+#[test]
+fn random_scenes_are_exact_1() {
+    assert_all_exact(0);
+}
+
+#[test]
+fn random_scenes_are_exact_2() {
+    assert_all_exact(1);
+}
+
+#[test]
+fn random_scenes_are_exact_3() {
+    assert_all_exact(2);
+}
+
+#[test]
+fn random_scenes_are_exact_4() {
+    assert_all_exact(3);
+}
+
+#[test]
+fn a_forced_z_pass_is_wrong_in_some_of_them() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let wrong = (0..40).filter(|seed| {
+        let mut stage = scene(*seed, &gpu);
+        stage.savings.method = Method::ZPass;
+        stage.truth().errors(&stage.draw(&gpu)).wrong > 100
+    });
+    assert!(wrong.count() >= 3);
+}
+
+#[test]
+fn all_conventions_are_among_them() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for depth in depths(&gpu) {
+        for samples in [1, 4] {
+            let like = |stage: &Stage| stage.depth == depth && stage.samples == samples;
+            let count = (0..SCENES).filter(|seed| like(&scene(*seed, &gpu))).count();
+            assert!(count > 10, "{depth:?}, {samples}x: {count}");
+        }
+    }
+}
