@@ -105,12 +105,8 @@ impl<'a> Extraction<'a> {
     }
 
     fn run(&mut self, light: Vec3) {
-        let frame = ShadowVolumeFrame {
-            view: &self.view,
-            light: HomogeneousLight::point(light),
-            range: None,
-            casters: &self.casters,
-        };
+        let light = HomogeneousLight::point(light);
+        let frame = ShadowVolumeFrame::new(&self.view, light, &self.casters);
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         self.renderer
             .prepare(device, queue, &frame)
