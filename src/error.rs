@@ -554,3 +554,61 @@ pub enum ShadowMapError {
         limit: u64,
     },
 }
+
+/// What can be wrong with a [`ShadowMask`](crate::ShadowMask) or a
+/// [`LightJoin`](crate::LightJoin).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ScreenPassError {
+    /// A size or a number of layers.
+    #[error("a {what} of {value} is out of range; pass 1 to {limit}, the device's limit")]
+    Range {
+        /// What it is, e.g. `"width"`.
+        what: &'static str,
+        /// Its value.
+        value: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The depth-stencil format does not fit, or the device was created without it.
+    #[error(
+        "{0:?} does not fit; pass Depth24PlusStencil8, or Depth32FloatStencil8 on a device with the feature of that name"
+    )]
+    Format(wgpu::TextureFormat),
+    /// The colour format cannot be drawn into and blended on this device.
+    #[error("{0:?} does not blend on this device; pass a colour format that does")]
+    ColorFormat(wgpu::TextureFormat),
+    /// The sample count is neither 1 nor 4.
+    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    SampleCount(u32),
+    /// The source has another number of samples than the target.
+    #[error("the source has {found} samples, the target {needed}; draw both with the same number")]
+    Source {
+        /// Samples of the source.
+        found: u32,
+        /// Samples of the target.
+        needed: u32,
+    },
+    /// There is no layer for this light.
+    #[error("light {light} has no layer; the mask was made for {lights}")]
+    Layer {
+        /// The light.
+        light: u32,
+        /// Layers.
+        lights: u32,
+    },
+    /// The depth-stencil buffer is not the one that was announced.
+    #[error(
+        "the depth-stencil buffer is {found:?} (width, height, samples) of {found_format:?}; this was made for {needed:?} of {needed_format:?}"
+    )]
+    Buffer {
+        /// Its width, height and samples.
+        found: [u32; 3],
+        /// Its format.
+        found_format: wgpu::TextureFormat,
+        /// Width, height and samples needed.
+        needed: [u32; 3],
+        /// Format needed.
+        needed_format: wgpu::TextureFormat,
+    },
+}

@@ -167,6 +167,6 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    Caps, Extrusion, Method, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
-    Silhouettes, VolumeStatistics,
+    Caps, Extrusion, LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
 };

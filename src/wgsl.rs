@@ -8,6 +8,9 @@
 /// output `@invariant @builtin(position)`.
 pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 
+/// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
+pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
+
 /// Depth of casters on the faces of a cube map.
 pub(crate) const CUBE_CASTER: &str = include_str!("../shaders/cube_caster.wgsl");
 

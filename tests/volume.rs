@@ -22,6 +22,8 @@ mod passes;
 mod pictures;
 #[path = "volume/random.rs"]
 mod random;
+#[path = "volume/screen.rs"]
+mod screen;
 #[path = "volume/shapes.rs"]
 mod shapes;
 #[path = "volume/stage.rs"]

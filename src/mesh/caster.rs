@@ -261,8 +261,9 @@ impl CasterMesh {
     }
 
     /// Says that the positions have changed since shadows were last drawn: the host calls it after
-    /// it deformed a mesh in its own position buffer. Faces of shadow maps that this mesh touches
-    /// are then drawn again. All clones share one revision.
+    /// it deformed a mesh in its own position buffer, before it prepares the frame. Faces of shadow
+    /// maps that this mesh touches are then drawn again, and its shadow volumes extracted again.
+    /// All clones share one revision.
     pub fn bump_revision(&self) {
         self.0.revision.fetch_add(1, Ordering::Relaxed);
     }

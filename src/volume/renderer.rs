@@ -142,8 +142,10 @@ impl ShadowVolumeRenderer {
     /// Records the compute passes that extract the volumes which were not kept from the frame
     /// before: none where neither the light nor a caster has moved.
     ///
-    /// What is recorded must be submitted, for the next frame counts on it. May be called again
-    /// without another [`prepare`](Self::prepare), e.g. after the host moved vertices of a mesh.
+    /// What is recorded must be submitted, for the next frame counts on it. A host that deforms a
+    /// mesh in its own position buffer says so with
+    /// [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision) before
+    /// [`prepare`](Self::prepare).
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         self.encoded.store(true, Ordering::Relaxed);
         if self.plan.stale().next().is_none() {

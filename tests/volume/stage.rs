@@ -250,7 +250,7 @@ impl Stage {
         gpu.checked(|| self.record(gpu, None, None))
     }
 
-    fn prepare(&self, gpu: &Gpu, renderer: &mut ShadowVolumeRenderer, casters: &[Caster]) {
+    pub fn prepare(&self, gpu: &Gpu, renderer: &mut ShadowVolumeRenderer, casters: &[Caster]) {
         let view = self.view();
         let frame = ShadowVolumeFrame {
             range: self.range,
@@ -375,7 +375,7 @@ impl Stage {
     }
 
     /// Each body as position and matrices for every corner, and its indices.
-    fn surfaces(&self, gpu: &Gpu) -> Vec<Surface> {
+    pub fn surfaces(&self, gpu: &Gpu) -> Vec<Surface> {
         let clip = self.view().clip_from_world();
         let buffer = |contents: &[u8], usage| {
             gpu.device

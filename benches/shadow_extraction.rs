@@ -1,0 +1,198 @@
+//! How long it takes to find the volume of a closed mesh of a million triangles, beside the
+//! plainest loops that could do it, in interleaved rounds of one run.
+//!
+//! - `extraction`: `Silhouettes::Auto`, from `prepare` until the lists of caps and sides lie in the
+//!   GPU's buffers and its queue is idle. The light moves every round.
+//! - `loop`: one thread and no rounding analysis: a byte of facing a triangle from its plain normal,
+//!   then a look at each edge; the same lists, left in main memory.
+//! - `compute`: `Silhouettes::Compute`.
+//! - `copy`: the adapter copies as many bytes as an extraction reads, the floor.
+//!
+//! `ratio extraction_vs_best_loop` is the first over the faster of the next two; `--quick` takes
+//! fewer rounds.
+
+#[allow(dead_code)]
+#[path = "../examples/host/gpu.rs"]
+mod gpu;
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use gpu::Gpu;
+use shadows::glam::camera::rh::{proj::directx as proj, view};
+use shadows::glam::{Affine3A, Vec3};
+use shadows::mesh::Adjacency;
+use shadows::{
+    Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
+    ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+};
+
+const RINGS: u32 = 1000;
+const SECTORS: u32 = 500;
+
+fn torus() -> (Vec<[f32; 3]>, Vec<u32>) {
+    let angle = |i: u32, n: u32| (i as f32 / n as f32 * std::f32::consts::TAU).sin_cos();
+    let (mut positions, mut indices) = (Vec::new(), Vec::new());
+    for ring in 0..RINGS {
+        for sector in 0..SECTORS {
+            let ((sr, cr), (ss, cs)) = (angle(ring, RINGS), angle(sector, SECTORS));
+            let radius = 3.0 + cs;
+            positions.push([radius * cr, ss, radius * sr]);
+            let at = |r: u32, s: u32| (r % RINGS) * SECTORS + s % SECTORS;
+            let [a, b] = [at(ring, sector), at(ring, sector + 1)];
+            let [c, d] = [at(ring + 1, sector), at(ring + 1, sector + 1)];
+            indices.extend([a, b, c, b, d, c]);
+        }
+    }
+    (positions, indices)
+}
+
+/// The plain loop and its memory.
+struct Loop {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    /// Two triangles an edge.
+    edges: Vec<[u32; 2]>,
+    facings: Vec<u8>,
+    caps: Vec<u32>,
+    sides: Vec<u32>,
+}
+
+impl Loop {
+    fn run(&mut self, light: Vec3) {
+        self.facings.clear();
+        self.caps.clear();
+        self.sides.clear();
+        for corners in &self.triangles {
+            let [a, b, c] = corners.map(|v| self.positions[v as usize]);
+            let faces = (b - a).cross(c - a).dot(light - a) > 0.0;
+            self.facings.push(u8::from(faces));
+            if faces {
+                self.caps.extend(corners);
+            }
+        }
+        for (edge, &[there, back]) in (0u32..).zip(&self.edges) {
+            let (there, back) = (self.facings[there as usize], self.facings[back as usize]);
+            if there != back {
+                self.sides.push(edge << 1 | u32::from(there < back));
+            }
+        }
+        black_box((&self.caps, &self.sides));
+    }
+}
+
+struct Extraction<'a> {
+    gpu: &'a Gpu,
+    renderer: ShadowVolumeRenderer,
+    casters: Vec<Caster>,
+    view: View,
+}
+
+impl<'a> Extraction<'a> {
+    fn new(gpu: &'a Gpu, mesh: &CasterMesh, silhouettes: Silhouettes) -> Self {
+        let camera = view::look_at_mat4(Vec3::new(0.0, 9.0, 12.0), Vec3::ZERO, Vec3::Y);
+        let projection = proj::perspective_infinite_reverse(0.8, 1.5, 0.1);
+        let descriptor = ShadowVolumeDescriptor {
+            silhouettes,
+            ..Default::default()
+        };
+        Self {
+            gpu,
+            renderer: ShadowVolumeRenderer::new(&gpu.device, &descriptor).expect("a device"),
+            casters: vec![Caster::new(mesh.clone(), Affine3A::IDENTITY)],
+            view: View::new(projection * camera, DepthConvention::InfiniteReverse).expect("a view"),
+        }
+    }
+
+    fn run(&mut self, light: Vec3) {
+        let light = HomogeneousLight::point(light);
+        let frame = ShadowVolumeFrame::new(&self.view, light, &self.casters);
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+        self.renderer
+            .prepare(device, queue, &frame)
+            .expect("a frame");
+        assert_eq!(self.renderer.statistics().casters_extracted, 1);
+        self.gpu.run(|encoder| self.renderer.encode(encoder));
+    }
+}
+
+fn median(times: &mut [Duration]) -> f64 {
+    times.sort_unstable();
+    times[times.len() / 2].as_secs_f64()
+}
+
+fn main() {
+    let Ok(gpu) = Gpu::new(None) else {
+        eprintln!("skipped: no adapter");
+        return;
+    };
+    let rounds = match std::env::args().any(|a| a == "--quick" || a == "--test") {
+        true => 5,
+        false => 25,
+    };
+    let (positions, indices) = torus();
+    let adjacency = Adjacency::new(&positions, &indices).expect("a torus");
+    let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a mesh");
+    let triangle = |use_: &shadows::mesh::EdgeUse| use_.triangle();
+    let mut plain = Loop {
+        positions: positions.iter().map(|&p| p.into()).collect(),
+        triangles: adjacency.triangles().to_vec(),
+        edges: adjacency
+            .edges()
+            .iter()
+            .map(|edge| [0, 1].map(|i| triangle(&adjacency.uses(edge)[i])))
+            .collect(),
+        facings: Vec::new(),
+        caps: Vec::new(),
+        sides: Vec::new(),
+    };
+    let mut auto = Extraction::new(&gpu, &mesh, Silhouettes::Auto);
+    let mut compute = Extraction::new(&gpu, &mesh, Silhouettes::Compute);
+    let bytes = 12 * positions.len() + 12 * adjacency.triangles().len() + 16 * plain.edges.len();
+    let buffer = |usage| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("copy"),
+            size: bytes as u64,
+            usage,
+            mapped_at_creation: false,
+        })
+    };
+    let from = buffer(wgpu::BufferUsages::COPY_SRC);
+    let to = buffer(wgpu::BufferUsages::COPY_DST);
+
+    let mut times: [Vec<Duration>; 4] = Default::default();
+    for round in 0..=rounds {
+        let light = Vec3::new(-2.0 + 0.01 * round as f32, 6.0, 2.5);
+        let works: [&mut dyn FnMut(); 4] = [
+            &mut || auto.run(light),
+            &mut || plain.run(light),
+            &mut || compute.run(light),
+            &mut || {
+                gpu.run(|encoder| {
+                    encoder.copy_buffer_to_buffer(&from, 0, &to, 0, bytes as u64);
+                });
+            },
+        ];
+        for (times, work) in times.iter_mut().zip(works) {
+            let start = Instant::now();
+            work();
+            // The first round allocates.
+            if round > 0 {
+                times.push(start.elapsed());
+            }
+        }
+    }
+    let [auto, plain, compute, copy] = times.map(|mut times| 1e3 * median(&mut times));
+    println!(
+        "{} triangles, {}",
+        adjacency.triangles().len(),
+        gpu::describe(&gpu.info)
+    );
+    println!("extraction {auto:.2} ms, loop {plain:.2} ms, compute {compute:.2} ms");
+    println!("copy of {bytes} bytes {copy:.2} ms");
+    println!(
+        "ratio extraction_vs_best_loop {:.3}",
+        auto / plain.min(compute)
+    );
+    println!("ratio extraction_vs_copy {:.3}", auto / copy);
+}
