@@ -12,7 +12,6 @@
 //!
 //! `--quick` takes fewer rounds.
 
-#[allow(dead_code)]
 #[path = "../examples/host/mod.rs"]
 mod host;
 

@@ -120,7 +120,7 @@ fn scene(seed: u64, gpu: &Gpu) -> Stage {
 
 /// Somewhere around, or in the shadow behind a caster.
 fn place_camera(stage: &mut Stage, random: &mut Random) {
-    let away = random.within(0.0, 6.28);
+    let away = random.within(0.0, std::f32::consts::TAU);
     let outside = Vec3::new(8.0 * away.sin(), random.within(1.0, 7.0), 8.0 * away.cos());
     let body = Vec3::from(stage.bodies[1].transform.translation);
     let from_light = match stage.light.is_directional() {
@@ -153,7 +153,11 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
         extrusion: Extrusion::Infinite,
         ..Default::default()
     };
-    let third = if seed % 2 == 0 { TEXTBOOK } else { infinite };
+    let third = if seed.is_multiple_of(2) {
+        TEXTBOOK
+    } else {
+        infinite
+    };
     let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
     for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
         let silhouettes = ways[(seed / 4 + turn) as usize % 3];
