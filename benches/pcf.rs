@@ -10,7 +10,6 @@
 //! which all take turns, so that a machine that slows down slows all. `--quick` takes fewer rounds,
 //! and only the kernels of the ratios.
 
-#[allow(dead_code)]
 #[path = "../examples/host/mod.rs"]
 mod host;
 

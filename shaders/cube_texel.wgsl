@@ -1,16 +1,10 @@
 // One texel of a cube map.
 
-// Depth of the receiver's plane in a texel's direction (0 or less beyond the plane's horizon), and
-// the depth stored there. `texel` counts from the face's corner and may lie beyond its edge: there
-// the grid goes on, texel for texel, on the neighbouring face, whose texels have directions (and
-// major axes) of their own.
-fn shadows_cube_depths(
-    map: texture_cube<f32>,
-    map_sampler: sampler,
-    receiver: ShadowsCubeReceiver,
-    size: f32,
-    texel: vec2f,
-) -> vec2f {
+// The direction of a texel's centre along the receiver's face's axes (forward, right, down), of
+// length 1 along the major axis. `texel` counts from the face's corner and may lie beyond its edge:
+// there the grid goes on, texel for texel, on the neighbouring face, whose texels have directions
+// (and major axes) of their own.
+fn shadows_cube_coordinates(size: f32, texel: vec2f) -> vec3f {
     let step = 2.0 / size;
     var uv = clamp((texel + 0.5) * step - 1.0, vec2f(0.5 * step - 3.0), vec2f(3.0 - 0.5 * step));
     var coordinates: vec3f;
@@ -23,6 +17,23 @@ fn shadows_cube_depths(
     } else {
         coordinates = vec3f(1.0, uv);
     }
+    return coordinates;
+}
+
+fn shadows_cube_plane(receiver: ShadowsCubeReceiver, size: f32, texel: vec2f) -> f32 {
+    return dot(receiver.plane, shadows_cube_coordinates(size, texel));
+}
+
+// Depth of the receiver's plane in a texel's direction (0 or less beyond the plane's horizon), and
+// the depth stored there.
+fn shadows_cube_depths(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    receiver: ShadowsCubeReceiver,
+    size: f32,
+    texel: vec2f,
+) -> vec2f {
+    let coordinates = shadows_cube_coordinates(size, texel);
     let face = receiver.face;
     let direction = mat3x3f(face.forward, face.right, face.down) * coordinates;
     let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));

@@ -1,3 +1,9 @@
+// One texel of a flat map.
+
+fn shadows_flat_plane(receiver: ShadowsFlatReceiver, size: f32, texel: vec2f) -> f32 {
+    return dot(receiver.plane, vec3f(1.0, 2.0 * (texel + 0.5) / size - 1.0));
+}
+
 // Depth of the receiver's plane at a texel (0 or less beyond the plane's horizon), and the depth
 // stored there. Beyond the map's edge nothing is.
 fn shadows_flat_depths(
@@ -9,6 +15,6 @@ fn shadows_flat_depths(
 ) -> vec2f {
     let place = (texel + 0.5) / size;
     let stored = textureSampleLevel(map, map_sampler, place, 0.0).x;
-    let plane = dot(receiver.plane, vec3f(1.0, 2.0 * place - 1.0));
+    let plane = shadows_flat_plane(receiver, size, texel);
     return vec2f(plane, select(0.0, stored, shadows_flat_inside(size, texel)));
 }

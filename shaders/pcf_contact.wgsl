@@ -7,6 +7,7 @@ fn shadows_cube_contact(
     map_sampler: sampler,
     light: ShadowsCubeLight,
     kernel: ShadowsCubeKernel,
+    offsets: texture_3d<f32>,
     position: vec3f,
     normal: vec3f,
     pixel: vec2f,
@@ -27,7 +28,7 @@ fn shadows_cube_contact(
     var stored = 0.0;
     var blocked = 0.0;
     for (var i = 0u; i < kernel.first_taps; i++) {
-        let offset = spread * shadows_cube_turned(kernel.offsets[i / 2u], i, turn);
+        let offset = spread * shadows_cube_turned(offsets, i, turn);
         let depths = shadows_cube_tap(map, map_sampler, receiver, light.size, search, offset);
         if depths.x < depths.y {
             plane += depths.x;
@@ -47,7 +48,7 @@ fn shadows_cube_contact(
     let disk = shadows_cube_disk(receiver, radius, stretch);
     var lit = 0.0;
     for (var i = 0u; i < kernel.taps; i++) {
-        let offset = shadows_cube_turned(kernel.offsets[i / 2u], i, turn);
+        let offset = shadows_cube_turned(offsets, i, turn);
         let depths = shadows_cube_tap(map, map_sampler, receiver, light.size, disk, offset);
         lit += select(0.0, 1.0, depths.x >= depths.y);
     }

@@ -13,8 +13,6 @@ struct ShadowsCubeKernel {
     // Taps of the blocker search; or of the first batch, after which the rest is skipped where
     // all agree (0: never).
     first_taps: u32,
-    // Offsets in the unit disk, two in each.
-    offsets: array<vec4f, 32>,
 }
 
 // The disk's axes, as long as its radius, along the same axes as `receiver.local`.

@@ -8,7 +8,9 @@ fn shadows_cube_turn(pixel: vec2f, frame_shift: f32) -> vec2f {
 }
 
 // The offset of tap `i`, turned.
-fn shadows_cube_turned(pair: vec4f, i: u32, turn: vec2f) -> vec2f {
+// The table is a texture: a uniform array given as a parameter is copied for every pixel.
+fn shadows_cube_turned(offsets: texture_3d<f32>, i: u32, turn: vec2f) -> vec2f {
+    let pair = textureLoad(offsets, vec3i(0, 0, i32(i / 2u)), 0);
     let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
     return vec2f(dot(offset, vec2f(turn.x, -turn.y)), dot(offset, turn.yx));
 }

@@ -18,18 +18,19 @@ fn shadows_cube_four(
     let reference = middle
         + vec4f(-across, across, across, -across)
         + vec4f(down, down, -down, -down);
-    if shadows_cube_gathers(size, corner) && all(reference > vec4f(receiver.horizon)) {
-        let stored = shadows_cube_stored(map, map_sampler, receiver, size, corner);
-        let bounded = clamp(reference, vec4f(0.0), vec4f(receiver.bound));
-        return select(vec4f(0.0), vec4f(1.0), bounded >= stored);
+    let stored = shadows_cube_stored(map, map_sampler, receiver, size, corner);
+    let bounded = clamp(reference, vec4f(0.0), vec4f(receiver.bound));
+    var lit = select(vec4f(0.0), vec4f(1.0), bounded >= stored);
+    // At an edge, or at the plane's horizon: texel by texel. A loop, and one that cannot be unrolled,
+    // because drivers that run both sides of a branch leave a loop that no lane is in.
+    let whole = shadows_cube_gathers(size, corner) && all(reference > vec4f(receiver.horizon));
+    let end = select(4u, 0u, whole);
+    for (var i = 0u; i < end; i++) {
+        let place = vec2f(select(0.0, 1.0, i == 1u || i == 2u), select(0.0, 1.0, i < 2u));
+        let texel = corner - 1.0 + place;
+        lit[i] = shadows_cube_texel(map, map_sampler, receiver, size, texel);
     }
-    let first = corner - 1.0;
-    return vec4f(
-        shadows_cube_texel(map, map_sampler, receiver, size, first + vec2f(0.0, 1.0)),
-        shadows_cube_texel(map, map_sampler, receiver, size, first + vec2f(1.0, 1.0)),
-        shadows_cube_texel(map, map_sampler, receiver, size, first + vec2f(1.0, 0.0)),
-        shadows_cube_texel(map, map_sampler, receiver, size, first),
-    );
+    return lit;
 }
 
 // One bilinear compare tap. Exactly 1 where all four are 1, which weights that are rounded one by

@@ -8,10 +8,9 @@ fn shadows_cube_texel(
     size: f32,
     texel: vec2f,
 ) -> f32 {
-    var depths = shadows_cube_depths(map, map_sampler, receiver, size, texel);
-    if depths.x <= receiver.horizon {
-        let mirrored = floor(2.0 * receiver.texel - texel - 0.5);
-        depths = shadows_cube_depths(map, map_sampler, receiver, size, mirrored);
-    }
+    let mirrored = floor(2.0 * receiver.texel - texel - 0.5);
+    let behind = shadows_cube_plane(receiver, size, texel) <= receiver.horizon;
+    let at = select(texel, mirrored, behind);
+    let depths = shadows_cube_depths(map, map_sampler, receiver, size, at);
     return select(0.0, 1.0, clamp(depths.x, 0.0, receiver.bound) >= depths.y);
 }

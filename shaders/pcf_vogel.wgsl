@@ -6,6 +6,7 @@ fn shadows_cube_vogel(
     map_sampler: sampler,
     light: ShadowsCubeLight,
     kernel: ShadowsCubeKernel,
+    offsets: texture_3d<f32>,
     position: vec3f,
     normal: vec3f,
     pixel: vec2f,
@@ -18,7 +19,7 @@ fn shadows_cube_vogel(
     let turn = shadows_cube_turn(pixel, kernel.frame_shift);
     var lit = 0.0;
     for (var i = 0u; i < kernel.taps; i++) {
-        let offset = shadows_cube_turned(kernel.offsets[i / 2u], i, turn);
+        let offset = shadows_cube_turned(offsets, i, turn);
         let depths = shadows_cube_tap(map, map_sampler, receiver, light.size, disk, offset);
         lit += select(0.0, 1.0, depths.x >= depths.y);
     }

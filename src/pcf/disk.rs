@@ -1,7 +1,6 @@
 //! Kernels on a disk and their parameters.
 
 use super::kernel::{KernelUniform, MAX_TAPS};
-use super::offsets;
 use crate::error::PcfError;
 
 /// How wide a kernel is, at the receiver.
@@ -135,9 +134,7 @@ impl VogelDisk {
     }
 
     pub(super) fn parameters(&self) -> KernelUniform {
-        let mut parameters = uniform(self.radius, 0.0, self.taps, 0);
-        parameters.offsets = offsets::vogel(self.taps);
-        parameters
+        uniform(self.radius, 0.0, self.taps, 0)
     }
 }
 
@@ -196,14 +193,12 @@ impl ContactHardening {
     }
 
     pub(super) fn parameters(&self) -> KernelUniform {
-        let mut parameters = uniform(
+        uniform(
             self.max_radius,
             self.light_size,
             self.taps,
             self.search_taps,
-        );
-        parameters.offsets = offsets::vogel(self.taps);
-        parameters
+        )
     }
 }
 
@@ -231,7 +226,5 @@ fn uniform(radius: Radius, light_size: f32, taps: u32, first_taps: u32) -> Kerne
         frame_shift: 0.0,
         taps,
         first_taps,
-        pad: [0; 2],
-        offsets: [[0.0; 4]; MAX_TAPS as usize / 2],
     }
 }

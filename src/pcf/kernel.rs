@@ -55,10 +55,10 @@ impl Kernel {
         Self::ContactHardening(ContactHardening::DEFAULT),
     ];
 
-    /// The kernel's radius: how far from a shadow's true edge its result may be neither 0 nor 1.
-    /// Disks reach half a texel further, to the centre of the texel that a tap falls on, and are
-    /// measured on the surface: towards the corners of a face and of a frustum, texels are smaller
-    /// than straight ahead, and a radius of one texel may cover `sqrt(3)` of them.
+    /// The kernel's radius: how far from a shadow's true edge its result may be anything but lit or
+    /// unlit. Disks reach half a texel further, to the centre of the texel that a tap falls on, and
+    /// are measured on the surface: towards the corners of a face and of a frustum, texels are
+    /// smaller than straight ahead, and a radius of one texel may cover `sqrt(3)` of them.
     pub fn radius(self) -> Radius {
         match self {
             Self::Hard => Radius::Texels(0.5),
@@ -172,8 +172,6 @@ pub(super) struct KernelUniform {
     pub frame_shift: f32,
     pub taps: u32,
     pub first_taps: u32,
-    pub pad: [u32; 2],
-    pub offsets: [[f32; 4]; MAX_TAPS as usize / 2],
 }
 
 /// The most taps that a table of offsets holds.
@@ -216,7 +214,6 @@ mod tests {
             ("frame_shift", offset_of!(KernelUniform, frame_shift)),
             ("taps", offset_of!(KernelUniform, taps)),
             ("first_taps", offset_of!(KernelUniform, first_taps)),
-            ("offsets", offset_of!(KernelUniform, offsets)),
         ];
         assert_eq!(theirs, ours);
         assert_eq!(span, size_of::<KernelUniform>());

@@ -3,22 +3,21 @@
 use std::f32::consts::TAU;
 
 use super::disk::RandomDisk;
-use super::kernel::MAX_TAPS;
 
 /// `taps` offsets on Vogel's spiral, two in each entry, from the centre out.
-pub(super) fn vogel(taps: u32) -> [[f32; 4]; MAX_TAPS as usize / 2] {
+pub(super) fn vogel(taps: u32) -> Vec<[f32; 4]> {
     let golden_angle = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
     let point = |i: u32| {
         let radius = ((i as f32 + 0.5) / taps as f32).sqrt();
         let (sine, cosine) = (i as f32 * golden_angle).sin_cos();
         [radius * cosine, radius * sine]
     };
-    let mut table = [[0.0; 4]; MAX_TAPS as usize / 2];
-    for (pair, entry) in (0..taps.div_ceil(2)).zip(&mut table) {
-        let [a, b] = [point(2 * pair), point(2 * pair + 1)];
-        *entry = [a[0], a[1], b[0], b[1]];
-    }
-    table
+    (0..taps.div_ceil(2))
+        .map(|pair| {
+            let [a, b] = [point(2 * pair), point(2 * pair + 1)];
+            [a[0], a[1], b[0], b[1]]
+        })
+        .collect()
 }
 
 /// The texels of the `n x n x d` texture, layer by layer: one jittered offset in every stratum of

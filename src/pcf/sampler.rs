@@ -141,8 +141,7 @@ impl PcfSampler {
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
     /// bytes, for flat maps 80; with `many_lights` a read-only storage buffer of all lights); for disks also 3, the
-    /// kernel's parameters (uniform buffer of 544 bytes), and for the random disk 4, its offsets
-    /// (`texture_3d<f32>`). Fragment and compute stages.
+    /// kernel's parameters (uniform buffer of 24 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -243,8 +242,7 @@ impl PcfSampler {
     /// ```
     ///
     /// For flat maps `flat` takes the place of `cube` in all names, and the map is a
-    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` after the light (the random disk then
-    /// `offsets: texture_3d<f32>`) and `pixel: vec2f`, the pixel's coordinates, as the last.
+    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` and `offsets: texture_3d<f32>` after the light and `pixel: vec2f`, the pixel's coordinates, as the last.
     ///
     /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
     pub fn wgsl(&self) -> String {
@@ -334,34 +332,32 @@ fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
 
 const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
 
-/// The random disk's texture; nothing for other kernels.
+/// The texture of a disk's offsets; nothing for other kernels.
 fn create_offsets(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     label: &str,
     kernel: Kernel,
 ) -> Option<wgpu::TextureView> {
-    let Kernel::RandomDisk(disk) = kernel else {
-        return None;
+    let (side, texels) = match kernel {
+        Kernel::RandomDisk(disk) => (disk.size, offsets::random_disk(&disk)),
+        Kernel::Vogel(disk) => (1, offsets::vogel(disk.taps)),
+        Kernel::ContactHardening(contact) => (1, offsets::vogel(contact.taps)),
+        _ => return None,
     };
-    // A byte a coordinate: 1/127 of the radius is fine enough for a jittered offset.
-    let texels: Vec<[i8; 4]> = offsets::random_disk(&disk)
-        .into_iter()
-        .map(|texel| texel.map(|c| (c * 127.0).round() as i8))
-        .collect();
     let texture = device.create_texture_with_data(
         queue,
         &wgpu::TextureDescriptor {
             label: Some(&format!("{label} offsets")),
             size: wgpu::Extent3d {
-                width: disk.size,
-                height: disk.size,
-                depth_or_array_layers: disk.taps() / 2,
+                width: side,
+                height: side,
+                depth_or_array_layers: texels.len() as u32 / (side * side),
             },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D3,
-            format: wgpu::TextureFormat::Rgba8Snorm,
+            format: wgpu::TextureFormat::Rgba32Float,
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },
@@ -433,7 +429,7 @@ fn create_layout(
         let ty = wgpu::BufferBindingType::Uniform;
         entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
     }
-    if let Kernel::RandomDisk(_) = kernel {
+    if kernel.uses_pixel() {
         entries.push(entry(4, texture(false, wgpu::TextureViewDimension::D3)));
     }
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
