@@ -224,6 +224,8 @@ impl Shadow {
             label: Some(Technique::Volume.name()),
             depth_stencil_format: renderer.depth_stencil_format(),
             depth: DEPTH,
+            // Every frame pays for its silhouettes, as a frame of a moving light does.
+            keep_between_frames: false,
             ..Default::default()
         };
         let lit = renderer.lit_pipeline(

@@ -1,0 +1,196 @@
+//! Errors of shadow maps and of what reads them.
+
+use thiserror::Error;
+
+use super::CasterError;
+use super::LightError;
+
+/// A field of [`Bias`](crate::Bias) that is out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("bias {field} = {value}; pass a finite number of texels, at least 0")]
+pub struct BiasError {
+    /// The field.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f32,
+}
+
+/// What can be wrong with a [`CubeShadowMap`](crate::CubeShadowMap).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CubeShadowMapError {
+    /// The size of a face is 0 or over the device's limit.
+    #[error("a face of {size} texels is out of range; 1 to {limit} (max_texture_dimension_2d)")]
+    Size {
+        /// Texels along a face.
+        size: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The light is out of range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// More casters than one buffer of the device can hold.
+    #[error("{instances} casters on faces need {size} bytes, max_buffer_size is {limit}")]
+    TooManyCasters {
+        /// Casters, each counted once for every face it touches.
+        instances: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
+    },
+    /// No light at all, or more than the texture's layers can hold.
+    #[error("a map for {lights} lights is out of range; 1 to {limit} (six layers each)")]
+    Slots {
+        /// Lights asked for.
+        lights: u32,
+        /// The most that work.
+        limit: u32,
+    },
+    /// The format is none that a map can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
+    /// A budget of no face at all.
+    #[error("max_faces_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
+    Budget,
+    /// A slope-scaled bias where the fragment shader writes the depth.
+    #[error(
+        "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
+    )]
+    SlopeScale,
+    /// More lights in a frame than the map was made for.
+    #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
+    TooManyLights {
+        /// Lights passed.
+        lights: usize,
+        /// Lights the map was made for.
+        slots: usize,
+    },
+    /// A pinned light that is not in the frame.
+    #[error("light {pinned} is pinned, but the frame has {lights} lights, counted from 0")]
+    Pinned {
+        /// The place that was passed.
+        pinned: usize,
+        /// Lights in the frame.
+        lights: usize,
+    },
+}
+
+/// What can be wrong with a [`ShadowMap`](crate::ShadowMap).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowMapError {
+    /// The size of the map is 0 or over the device's limit.
+    #[error("a map of {size} texels is out of range; 1 to {limit} (max_texture_dimension_2d)")]
+    Size {
+        /// Texels along a side.
+        size: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The light is out of range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// The distance up to which a view shows shadows is out of range.
+    #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
+    Distance(f32),
+    /// The bounds of the receivers are no box.
+    #[error("receivers from {min:?} to {max:?} are no box; pass finite corners, min <= max")]
+    Receivers {
+        /// The smallest corner passed.
+        min: [f32; 3],
+        /// The largest corner passed.
+        max: [f32; 3],
+    },
+    /// More casters than one buffer of the device can hold.
+    #[error("{casters} casters need {size} bytes, max_buffer_size is {limit}")]
+    TooManyCasters {
+        /// Casters on the map.
+        casters: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
+    },
+}
+
+/// What can be wrong with a [`PcfSampler`](crate::PcfSampler).
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PcfError {
+    /// The number of taps is out of range.
+    #[error("{what} = {taps} is out of range; pass 4 to {limit}")]
+    Taps {
+        /// The field.
+        what: &'static str,
+        /// Its value.
+        taps: u32,
+        /// The largest value.
+        limit: u32,
+    },
+    /// The strata of a random disk are too few, too many or odd in number.
+    #[error(
+        "around x rings = {around} x {rings} taps are out of range; pass an even product, 8 to {limit}"
+    )]
+    Samples {
+        /// Strata around the disk.
+        around: u32,
+        /// Rings.
+        rings: u32,
+        /// The most taps.
+        limit: u32,
+    },
+    /// The radius of a disk is out of range.
+    #[error("the radius {radius:?} is out of range; pass a number above 0, at most 64 texels")]
+    Radius {
+        /// The radius.
+        radius: crate::Radius,
+    },
+    /// The side of the texture of offsets is out of range.
+    #[error("a texture of {size} x {size} offsets is out of range; pass 1 to {limit}")]
+    OffsetTexture {
+        /// Texels along a side.
+        size: u32,
+        /// The most texels along a side.
+        limit: u32,
+    },
+    /// The size of the light is out of range.
+    #[error("light_size = {0} is out of range; pass a finite number above 0")]
+    LightSize(f32),
+    /// The sampler was made for another kind of map.
+    #[error(
+        "this sampler reads {made_for:?} maps and was given a {given:?} map; make one with PcfDescriptor::map = {given:?}"
+    )]
+    Map {
+        /// What the sampler was made for.
+        made_for: crate::MapKind,
+        /// What it was given.
+        given: crate::MapKind,
+    },
+    /// The map's texels hold something else than the sampler's shader expects.
+    #[error("the map holds {map:?} depths, the sampler reads {sampler:?}; make both with the same")]
+    Encoding {
+        /// What the map holds.
+        map: crate::DepthEncoding,
+        /// What the sampler reads.
+        sampler: crate::DepthEncoding,
+    },
+    /// A sampler for many lights and a map with one texture for each.
+    #[error(
+        "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
+    )]
+    NoCubeArray,
+}

@@ -1,0 +1,152 @@
+//! Errors of meshes and casters.
+
+use thiserror::Error;
+
+/// What can be wrong with triangles given to [`Adjacency`](crate::mesh::Adjacency).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// The index list is no list of whole triangles.
+    #[error("{count} indices are no multiple of {per_triangle}; pass {per_triangle} per triangle")]
+    IndexCount {
+        /// Length of the list that was passed.
+        count: usize,
+        /// Indices per triangle that the call expects (3, or 6 with adjacency).
+        per_triangle: usize,
+    },
+    /// An index points past the last vertex.
+    #[error(
+        "index {index} at place {place} is out of range; the mesh has {vertices} vertices, so the largest is {}",
+        i64::from(*vertices) - 1
+    )]
+    IndexOutOfRange {
+        /// Where in the index list.
+        place: usize,
+        /// The index found there.
+        index: u32,
+        /// Number of vertices.
+        vertices: u32,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} has the position {position:?}; every coordinate must be finite")]
+    Position {
+        /// The vertex.
+        vertex: u32,
+        /// Its position.
+        position: [f32; 3],
+    },
+    /// More vertices or triangles than 32-bit indices can address.
+    #[error("{count} {what} are too many; at most {limit} fit 32-bit indices, split the mesh")]
+    TooLarge {
+        /// `"vertices"` or `"triangles"`.
+        what: &'static str,
+        /// How many were passed.
+        count: usize,
+        /// The largest count that works.
+        limit: usize,
+    },
+    /// The weld tolerance is negative, NaN or not below 1.
+    #[error("weld tolerance {0} is out of range; it is a fraction of the mesh's size, 0 <= t < 1")]
+    Tolerance(f32),
+    /// The list given to `from_raw` names a neighbour that shares no edge with its triangle.
+    #[error(
+        "triangle {triangle}: the adjacent vertex {vertex} across its edge {edge} forms no triangle of this mesh with that edge"
+    )]
+    NotAdjacent {
+        /// The triangle.
+        triangle: u32,
+        /// The edge, 0 to 2: from corner `edge` to corner `edge + 1`.
+        edge: u32,
+        /// The vertex named as opposite.
+        vertex: u32,
+    },
+}
+
+/// What can be wrong when a [`CasterMesh`](crate::CasterMesh) is made.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CasterMeshError {
+    /// The host's position buffer has a stride or offset that is no multiple of four, or a stride
+    /// below 12 bytes.
+    #[error(
+        "position stride {stride} and offset {offset} do not fit; both must be multiples of 4 bytes, stride at least 12"
+    )]
+    Layout {
+        /// Bytes between positions.
+        stride: u64,
+        /// Bytes before the first position.
+        offset: u64,
+    },
+    /// The host's position buffer is too short.
+    #[error("the position buffer holds {size} bytes; {needed} are needed for {vertices} vertices")]
+    BufferTooSmall {
+        /// Its size in bytes.
+        size: u64,
+        /// Bytes needed.
+        needed: u64,
+        /// Number of vertices of the adjacency.
+        vertices: u32,
+    },
+    /// The host's position buffer lacks a usage.
+    #[error("the position buffer was created without {missing:?}; add it to its usages")]
+    BufferUsage {
+        /// What is missing.
+        missing: wgpu::BufferUsages,
+    },
+    /// A buffer of this mesh is larger than the device allows.
+    #[error(
+        "the mesh needs a {what} buffer of {size} bytes, the device's {limit_name} is {limit}; split the mesh or ask for a higher limit"
+    )]
+    TooLarge {
+        /// Which buffer.
+        what: &'static str,
+        /// Bytes needed.
+        size: u64,
+        /// The limit's name in [`wgpu::Limits`].
+        limit_name: &'static str,
+        /// Bytes allowed.
+        limit: u64,
+    },
+    /// The positions and the adjacency do not belong together.
+    #[error("{positions} positions were passed for an adjacency over {vertices} vertices")]
+    PositionCount {
+        /// Number of positions passed.
+        positions: usize,
+        /// Number of vertices of the adjacency.
+        vertices: u32,
+    },
+    /// A position or a bound is NaN or infinite.
+    #[error("{what} {value:?} is not finite")]
+    NotFinite {
+        /// What it is, e.g. `"bounds"`.
+        what: &'static str,
+        /// The value.
+        value: [f32; 3],
+    },
+}
+
+/// What can be wrong with a [`Caster`](crate::Caster).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CasterError {
+    /// An entry of the transform is NaN or infinite.
+    #[error("caster {index}: its transform holds an entry that is not finite")]
+    NotFinite {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+    /// The transform flattens the mesh, so that no light position in its space exists.
+    #[error(
+        "caster {index}: its transform is singular (a scale of 0); leave the caster out instead"
+    )]
+    Singular {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+    /// The mesh's buffers belong to another device.
+    #[error("caster {index}: its mesh was made on another device; make a CasterMesh on this one")]
+    Device {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+}

@@ -1,0 +1,15 @@
+//! Errors: one enum per operation. Every message says what to change.
+
+mod light;
+mod map;
+mod mesh;
+#[cfg(feature = "reference")]
+mod reference;
+mod volume;
+
+pub use light::{LightError, ViewError};
+pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
+pub use mesh::{CasterError, CasterMeshError, MeshError};
+#[cfg(feature = "reference")]
+pub use reference::ReferenceError;
+pub use volume::{ScreenPassError, ShadowVolumeError};

@@ -1,0 +1,80 @@
+//! Errors of the reference.
+
+use thiserror::Error;
+
+use super::LightError;
+
+/// What can be wrong with the input of [`reference`](crate::reference).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ReferenceError {
+    /// The index list is no list of whole triangles.
+    #[error("object {object}: {count} indices are no multiple of 3; pass 3 per triangle")]
+    IndexCount {
+        /// Place in the list of objects.
+        object: usize,
+        /// Length of its index list.
+        count: usize,
+    },
+    /// An index points past the last vertex.
+    #[error("object {object}: index {index} is out of range, it has {vertices} vertices")]
+    IndexOutOfRange {
+        /// Place in the list of objects.
+        object: usize,
+        /// The index found there.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A position is not finite in world space: the vertex or the transform is NaN, infinite or
+    /// too large.
+    #[error(
+        "object {object}: vertex {vertex} has no finite place in the world; check it and the transform"
+    )]
+    Position {
+        /// Place in the list of objects.
+        object: usize,
+        /// The vertex.
+        vertex: u32,
+    },
+    /// More objects or triangles than 32-bit numbers can count.
+    #[error("{0} objects or triangles are too many; at most 2^32 - 1 are possible")]
+    TooLarge(usize),
+    /// The light is not one.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// The picture has no pixels.
+    #[error("a picture of {width} x {height} pixels is empty; pass at least 1 x 1")]
+    Size {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The picture to compare has another number of pixels.
+    #[error("{passed} visibilities were passed for a picture of {pixels} pixels; pass one each")]
+    VisibilityCount {
+        /// How many were passed.
+        passed: usize,
+        /// Pixels of the reference.
+        pixels: usize,
+    },
+    /// A visibility is NaN or outside 0 to 1.
+    #[error("pixel {pixel} has the visibility {value}; pass 0 (in shadow) to 1 (lit)")]
+    Visibility {
+        /// Row-major number of the pixel.
+        pixel: usize,
+        /// What was passed.
+        value: f32,
+    },
+    /// An interior of shadow map texels that cannot be.
+    #[error(
+        "an interior of {face_size} texels a face, kernel radius {kernel_radius}, does not exist; pass at least 1 texel, a finite radius of at least 0, and a point light"
+    )]
+    Interior {
+        /// Texels along the edge of a cube face.
+        face_size: u32,
+        /// Radius of the filter in texels.
+        kernel_radius: f32,
+    },
+}

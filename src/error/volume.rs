@@ -1,0 +1,156 @@
+//! Errors of shadow volumes and their light passes.
+
+use thiserror::Error;
+
+use super::CasterError;
+use super::LightError;
+
+/// What can be wrong when a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) is made or
+/// prepared.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowVolumeError {
+    /// The depth-stencil format is none of the two that have what shadow volumes need.
+    #[error(
+        "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
+    )]
+    Format(wgpu::TextureFormat),
+    /// The sample count is neither 1 nor 4.
+    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    SampleCount(u32),
+    /// The device was created without a feature that the descriptor needs.
+    #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
+    MissingFeature {
+        /// What is missing.
+        feature: wgpu::Features,
+        /// What needs it, e.g. `"DepthConvention::Standard"`.
+        needed_by: String,
+    },
+    /// A limit of the device is too low for any shadow volume.
+    #[error(
+        "the device's {name} is {available}, shadow volumes need {needed}; ask for more when the device is created (see Support)"
+    )]
+    Limit {
+        /// The limit's name in [`wgpu::Limits`].
+        name: &'static str,
+        /// What is needed.
+        needed: u64,
+        /// What the device has.
+        available: u64,
+    },
+    /// A colour format that no colour target can have.
+    #[error("color_formats[{place}] is {format:?}, which is no colour format")]
+    ColorFormat {
+        /// Place in the list of colour formats.
+        place: usize,
+        /// The format found there.
+        format: wgpu::TextureFormat,
+    },
+    /// The view was made with another depth convention than the renderer.
+    #[error("the view's depth is {view:?}, this renderer was made for {renderer:?}")]
+    Depth {
+        /// The renderer's convention.
+        renderer: crate::DepthConvention,
+        /// The view's convention.
+        view: crate::DepthConvention,
+    },
+    /// The light or its range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// A caster.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// The volume of one caster does not fit the device's buffers.
+    #[error(
+        "caster {index}: its {what} need {size} bytes in one buffer, {limit} are possible; split the mesh or ask for higher buffer limits"
+    )]
+    TooLarge {
+        /// Place in the slice of casters.
+        index: usize,
+        /// `"facings"`, `"caps"`, `"sides"` or `"edge records"`.
+        what: &'static str,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes possible.
+        limit: u64,
+    },
+    /// The target size has no pixels.
+    #[error("a target of {0:?} pixels has none; pass its width and height, or None")]
+    TargetSize([u32; 2]),
+    /// The positions lie in a buffer of the host, where the CPU cannot read them.
+    #[error(
+        "caster {index}: its positions are in the host's buffer, and only Silhouettes::Compute reads them there; make the mesh with CasterMesh::new or a renderer that may use compute"
+    )]
+    HostPositions {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+    /// More casters than the device's buffers can describe.
+    #[error(
+        "{count} casters are too many for one frame; this device's buffer limits allow {limit}"
+    )]
+    TooManyCasters {
+        /// Casters that would be drawn.
+        count: usize,
+        /// The largest count that works.
+        limit: usize,
+    },
+}
+
+/// What can be wrong with a [`ShadowMask`](crate::ShadowMask) or a
+/// [`LightJoin`](crate::LightJoin).
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ScreenPassError {
+    /// A size or a number of layers.
+    #[error("a {what} of {value} is out of range; pass 1 to {limit}, the device's limit")]
+    Range {
+        /// What it is, e.g. `"width"`.
+        what: &'static str,
+        /// Its value.
+        value: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The depth-stencil format does not fit, or the device was created without it.
+    #[error(
+        "{0:?} does not fit; pass Depth24PlusStencil8, or Depth32FloatStencil8 on a device with the feature of that name"
+    )]
+    Format(wgpu::TextureFormat),
+    /// The colour format cannot be drawn into and blended on this device.
+    #[error("{0:?} does not blend on this device; pass a colour format that does")]
+    ColorFormat(wgpu::TextureFormat),
+    /// The sample count is neither 1 nor 4.
+    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    SampleCount(u32),
+    /// The source has another number of samples than the target.
+    #[error("the source has {found} samples, the target {needed}; draw both with the same number")]
+    Source {
+        /// Samples of the source.
+        found: u32,
+        /// Samples of the target.
+        needed: u32,
+    },
+    /// There is no layer for this light.
+    #[error("light {light} has no layer; the mask was made for {lights}")]
+    Layer {
+        /// The light.
+        light: u32,
+        /// Layers.
+        lights: u32,
+    },
+    /// The depth-stencil buffer is not the one that was announced.
+    #[error(
+        "the depth-stencil buffer is {found:?} (width, height, samples) of {found_format:?}; this was made for {needed:?} of {needed_format:?}"
+    )]
+    Buffer {
+        /// Its width, height and samples.
+        found: [u32; 3],
+        /// Its format.
+        found_format: wgpu::TextureFormat,
+        /// Width, height and samples needed.
+        needed: [u32; 3],
+        /// Format needed.
+        needed_format: wgpu::TextureFormat,
+    },
+}
