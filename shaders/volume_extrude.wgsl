@@ -6,7 +6,7 @@ struct Caster {
     world_from_object: mat4x4f,
     // World space, homogeneous.
     light: vec4f,
-    // xyz: far vertices lie where its product with the direction from the light is 1; 0: at infinity.
+    // xyz: far points lie where its product with the direction from the light is 1; 0: at infinity.
     far_plane: vec4f,
     // A point of that plane, or at infinity, homogeneous: where the fan's triangles meet.
     apex: vec4f,
@@ -27,9 +27,9 @@ fn near_point(position: vec3f) -> vec4f {
     return shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
 }
 
-// The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the very place of the
-// light has no such direction: it stays where it is, the same for every face that meets there, so
-// that the surface is still closed and no vertex is (0, 0, 0, 0).
+// The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the
+// very place of the light has no such direction: it stays where it is, the same for every face that
+// meets there, so that the surface is still closed and no vertex is (0, 0, 0, 0).
 fn far_point(position: vec3f) -> vec4f {
     let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
     let direction = caster.light.w * world - caster.light.xyz;

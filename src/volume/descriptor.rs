@@ -66,8 +66,8 @@ impl Default for ShadowVolumeDescriptor<'_> {
 
 impl ShadowVolumeDescriptor<'_> {
     /// The method as it is usually written down (Everitt and Kilgard, 2002): every caster in
-    /// z-fail, with both caps, to infinity, whether or not its shadow can be seen, the silhouettes searched every
-    /// frame. For comparison: it gives the same picture for more work.
+    /// z-fail, with both caps, to infinity, whether or not its shadow can be seen, the silhouettes
+    /// searched every frame. For comparison: it gives the same picture for more work.
     pub fn textbook() -> Self {
         Self {
             method: Method::ZFail,

@@ -18,7 +18,8 @@ const VERTEX: &str = include_str!("../../shaders/volume_vertex.wgsl");
 ///
 /// In a crease between a lit and an unlit triangle a side leaves the surface at so small an angle
 /// that both have the same depth for a while, give or take the rasteriser's rounding. Set back by
-/// that rounding it counts as behind the surface it belongs to.
+/// that rounding it counts as behind the surface it belongs to: in z-fail, and not in z-pass. Both
+/// take the same, so that every face counts in exactly one of the two.
 const SIDE_BIAS_ULPS: i32 = 2;
 
 /// What the vertex shaders work from.

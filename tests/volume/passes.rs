@@ -1,8 +1,11 @@
 //! What a host needs to draw: its passes, its pipelines, its surfaces.
 
+use shadows::glam::Mat4;
 use shadows::{ShadowVolumeRenderer, wgpu, wgsl};
+use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
+use crate::shapes::Shape;
 use crate::stage::Stage;
 
 /// One body's geometry as the host draws it.
@@ -13,6 +16,29 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// Its vertices: position, and two matrices of which the second is applied first.
+    pub fn new(gpu: &Gpu, shape: &Shape, [first, second]: [Mat4; 2]) -> Self {
+        let buffer = |contents, usage| {
+            gpu.device
+                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some("surface"),
+                    contents,
+                    usage,
+                })
+        };
+        let mut vertices: Vec<f32> = Vec::new();
+        for position in &shape.positions {
+            vertices.extend(position);
+            vertices.extend(first.to_cols_array());
+            vertices.extend(second.to_cols_array());
+        }
+        Self {
+            vertices: buffer(bytes_of(&vertices[..]), wgpu::BufferUsages::VERTEX),
+            indices: buffer(bytes_of(&shape.indices[..]), wgpu::BufferUsages::INDEX),
+            count: shape.indices.len() as u32,
+        }
+    }
+
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -210,4 +236,8 @@ impl HostPipelines {
             light_again: make("surface", Some("dim"), false, equal, guard),
         }
     }
+}
+
+pub fn bytes_of<T: bytemuck::NoUninit>(data: &[T]) -> &[u8] {
+    bytemuck::cast_slice(data)
 }

@@ -11,7 +11,7 @@ use shadows::{
 use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
-use crate::passes::{HostPipelines, LightPass, Surface, attach, begin, clear, view_of};
+use crate::passes::{HostPipelines, LightPass, Surface, attach, begin, bytes_of, clear, view_of};
 use crate::shapes::Shape;
 use crate::truth::Truth;
 
@@ -377,36 +377,15 @@ impl Stage {
     /// Each body as position and matrices for every corner, and its indices.
     pub fn surfaces(&self, gpu: &Gpu) -> Vec<Surface> {
         let clip = self.view().clip_from_world();
-        let buffer = |contents: &[u8], usage| {
-            gpu.device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some("surface"),
-                    contents,
-                    usage,
-                })
+        let surface = |body: &Body| {
+            let world = Mat4::from(body.transform);
+            let matrices = match self.premultiplied {
+                true => [clip * world, Mat4::IDENTITY],
+                false => [clip, world],
+            };
+            Surface::new(gpu, &body.shape, matrices)
         };
-        self.bodies
-            .iter()
-            .map(|body| {
-                let world = Mat4::from(body.transform);
-                let [first, second] = if self.premultiplied {
-                    [clip * world, Mat4::IDENTITY]
-                } else {
-                    [clip, world]
-                };
-                let mut vertices: Vec<f32> = Vec::new();
-                for position in &body.shape.positions {
-                    vertices.extend(position);
-                    vertices.extend(first.to_cols_array());
-                    vertices.extend(second.to_cols_array());
-                }
-                Surface {
-                    vertices: buffer(bytes_of(&vertices[..]), wgpu::BufferUsages::VERTEX),
-                    indices: buffer(bytes_of(&body.shape.indices[..]), wgpu::BufferUsages::INDEX),
-                    count: body.shape.indices.len() as u32,
-                }
-            })
-            .collect()
+        self.bodies.iter().map(surface).collect()
     }
 }
 
@@ -414,8 +393,4 @@ fn exact(transform: Affine3A) -> DAffine3 {
     DAffine3::from_mat4(DMat4::from_cols_array(
         &Mat4::from(transform).to_cols_array().map(f64::from),
     ))
-}
-
-pub fn bytes_of<T: bytemuck::NoUninit>(data: &[T]) -> &[u8] {
-    bytemuck::cast_slice(data)
 }
