@@ -151,6 +151,8 @@ pub mod support;
 pub mod view;
 pub mod volume;
 pub mod wgsl;
+#[cfg(test)]
+mod wgsl_layout;
 
 pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{

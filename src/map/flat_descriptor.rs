@@ -175,42 +175,28 @@ impl FlatLightUniform {
 
 #[cfg(test)]
 mod tests {
-    use std::mem::offset_of;
-
     use super::FlatLightUniform as Uniform;
+    use crate::wgsl_layout::assert_layout;
 
     #[test]
     fn the_light_lies_in_memory_as_wgsl_has_it() {
         let text = include_str!("../../shaders/flat_receiver.wgsl");
-        let module = naga::front::wgsl::parse_str(text).unwrap();
-        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
-            naga::TypeInner::Struct { members, span }
-                if ty.name.as_deref() == Some("ShadowsFlatLight") =>
-            {
-                Some((members.clone(), *span as usize))
-            }
-            _ => None,
-        });
-        let (members, span) = members.unwrap();
-        let theirs: Vec<(&str, usize)> = members
-            .iter()
-            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
-            .collect();
-        let ours = [
-            ("position", offset_of!(Uniform, position)),
-            ("near", offset_of!(Uniform, near)),
-            ("forward", offset_of!(Uniform, forward)),
-            ("scale", offset_of!(Uniform, scale)),
-            ("right", offset_of!(Uniform, right)),
-            ("size", offset_of!(Uniform, size)),
-            ("down", offset_of!(Uniform, down)),
-            ("range", offset_of!(Uniform, range)),
-            ("normal_offset", offset_of!(Uniform, normal_offset)),
-            ("depth_bias", offset_of!(Uniform, depth_bias)),
-            ("perspective", offset_of!(Uniform, perspective)),
-            ("filled", offset_of!(Uniform, filled)),
-        ];
-        assert_eq!(theirs, ours);
-        assert_eq!(span, size_of::<Uniform>());
+        assert_layout!(
+            text,
+            "ShadowsFlatLight",
+            Uniform,
+            position,
+            near,
+            forward,
+            scale,
+            right,
+            size,
+            down,
+            range,
+            normal_offset,
+            depth_bias,
+            perspective,
+            filled
+        );
     }
 }

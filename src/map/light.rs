@@ -58,9 +58,8 @@ impl LightUniform {
 
 #[cfg(test)]
 mod tests {
-    use std::mem::offset_of;
-
     use super::LightUniform;
+    use crate::wgsl_layout::assert_layout;
 
     #[test]
     fn the_light_lies_in_memory_as_wgsl_has_it() {
@@ -69,31 +68,18 @@ mod tests {
             include_str!("../../shaders/cube_fetch.wgsl"),
             include_str!("../../shaders/cube_major.wgsl")
         );
-        let module = naga::front::wgsl::parse_str(text).unwrap();
-        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
-            naga::TypeInner::Struct { members, span }
-                if ty.name.as_deref() == Some("ShadowsCubeLight") =>
-            {
-                Some((members.clone(), *span as usize))
-            }
-            _ => None,
-        });
-        let (members, span) = members.unwrap();
-        let theirs: Vec<(&str, usize)> = members
-            .iter()
-            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
-            .collect();
-        let ours = [
-            ("position", offset_of!(LightUniform, position)),
-            ("near", offset_of!(LightUniform, near)),
-            ("range", offset_of!(LightUniform, range)),
-            ("size", offset_of!(LightUniform, size)),
-            ("normal_offset", offset_of!(LightUniform, normal_offset)),
-            ("depth_scale", offset_of!(LightUniform, depth_scale)),
-            ("quantum", offset_of!(LightUniform, quantum)),
-            ("cube", offset_of!(LightUniform, cube)),
-        ];
-        assert_eq!(theirs, ours);
-        assert_eq!(span, size_of::<LightUniform>());
+        assert_layout!(
+            text,
+            "ShadowsCubeLight",
+            LightUniform,
+            position,
+            near,
+            range,
+            size,
+            normal_offset,
+            depth_scale,
+            quantum,
+            cube
+        );
     }
 }

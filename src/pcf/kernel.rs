@@ -179,10 +179,9 @@ pub(super) const MAX_TAPS: u32 = 64;
 
 #[cfg(test)]
 mod tests {
-    use std::mem::offset_of;
-
     use super::*;
     use crate::pcf::map_kind::Reads;
+    use crate::wgsl_layout::assert_layout;
     use crate::{DepthEncoding, MapKind};
 
     #[test]
@@ -193,29 +192,16 @@ mod tests {
             many_lights: false,
             border: false,
         }));
-        let module = naga::front::wgsl::parse_str(&text).unwrap();
-        let members = module.types.iter().find_map(|(_, ty)| match &ty.inner {
-            naga::TypeInner::Struct { members, span }
-                if ty.name.as_deref() == Some("ShadowsCubeKernel") =>
-            {
-                Some((members.clone(), *span as usize))
-            }
-            _ => None,
-        });
-        let (members, span) = members.unwrap();
-        let theirs: Vec<(&str, usize)> = members
-            .iter()
-            .map(|m| (m.name.as_deref().unwrap(), m.offset as usize))
-            .collect();
-        let ours = [
-            ("radius_texels", offset_of!(KernelUniform, radius_texels)),
-            ("radius_world", offset_of!(KernelUniform, radius_world)),
-            ("light_size", offset_of!(KernelUniform, light_size)),
-            ("frame_shift", offset_of!(KernelUniform, frame_shift)),
-            ("taps", offset_of!(KernelUniform, taps)),
-            ("first_taps", offset_of!(KernelUniform, first_taps)),
-        ];
-        assert_eq!(theirs, ours);
-        assert_eq!(span, size_of::<KernelUniform>());
+        assert_layout!(
+            text,
+            "ShadowsCubeKernel",
+            KernelUniform,
+            radius_texels,
+            radius_world,
+            light_size,
+            frame_shift,
+            taps,
+            first_taps
+        );
     }
 }

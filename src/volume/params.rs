@@ -91,6 +91,7 @@ mod tests {
     use crate::volume::draw::Feed;
     use crate::volume::limits::WORKGROUP;
     use crate::volume::silhouette;
+    use crate::wgsl_layout::assert_layout;
 
     fn parse(source: &str) -> naga::Module {
         naga::front::wgsl::parse_str(source)
@@ -104,31 +105,6 @@ mod tests {
             Feed::Pulled.source(),
             Feed::Records.source(),
         ]
-    }
-
-    /// Name, offset and the struct's size, as naga lays it out.
-    fn layout(source: &str, name: &str) -> (Vec<(String, u32)>, u32) {
-        let module = parse(source);
-        let (_, found) = module
-            .types
-            .iter()
-            .find(|(_, t)| t.name.as_deref() == Some(name))
-            .expect("the struct is in the shader");
-        let naga::TypeInner::Struct { members, span } = &found.inner else {
-            panic!("{name} is no struct");
-        };
-        let members = members
-            .iter()
-            .map(|m| (m.name.clone().unwrap_or_default(), m.offset))
-            .collect();
-        (members, *span)
-    }
-
-    macro_rules! assert_layout {
-        ($source:expr, $name:expr, $rust:ty, $($field:ident),+) => {
-            let rust = vec![$((stringify!($field).to_string(), offset_of!($rust, $field) as u32)),+];
-            assert_eq!(layout(&$source, $name), (rust, size_of::<$rust>() as u32));
-        };
     }
 
     #[test]
