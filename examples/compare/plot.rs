@@ -119,6 +119,12 @@ fn draw_marks(
         let style = TextStyle::from((FONT, 17).into_font())
             .color(&BLACK)
             .pos(Pos::new(HPos::Center, VPos::Center));
+        if offset.1.abs() > GAP + LINE_HEIGHT {
+            // Too far away to be seen as this mark's own.
+            let end = (offset.0, offset.1 - offset.1.signum() * LINE_HEIGHT / 2);
+            let line = PathElement::new(vec![(0, 0), end], BLACK.mix(0.5));
+            chart.draw_series([EmptyElement::at(points[place]) + line])?;
+        }
         chart.draw_series([EmptyElement::at(points[place]) + Text::new(text, offset, style)])?;
     }
     Ok(())
@@ -149,7 +155,7 @@ impl Box2 {
 }
 
 /// Where a label goes, from its mark: right, left, above or below, whichever is free first, else
-/// ever farther above.
+/// ever farther away.
 fn free_offset(
     mark: (i32, i32),
     half: i32,
@@ -165,17 +171,18 @@ fn free_offset(
         (aside, step),
         (-aside, step),
     ];
-    let above = (2..).map(|n| (0, -n * step));
-    let mut offsets = near.into_iter().chain(corners).chain(above);
+    // Farther up or down, moved aside as far as the picture's edges make it.
+    let inward = (xs.start + half - mark.0).max(0) + (xs.end - half - mark.0).min(0);
+    let farther = (2..).flat_map(|n| [(inward, -n * step), (inward, n * step)]);
+    let mut offsets = near.into_iter().chain(corners).chain(farther);
     let free = offsets.find(|offset| {
         let label = Box2::around(
             (mark.0 + offset.0, mark.1 + offset.1),
             half,
             LINE_HEIGHT / 2,
         );
-        // Above a mark at the picture's edge nothing would ever fit.
         let inside = label.min.0 >= xs.start && label.max.0 <= xs.end;
-        (inside || offset.1 < -step) && !taken.iter().any(|other| label.overlaps(other))
+        (inside || offset.1.abs() > step) && !taken.iter().any(|other| label.overlaps(other))
     });
     free.unwrap_or((aside, 0))
 }
