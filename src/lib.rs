@@ -9,7 +9,7 @@
 //! |---|---|---|
 //! | [`CubeShadowMap`] | depth of the casters on six cube faces | point lights, soft edges, many receivers |
 //! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
-//! | [`PcfSampler`] | the kernels by which receivers read a map | one tap to sixteen texels, no acne, no seams |
+//! | [`PcfSampler`] | the kernels by which receivers read a map | one tap to contact hardening, no acne, no seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | exact to the pixel, point and directional lights |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes need to know of a mesh; any triangles will do |
 //! | `reference` (feature) | exact visibility by casting rays in f64 | the error of all of the above |

@@ -28,9 +28,11 @@ pub struct Support {
     pub depth_clip_control: bool,
     /// `Depth32FloatStencil8`: stencil beside float depth.
     pub depth32float_stencil8: bool,
-    /// Multiview with any mask of six views: all cube faces in one pass.
+    /// Multiview with any mask of six views: all cube faces in one pass. Asked for so that a device
+    /// need not change for it; cube maps take a pass for each face so far, with it too.
     pub multiview: bool,
-    /// Blending in `R32Float`: counters that never wrap.
+    /// Blending in `R32Float`: counters that never wrap. Asked for likewise; shadow volumes count in
+    /// the 8-bit stencil so far, with it too.
     pub float32_blending: bool,
     /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
     pub vertex_storage: bool,
