@@ -39,13 +39,37 @@ struct FrameUniform {
 pub struct Renderer {
     size: [u32; 2],
     depth_stencil_format: wgpu::TextureFormat,
+    targets: Targets,
+    host_layout: wgpu::BindGroupLayout,
+    host_group: wgpu::BindGroup,
+    frame: wgpu::Buffer,
+    ambient: wgpu::RenderPipeline,
+    unshadowed: LitPipeline,
+}
+
+/// What is drawn into.
+struct Targets {
     depth_stencil: wgpu::TextureView,
     shaded: wgpu::Texture,
     visibility: wgpu::Texture,
-    host_layout: wgpu::BindGroupLayout,
-    host_group: wgpu::BindGroup,
-    ambient: wgpu::RenderPipeline,
-    unshadowed: LitPipeline,
+}
+
+impl Targets {
+    fn new(gpu: &Gpu, size: [u32; 2], depth_stencil: wgpu::TextureFormat) -> Result<Self> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        ensure!(
+            size.iter().all(|&side| side <= limit),
+            "a picture of {}x{} is too large for this device; at most {limit}x{limit}",
+            size[0],
+            size[1]
+        );
+        let depth_stencil = gpu.target(size, depth_stencil, 1);
+        Ok(Self {
+            depth_stencil: depth_stencil.create_view(&Default::default()),
+            shaded: gpu.target(size, SHADED, 1),
+            visibility: gpu.target(size, VISIBILITY, 1),
+        })
+    }
 }
 
 impl Renderer {
@@ -54,24 +78,16 @@ impl Renderer {
     /// # Errors
     /// If the device cannot make targets of this size.
     pub fn new(gpu: &Gpu, size: [u32; 2], scene: &Scene, scene_gpu: &SceneGpu) -> Result<Self> {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        ensure!(
-            size.iter().all(|&side| side <= limit),
-            "a picture of {}x{} is too large for this device; at most {limit}x{limit}",
-            size[0],
-            size[1]
-        );
         let depth_stencil_format = depth_stencil_format(gpu);
-        let depth_stencil = gpu.target(size, depth_stencil_format, 1);
-        let frame = frame_uniform(scene, size);
+        let targets = Targets::new(gpu, size, depth_stencil_format)?;
+        let frame = frame_buffer(gpu, scene, size);
         let host_layout = host_layout(&gpu.device);
         let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
         Ok(Self {
             size,
             depth_stencil_format,
-            depth_stencil: depth_stencil.create_view(&Default::default()),
-            shaded: gpu.target(size, SHADED, 1),
-            visibility: gpu.target(size, VISIBILITY, 1),
+            targets,
+            frame,
             ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format),
             unshadowed: lit_pipeline(
                 &gpu.device,
@@ -82,6 +98,31 @@ impl Renderer {
             host_layout,
             host_group,
         })
+    }
+
+    /// Takes over another light or camera of the scene, and another size: what a window needs.
+    ///
+    /// # Errors
+    /// If the device cannot make targets of this size.
+    pub fn update(&mut self, gpu: &Gpu, size: [u32; 2], scene: &Scene) -> Result<()> {
+        if size != self.size {
+            self.targets = Targets::new(gpu, size, self.depth_stencil_format)?;
+            self.size = size;
+        }
+        let frame = frame_uniform(scene, size);
+        gpu.queue
+            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+        Ok(())
+    }
+
+    /// The shaded picture, sRGB.
+    pub fn shaded(&self) -> &wgpu::Texture {
+        &self.targets.shaded
+    }
+
+    /// Visibility of the light at each pixel, `R8Unorm`: 1 lit; 0 also where there is no surface.
+    pub fn visibility(&self) -> &wgpu::Texture {
+        &self.targets.visibility
     }
 
     /// Width and height in pixels.
@@ -111,12 +152,12 @@ impl Renderer {
 
     /// Clears, then draws depth and ambient light.
     pub fn draw_ambient(&self, encoder: &mut wgpu::CommandEncoder, scene: &SceneGpu) {
-        let shaded = self.shaded.create_view(&Default::default());
+        let shaded = self.targets.shaded.create_view(&Default::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("ambient"),
             color_attachments: &[Some(color(&shaded, wgpu::LoadOp::Clear(SKY)))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth_stencil,
+                view: &self.targets.depth_stencil,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(DEPTH.clear_depth()),
                     store: wgpu::StoreOp::Store,
@@ -152,8 +193,8 @@ impl Renderer {
         lit: &LitPipeline,
         shadow_group: Option<&wgpu::BindGroup>,
     ) {
-        let shaded = self.shaded.create_view(&Default::default());
-        let visibility = self.visibility.create_view(&Default::default());
+        let shaded = self.targets.shaded.create_view(&Default::default());
+        let visibility = self.targets.visibility.create_view(&Default::default());
         let mut depth_stencil = self.stencil_attachment(wgpu::LoadOp::Load);
         if !lit.uses_stencil {
             depth_stencil.stencil_ops = None;
@@ -180,12 +221,12 @@ impl Renderer {
 
     /// The shaded picture, sRGB.
     pub fn read_shaded(&self, gpu: &Gpu) -> Vec<[u8; 3]> {
-        image::without_alpha(&gpu.read_texture(&self.shaded, 0, wgpu::TextureAspect::All))
+        image::without_alpha(&gpu.read_texture(&self.targets.shaded, 0, wgpu::TextureAspect::All))
     }
 
     /// Visibility of the light at each pixel, 255 lit; 0 also where there is no surface.
     pub fn read_visibility(&self, gpu: &Gpu) -> Vec<u8> {
-        gpu.read_texture(&self.visibility, 0, wgpu::TextureAspect::All)
+        gpu.read_texture(&self.targets.visibility, 0, wgpu::TextureAspect::All)
     }
 
     fn stencil_attachment(
@@ -193,7 +234,7 @@ impl Renderer {
         load: wgpu::LoadOp<u32>,
     ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         wgpu::RenderPassDepthStencilAttachment {
-            view: &self.depth_stencil,
+            view: &self.targets.depth_stencil,
             depth_ops: None,
             stencil_ops: Some(wgpu::Operations {
                 load,
@@ -262,6 +303,16 @@ fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
     }
 }
 
+fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> wgpu::Buffer {
+    use wgpu::util::DeviceExt as _;
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("frame"),
+            contents: bytemuck::bytes_of(&frame_uniform(scene, size)),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        })
+}
+
 fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let entry = |binding, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
         binding,
@@ -282,17 +333,9 @@ fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 fn host_group(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
-    frame: &FrameUniform,
+    frame: &wgpu::Buffer,
     scene: &SceneGpu,
 ) -> wgpu::BindGroup {
-    use wgpu::util::DeviceExt as _;
-    let frame = gpu
-        .device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("frame"),
-            contents: bytemuck::bytes_of(frame),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("host"),
         layout,
