@@ -31,8 +31,8 @@ pub struct Support {
     /// Multiview with any mask of six views: all cube faces in one pass. Asked for so that a device
     /// need not change for it; cube maps take a pass for each face so far, with it too.
     pub multiview: bool,
-    /// Blending in `R32Float`: counters that never wrap. Asked for likewise; shadow volumes count in
-    /// the 8-bit stencil so far, with it too.
+    /// Blending in `R32Float`: shadow volumes that count without wrapping
+    /// ([`Counter::Exact`](crate::Counter::Exact)).
     pub float32_blending: bool,
     /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
     pub vertex_storage: bool,

@@ -27,7 +27,8 @@ use crate::error::ShadowVolumeError;
 ///    [`light_pass_stencil`](Self::light_pass_stencil).
 ///
 /// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
-/// and is lit: casters that stack that deep along a light ray want fewer, closed meshes.
+/// and is lit: casters that stack that deep along a light ray want
+/// [`Counter::Exact`](crate::Counter::Exact) or fewer, closed meshes.
 ///
 /// A light nearer to a triangle than about 3e-5 of the triangle's size leaves wrong pixels along
 /// the horizon of that triangle: its corners' points at infinity then cancel in f32 clip space.
@@ -174,7 +175,8 @@ impl ShadowVolumeRenderer {
     }
 
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
-    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only).
+    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only). With
+    /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
     /// gave a target size and a range, also the scissor rectangle, which is then the whole target.
