@@ -147,7 +147,7 @@ impl Support {
             (
                 self.float32_blending,
                 "FLOAT32_BLENDABLE",
-                "the 8-bit stencil counts volumes modulo 256",
+                "the 8-bit stencil counts volumes modulo 256; ShadowVolumeRenderer::may_wrap says when that could matter",
             ),
             (
                 self.vertex_storage,

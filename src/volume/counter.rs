@@ -14,7 +14,8 @@ pub(super) const FEATURE: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Counter {
     /// The 8-bit stencil, which wraps: a point in a multiple of 256 volumes at once reads 0 and is
-    /// lit.
+    /// lit. [`ShadowVolumeRenderer::may_wrap`](crate::ShadowVolumeRenderer::may_wrap) says whether
+    /// that can happen.
     #[default]
     Stencil,
     /// A target of 32-bit floats beside it, to which front and back faces add 1 and -1: exact as
@@ -38,6 +39,14 @@ pub(super) struct Counting {
 }
 
 impl Counter {
+    /// The first count that is wrong.
+    pub(super) fn end(self) -> u64 {
+        match self {
+            Self::Stencil => 1 << 8,
+            Self::Exact => 1 << 24,
+        }
+    }
+
     /// z-fail: a back face behind the visible point counts +1, a front face -1; z-pass: a front
     /// face before it +1, a back face -1.
     pub(super) fn counting(self, count: Count, nearer: wgpu::CompareFunction) -> Counting {

@@ -19,6 +19,7 @@ mod exact_count;
 mod groups;
 mod hull;
 mod kept;
+mod layers;
 mod layout;
 mod light_pass;
 mod limits;
