@@ -11,8 +11,17 @@ pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 /// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
-/// Depth of casters on the faces of a cube map.
-pub(crate) const CUBE_CASTER: &str = include_str!("../shaders/cube_caster.wgsl");
+/// Depth of casters on one face of a cube map, or on a flat map.
+pub(crate) const CUBE_CASTER: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_face.wgsl"),
+);
+
+/// Depth of casters on several faces of a cube map at once.
+pub(crate) const CUBE_CASTER_VIEWS: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_views.wgsl"),
+);
 
 /// A cube map unfolded as a cross.
 pub(crate) const CUBE_CROSS: &str = include_str!("../shaders/cube_cross.wgsl");
