@@ -65,6 +65,11 @@ pub enum CubeShadowMapError {
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
     )]
     SlopeScale,
+    /// Layers of still casters on a back end that cannot copy depth.
+    #[error(
+        "StillLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
+    )]
+    StillLayers,
     /// More lights in a frame than the map was made for.
     #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
     TooManyLights {

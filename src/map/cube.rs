@@ -15,6 +15,7 @@ use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
 use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
+use super::still_layer::StillLayer;
 use super::texture::Textures;
 use crate::error::CubeShadowMapError;
 use crate::{Bias, PointLight};
@@ -82,6 +83,9 @@ pub struct CubeShadowMap {
     pub(super) order: Vec<usize>,
     pub(super) plans: Vec<SlotPlan>,
     pub(super) draws: DrawLists,
+    /// The layers of what stands still, by slot and face, and the fewest triangles worth one.
+    pub(super) still: Vec<[Option<StillLayer>; 6]>,
+    pub(super) still_least: Option<u64>,
     // What the uniforms hold, by light and by slot.
     pub(super) written_lights: Vec<Option<LightUniform>>,
     pub(super) written_faces: Vec<Option<[f32; 2]>>,
@@ -165,6 +169,8 @@ impl CubeShadowMap {
             plans: Vec::new(),
             draws: DrawLists::new(slots, joint.as_ref()),
             joint,
+            still: (0..slots).map(|_| Default::default()).collect(),
+            still_least: descriptor.still_least(device),
             written_lights: vec![None; slots],
             written_faces: vec![None; slots],
             statistics: CubeStatistics::default(),
@@ -294,6 +300,7 @@ impl CubeShadowMap {
     fn bytes(&self) -> u64 {
         let all = self.lights.all.as_ref().map_or(0, wgpu::Buffer::size);
         self.textures.bytes()
+            + self.layer_bytes()
             + self.instances.size()
             + self.face_uniforms.size()
             + self.lights.uniforms.size()

@@ -1,6 +1,7 @@
 //! How a cube map is made, and what it is told each frame.
 
 use super::joint::FacePasses;
+use super::still_layer::StillLayers;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
 use crate::{Bias, PointLight, View};
@@ -111,6 +112,9 @@ pub struct CubeShadowMapDescriptor<'a> {
     pub max_faces_per_frame: Option<u32>,
     /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
     pub passes: FacePasses,
+    /// Whether casters that stand still are kept in a second layer under those that move. Default
+    /// [`StillLayers::Auto`]. Without `cache`, and with [`FacePasses::Multiview`], there are none.
+    pub still_layers: StillLayers,
 }
 
 impl CubeShadowMapDescriptor<'_> {
@@ -154,11 +158,19 @@ impl CubeShadowMapDescriptor<'_> {
             return Err(CubeShadowMapError::Budget);
         }
         self.passes.validate(device)?;
+        self.still_layers.validate(&device.adapter_info())?;
         self.bias.validate()?;
         if self.bias.slope_scale != 0.0 && self.encoding == DepthEncoding::LinearDistance {
             return Err(CubeShadowMapError::SlopeScale);
         }
         Ok(())
+    }
+
+    /// The fewest triangles that stand still on a face that are worth a layer.
+    pub(super) fn still_least(&self, device: &wgpu::Device) -> Option<u64> {
+        self.still_layers
+            .least_triangles(self.size, &device.adapter_info())
+            .filter(|_| self.cache && !self.passes.joint())
     }
 }
 
@@ -188,6 +200,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             sides: CasterSides::default(),
             max_faces_per_frame: None,
             passes: FacePasses::default(),
+            still_layers: StillLayers::default(),
         }
     }
 }

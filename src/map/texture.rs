@@ -112,12 +112,15 @@ impl Textures {
     }
 
     pub fn bytes(&self) -> u64 {
-        let texel = match self.format {
-            wgpu::TextureFormat::Depth16Unorm => 2,
-            _ => 4,
-        };
         let cubes = self.slots.iter().flatten().count() as u64;
-        (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel
+        (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel_bytes(self.format)
+    }
+}
+
+pub(super) fn texel_bytes(format: wgpu::TextureFormat) -> u64 {
+    match format {
+        wgpu::TextureFormat::Depth16Unorm => 2,
+        _ => 4,
     }
 }
 
@@ -154,7 +157,10 @@ fn create(
     format: wgpu::TextureFormat,
     layers: u32,
 ) -> wgpu::Texture {
-    let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+    // Layers of what stands still are copied to it.
+    let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::TEXTURE_BINDING
+        | wgpu::TextureUsages::COPY_DST;
     if format != wgpu::TextureFormat::Depth24Plus {
         usage |= wgpu::TextureUsages::COPY_SRC;
     }
