@@ -86,9 +86,11 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// The most lights it will hold. Default 1. At least 1; six times as many layers must fit the
     /// device's `max_texture_array_layers` if `cube_array` is set.
     pub lights: u32,
-    /// Whether all lights share one cube array texture, which needs
-    /// [`Support::cube_arrays`](crate::Support). Default false: one cube texture for each light,
-    /// and one bind group for each.
+    /// Whether all lights share one cube array texture and one bind group, which needs
+    /// [`Support::cube_arrays`](crate::Support): pass that for both this and
+    /// [`PcfDescriptor::many_lights`](crate::PcfDescriptor::many_lights) to have it wherever it can
+    /// be. Default false: one cube texture for each light, and one bind group for each
+    /// ([`PcfSampler::bind_group_of`](crate::PcfSampler::bind_group_of)). Receivers see the same.
     pub cube_array: bool,
     /// When the texture is made. Default [`Allocation::WithFirstCaster`].
     pub allocation: Allocation,
@@ -150,6 +152,9 @@ impl CubeShadowMapDescriptor<'_> {
                 lights: self.lights,
                 limit: most,
             });
+        }
+        if self.cube_array && !crate::support::has_cube_arrays(device) {
+            return Err(CubeShadowMapError::CubeArray);
         }
         if quantum(self.format).is_none() {
             return Err(CubeShadowMapError::Format(self.format));
