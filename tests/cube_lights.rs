@@ -12,7 +12,7 @@ use common::shapes::{Random, cuboid};
 use cubes::{draw, draw_frame, faces, fresh};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
-use receivers::ask;
+use receivers::{ask, ask_group};
 use shadows::error::{CubeShadowMapError, PcfError};
 use shadows::{
     Allocation, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel,
@@ -267,6 +267,41 @@ fn statistics_count_every_face_once() {
             ..Default::default()
         };
         draw_frame(&gpu, &mut map, &frame);
+    }
+}
+
+#[test]
+fn a_bind_group_from_before_the_first_caster_shows_no_shadow() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (casters, light) = (casters(&gpu), lights()[0]);
+    let mut random = Random::new(17);
+    let points: Vec<(Vec3, Vec3)> = (0..500)
+        .map(|_| (light.position + random.vec3() * 4.0, random.vec3()))
+        .collect();
+    for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
+        let descriptor = CubeShadowMapDescriptor {
+            encoding,
+            ..one_light()
+        };
+        let reader = PcfDescriptor {
+            encoding,
+            ..Default::default()
+        };
+        let mut map = fresh(&gpu, &descriptor, &[light], &[]);
+        let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &reader).unwrap();
+        let early = sampler.bind_group(&gpu.device, &map).unwrap();
+        let revision = map.texture_revision();
+        draw(&gpu, &mut map, &[light], &casters);
+        assert_ne!(map.texture_revision(), revision);
+        let late = sampler.bind_group(&gpu.device, &map).unwrap();
+        let lit = |group| {
+            let seen = ask_group(&gpu, (&sampler, group), &reader, 0, &points, |module| {
+                module
+            });
+            seen.iter().filter(|&&v| v == 1.0).count()
+        };
+        assert_eq!(lit(&early), points.len(), "{encoding:?}");
+        assert!(lit(&late) < points.len() * 9 / 10, "the one made again");
     }
 }
 

@@ -240,7 +240,9 @@ impl CubeShadowMap {
     }
 
     /// Changes when a bind group of this map must be made again: when its texture came or went, or
-    /// (for bind groups of one light) when a light changed its place.
+    /// (for bind groups of one light) when a light changed its place. A bind group from before the
+    /// first texture shows everything in range lit; others that were not made again show a light's
+    /// shadows as they were.
     pub fn texture_revision(&self) -> u64 {
         self.textures.revision() + self.reordered
     }

@@ -11,6 +11,14 @@ impl CubeShadowMap {
     /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        // A bind group that was made before there were texels, and is not made again, says lit.
+        for view in self.textures.blank() {
+            drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(&self.label),
+                depth_stencil_attachment: Some(depth_attachment(view, self.clear())),
+                ..Default::default()
+            }));
+        }
         for (index, slot) in self.slots.iter().enumerate() {
             let pending = slot.pending.swap(0, Ordering::Relaxed);
             if let Some(joint) = &self.joint {

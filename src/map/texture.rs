@@ -1,6 +1,7 @@
 //! The textures of a cube map, made when the first light casts.
 
-use std::sync::{OnceLock, atomic::AtomicU8};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use super::face::CubeFace;
 
@@ -27,7 +28,15 @@ pub(super) struct Textures {
     array: Option<Array>,
     /// A texel for each face, bound as long as there is nothing else.
     placeholder: wgpu::TextureView,
+    blank: Blank,
     revision: u64,
+}
+
+/// The faces of the placeholder, and whether they are clear.
+#[derive(Debug)]
+struct Blank {
+    faces: [wgpu::TextureView; 6],
+    clear: AtomicBool,
 }
 
 #[derive(Debug)]
@@ -55,6 +64,10 @@ impl Textures {
                 placeholder: array_view(&placeholder, label),
                 view: None,
             }),
+            blank: Blank {
+                faces: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
+                clear: AtomicBool::new(false),
+            },
             placeholder: cube_view(&placeholder, label, 0),
             revision: 0,
         }
@@ -99,6 +112,14 @@ impl Textures {
     /// A light's cube, or a placeholder.
     pub fn cube(&self, slot: usize) -> &wgpu::TextureView {
         self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube)
+    }
+
+    /// The faces of the placeholder, the first time that it is asked for them.
+    pub fn blank(&self) -> &[wgpu::TextureView] {
+        match self.blank.clear.swap(true, Ordering::Relaxed) {
+            true => &[],
+            false => &self.blank.faces,
+        }
     }
 
     /// All lights' cubes, or a placeholder; `None` if each has a texture of its own.
