@@ -9,10 +9,13 @@ use crate::error::PcfError;
 /// Whatever the kernel, every texel is compared with the depth of the receiver's own plane in that
 /// texel's direction, so wide kernels and face edges need no more bias than narrow ones. Near the
 /// plane's horizon as the light sees it that depth grows without bound: no tap takes the plane for
-/// nearer to the light than a thirty-second of the receiver's own distance (for a directional light:
-/// nearer than the receiver by more than half the map's width), so what casts from nearer casts at
-/// any grazing angle; and a texel beyond the horizon is replaced by its mirror image at the
-/// receiver.
+/// nearer to the light than a thirty-second of the receiver's own distance along the axis of the face
+/// (for a directional light: nearer than the receiver by more than sixteen times the map's width), so
+/// what casts from nearer casts at any grazing angle; and a texel beyond the horizon is replaced by
+/// its mirror image at the receiver. What is farther from the light than that is missed only where
+/// the plane itself comes as near: for a kernel of `k` texels on a face of `n`, where the light falls
+/// in at less than `2 k / (31 n)` (for the widest square, 0.015 degrees at 1024 texels). A receiver whose
+/// plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
 ///
 /// The first six are squares of texels. The last three are disks in the receiver's tangent plane,
 /// turned or jittered from pixel to pixel: they need the pixel's coordinates
