@@ -136,21 +136,28 @@ fn the_other_shaders_are_imported_as_well() {
     let modules = [
         wgsl::import_module("shadows::position", wgsl::POSITION),
         wgsl::import_module("shadows::mask", wgsl::MASK),
+        wgsl::import_module("shadows::exact", wgsl::EXACT),
+        wgsl::import_module("shadows::exact_samples", wgsl::EXACT_SAMPLES),
     ];
     let host = "
 #import shadows::position::shadows_clip_position
 #import shadows::mask::shadows_mask
+#import shadows::exact::shadows_exact_visibility
+#import shadows::exact_samples::shadows_exact_lit_samples
 @group(0) @binding(0) var mask: texture_2d_array<f32>;
+@group(0) @binding(1) var counts: texture_2d<f32>;
+@group(0) @binding(2) var samples: texture_multisampled_2d<f32>;
 @vertex
 fn corner(@location(0) at: vec3f) -> @builtin(position) vec4f {
     return shadows_clip_position(mat4x4f(), mat4x4f(), at);
 }
 @fragment
 fn host(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
-    return vec4f(shadows_mask(mask, pixel.xy, 0));
+    let lit = shadows_exact_lit_samples(samples, pixel.xy);
+    return vec4f(shadows_mask(mask, pixel.xy, 0), shadows_exact_visibility(counts, pixel.xy), f32(lit), 0.0);
 }
 ";
     let composed = compose(&modules, host);
     assert!(composed.is_ok(), "{composed:?}");
-    assert!(compose(&modules[..1], host).is_err());
+    assert!(compose(&modules[..3], host).is_err());
 }
