@@ -36,6 +36,9 @@ use crate::error::PcfError;
 /// | `RandomDisk`, 32 taps | 0.025 | 0.14 | 0.071 | 0.14 | 0.022 | 1.2 % |
 /// | `Vogel`, 16 taps | 0.029 | 0.14 | 0.071 | 0.18 | 0.027 | 4.4 % |
 /// | `ContactHardening` | 0.022 | 0.16 | 0.057 | 0.12 | 0.021 | 1.3 % |
+///
+/// `docs/kernels.png` in the repository shows all of them on the same shadows
+/// (`cargo run --release --example kernel_sheet -- docs/kernels.png`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Kernel {
