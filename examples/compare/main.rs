@@ -14,6 +14,7 @@ mod output;
 mod plot;
 mod report;
 mod shadow;
+mod soft;
 mod stage;
 mod table;
 mod technique;
@@ -136,8 +137,9 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
     };
     let steps = u64::from(plan.frames) * plan.techniques.len() as u64;
     let bar = progress(steps, &format!("{name}: frames"));
-    let measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
+    let mut measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
+    soft::judge(gpu, &stage, &reference, &mut measured)?;
 
     let report = report::Report::new(gpu, &stage, &reference, &measured, &job.left_out);
     let mut files = vec![

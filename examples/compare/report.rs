@@ -12,6 +12,7 @@ use shadows::wgpu;
 use crate::date::date;
 use crate::host::gpu::{Gpu, describe};
 use crate::measure::{self, Measured};
+use crate::soft::{self, Soft};
 use crate::stage::Stage;
 
 /// report.json. Numbers that were `f32` are written so that they read back as the same `f32`.
@@ -106,6 +107,8 @@ pub struct Technique {
     pub false_lit_interior: usize,
     pub false_shadow_interior: usize,
     pub rmse: f64,
+    /// Null for kernels that make no soft edges.
+    pub soft: Option<Soft>,
     pub bytes: u64,
     pub draws: u64,
     pub triangles_drawn: u64,
@@ -187,6 +190,9 @@ impl Report {
         writeln!(out, "{adapter}, {}.\n", date(self.unix_time))?;
         self.write_scene(out)?;
         self.write_table(out)?;
+        let rows = self.techniques.iter();
+        let soft = rows.filter_map(|t| Some((t.name.as_str(), t.soft?)));
+        soft::write_table(out, &soft.collect::<Vec<_>>())?;
         for left in &self.left_out {
             writeln!(out, "`{}` is left out: {}.\n", left.name, left.reason)?;
         }
@@ -333,6 +339,7 @@ impl Technique {
             false_lit_interior: error.false_lit_interior,
             false_shadow_interior: error.false_shadow_interior,
             rmse: error.rmse,
+            soft: measured.soft,
             bytes: measured.cost.bytes,
             draws: measured.cost.draws,
             triangles_drawn: measured.cost.triangles,
