@@ -13,7 +13,7 @@ use shadows::{
 
 use crate::host::gpu::Gpu;
 use crate::host::pipelines::visibility_module;
-use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
+use crate::host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene::Cone;
 use crate::host::scene_gpu::SceneGpu;
 use crate::technique::{Config, Technique};
@@ -136,7 +136,8 @@ impl Shadow {
                 let descriptor = ShadowVolumeDescriptor {
                     label,
                     depth_stencil_format: renderer.depth_stencil_format(),
-                    depth: DEPTH,
+                    depth: renderer.look().depth,
+                    sample_count: renderer.look().samples,
                     ..*descriptor
                 };
                 let volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
