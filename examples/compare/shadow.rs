@@ -225,6 +225,14 @@ impl Shadow {
         host.draw_lit(encoder, scene, &self.lit, group);
     }
 
+    /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
+    pub fn may_wrap(&mut self) -> bool {
+        match &mut self.means {
+            Means::Volume(volumes) => volumes.may_wrap(),
+            Means::Cube { .. } | Means::Flat { .. } => false,
+        }
+    }
+
     /// What the last prepared frame takes.
     pub fn cost(&self) -> Cost {
         let (bytes, draws, triangles) = match &self.means {

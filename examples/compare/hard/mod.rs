@@ -13,15 +13,19 @@ use indicatif::ProgressBar;
 use shadows::glam::{Affine3A, DAffine3, DMat4, Mat4};
 use shadows::{Caster, CubeShadowMapDescriptor, DepthConvention, HomogeneousLight, wgpu};
 
-use self::cases::{Case, Expect};
-use self::judge::{Frame, Outcome, judge};
+use self::cases::Case;
+pub use self::cases::Expect;
+use self::judge::Outcome;
+pub use self::judge::{Frame, judge};
 use self::situation::Situation;
 use self::table::{Row, Table};
 use crate::date;
 use crate::host::gpu::{Gpu, describe};
+use crate::host::image::rgb_png;
 use crate::host::random::Random;
 use crate::host::scene::Scene;
 use crate::output::{self, File};
+use crate::progress::progress;
 use crate::shadow::Shadow;
 use crate::stage::Stage;
 use crate::table::ROWS;
@@ -52,11 +56,11 @@ const NAMES: [&str; 12] = [
 ///
 /// # Errors
 /// If the device cannot do what a technique needs, or nothing can be written to `dir`.
-pub fn run(gpu: &Gpu, dir: &Path, rounds: u32, command: String) -> Result<usize> {
+pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     output::check(dir)?;
-    let techniques = techniques();
+    let techniques = techniques()?;
     let cases: Vec<Case> = cases::all().collect();
-    let bar = crate::progress(cases.len() as u64 * u64::from(rounds), "hard cases");
+    let bar = progress(cases.len() as u64 * u64::from(rounds), "hard cases");
     let rows = cases
         .iter()
         .map(|case| row(gpu, case, &techniques, rounds, &bar))
@@ -64,18 +68,20 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32, command: String) -> Result<usize>
     bar.finish_and_clear();
     let table = Table {
         driver: describe(&gpu.info),
-        date: date::today(),
-        command,
+        date: date::date(date::now()),
+        command: "cargo run --release --example compare -- --hard-cases --out docs".into(),
         size: SIZE,
         rounds,
         techniques: techniques.iter().map(|t| t.name.to_string()).collect(),
         rows,
         refusals: input::refusals(gpu)?,
     };
+    let (size, sheet) = table.sheet();
     output::write(
         dir,
-        &[
+        vec![
             File::new("hard-cases.md", table.markdown()),
+            File::new("hard-cases.png", rgb_png(size, &sheet)?),
             File::new("hard-cases.json", format!("{:#}\n", table.json())),
         ],
     )?;
@@ -85,13 +91,15 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32, command: String) -> Result<usize>
     Ok(failures.len())
 }
 
-fn techniques() -> Vec<Technique> {
-    let named = |name: &&str| ROWS.iter().find(|row| row.name == *name);
-    let mut all: Vec<Technique> = NAMES
-        .iter()
-        .filter_map(named)
-        .map(|row| row.at(SIDE))
-        .collect();
+/// A technique of the table.
+fn named(name: &str) -> Result<Technique> {
+    let row = ROWS.iter().find(|row| row.name == name);
+    let row = row.with_context(|| format!("{name} is no technique"))?;
+    Ok(row.at(SIDE))
+}
+
+fn techniques() -> Result<Vec<Technique>> {
+    let mut all: Vec<Technique> = NAMES.into_iter().map(named).collect::<Result<_>>()?;
     if let Config::Cube { map, sampler } = crate::table::cube(SIDE, Default::default()) {
         let format = wgpu::TextureFormat::Depth16Unorm;
         all.push(Technique {
@@ -102,7 +110,7 @@ fn techniques() -> Vec<Technique> {
             },
         });
     }
-    all
+    Ok(all)
 }
 
 const SIXTEEN_BITS: &str = "cube-2x2-16-bit";
@@ -115,23 +123,33 @@ fn row(
     bar: &ProgressBar,
 ) -> Result<Row> {
     let mut outcomes: Vec<Option<Outcome>> = vec![None; techniques.len()];
+    let mut picture = Vec::new();
     for round in 0..rounds {
         for situation in (case.situations)(&mut Random(u64::from(round))) {
             let what = format!("round {round}, {}", situation.what);
-            try_all(gpu, case, &situation, &what, techniques, &mut outcomes)
+            let shaded = try_all(gpu, case, &situation, &what, techniques, &mut outcomes)
                 .with_context(|| format!("{}: {what}", case.name))?;
+            if picture.is_empty() {
+                picture = shaded;
+            }
         }
         bar.inc(1);
+    }
+    for (technique, outcome) in techniques.iter().zip(&mut outcomes) {
+        if let Some(outcome) = outcome {
+            outcome.settle(expected(case, technique));
+        }
     }
     Ok(Row {
         name: case.name,
         build: case.build,
         answer: case.answer,
         outcomes,
+        picture,
     })
 }
 
-/// One situation under each technique that applies.
+/// One situation under each technique that applies; as the last of them shows it.
 fn try_all(
     gpu: &Gpu,
     case: &Case,
@@ -139,7 +157,7 @@ fn try_all(
     what: &str,
     techniques: &[Technique],
     outcomes: &mut [Option<Outcome>],
-) -> Result<()> {
+) -> Result<Vec<[u8; 3]>> {
     let stage = Stage::with_look(gpu, situation.scene.clone(), SIZE, situation.look)?;
     let reference = stage.reference(|_| ())?;
     // Far away it must look as it does here, which is what the reference saw.
@@ -147,6 +165,7 @@ fn try_all(
         true => Stage::with_look(gpu, placed(situation, &stage), SIZE, situation.look)?,
         false => stage,
     };
+    let mut shaded = Vec::new();
     for (technique, outcome) in techniques.iter().zip(outcomes) {
         let expect = expected(case, technique);
         let light = seen.scene.light_kind();
@@ -165,8 +184,9 @@ fn try_all(
         };
         let found = judge(what, &reference, &frame, expect)?;
         outcome.get_or_insert_default().add(found);
+        shaded = picture.shaded;
     }
-    Ok(())
+    Ok(shaded)
 }
 
 fn expected(case: &Case, technique: &Technique) -> Expect {
@@ -195,9 +215,8 @@ fn placed(situation: &Situation, stage: &Stage) -> Scene {
     // Counted from a point near the camera: no difference is exactly what it was.
     let origin = situation.offset + scene.camera.eye.as_dvec3() * 0.9;
     let away = DAffine3::from_translation(situation.offset);
-    let moved = |point: shadows::glam::Vec3| {
-        (point.as_dvec3() + situation.offset - origin).as_vec3()
-    };
+    let moved =
+        |point: shadows::glam::Vec3| (point.as_dvec3() + situation.offset - origin).as_vec3();
     if let Some(caster) = stage.scene_gpu.casters.first() {
         for object in &mut scene.objects {
             let place = away * exact(object.transform);

@@ -58,13 +58,17 @@ impl Situation {
             ..Scene::empty("hard case")
         };
         let ground = Affine3A::IDENTITY;
+        Self::of(what, scene).receiver(&shapes::square(30.0), ground)
+    }
+
+    /// A scene as it is.
+    pub fn of(what: impl Into<String>, scene: Scene) -> Self {
         Self {
             what: what.into(),
             scene,
             look: Look::default(),
             offset: DVec3::ZERO,
         }
-        .receiver(&shapes::square(30.0), ground)
     }
 
     /// With a shape that casts and receives.

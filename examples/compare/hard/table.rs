@@ -6,6 +6,9 @@ use serde_json::{Value, json};
 
 use super::judge::Outcome;
 
+/// Pictures side by side on the sheet.
+const COLUMNS: usize = 6;
+
 /// A case and what each technique made of it.
 pub struct Row {
     pub name: &'static str,
@@ -13,6 +16,8 @@ pub struct Row {
     pub answer: &'static str,
     /// As many as there are techniques; `None` where it does not apply.
     pub outcomes: Vec<Option<Outcome>>,
+    /// The first of its situations, shaded.
+    pub picture: Vec<[u8; 3]>,
 }
 
 /// Everything that was tried.
@@ -22,7 +27,7 @@ pub struct Table {
     pub command: String,
     pub size: [u32; 2],
     pub rounds: u32,
-    pub techniques: Vec<&'static str>,
+    pub techniques: Vec<String>,
     pub rows: Vec<Row>,
     /// Bad input: what, and what happened.
     pub refusals: Vec<Refusal>,
@@ -30,7 +35,7 @@ pub struct Table {
 
 /// Input that must be refused, or a degenerate size that must work.
 pub struct Refusal {
-    pub what: &'static str,
+    pub what: String,
     /// What it said or did; `Err` if that was wrong.
     pub outcome: Result<String, String>,
 }
@@ -94,8 +99,11 @@ impl Table {
                 for why in &outcome.limits {
                     let _ = writeln!(
                         text,
-                        "- {}, {technique}: {why} ({} of {} pixels).",
-                        row.name, outcome.interior, outcome.counted
+                        "- {}, {technique}: {why} ({} of {} pixels; edges included {:.3} %).",
+                        row.name,
+                        outcome.interior,
+                        outcome.counted,
+                        outcome.wrong_percent()
                     );
                 }
             }
@@ -119,10 +127,40 @@ impl Table {
     }
 
     fn descriptions(&self, text: &mut String) {
-        text.push_str("## What the cases are\n\n| Case | Build | Right answer |\n|---|---|---|\n");
-        for row in &self.rows {
-            let _ = writeln!(text, "| {} | {} | {} |", row.name, row.build, row.answer);
+        let _ = writeln!(
+            text,
+            "## What the cases are\n\n![Each case's first scene, {COLUMNS} in a row](hard-cases.png)\n\n\
+             | Picture | Case | Build | Right answer |\n|---|---|---|---|"
+        );
+        for (place, row) in self.rows.iter().enumerate() {
+            let (line, column) = (place / COLUMNS + 1, place % COLUMNS + 1);
+            let Row {
+                name,
+                build,
+                answer,
+                ..
+            } = row;
+            let _ = writeln!(text, "| {line}.{column} | {name} | {build} | {answer} |");
         }
+    }
+
+    /// Every case's first situation at half the size, as in the table from the top left, and the
+    /// size of all.
+    pub fn sheet(&self) -> ([u32; 2], Vec<[u8; 3]>) {
+        let [width, height] = self.size.map(|side| (side / 2) as usize);
+        let size = [width * COLUMNS, height * self.rows.len().div_ceil(COLUMNS)];
+        let mut sheet = vec![[255; 3]; size[0] * size[1]];
+        for (place, row) in self.rows.iter().enumerate() {
+            let (left, top) = (place % COLUMNS * width, place / COLUMNS * height);
+            // A pixel stays white between the pictures.
+            for (y, x) in (1..height).flat_map(|y| (1..width).map(move |x| (y, x))) {
+                let from = 2 * y * self.size[0] as usize + 2 * x;
+                if let Some(&pixel) = row.picture.get(from) {
+                    sheet[(top + y) * size[0] + left + x] = pixel;
+                }
+            }
+        }
+        (size.map(|side| side as u32), sheet)
     }
 
     /// For machines.
@@ -140,7 +178,7 @@ impl Table {
         let row = |row: &Row| {
             let outcomes = self.techniques.iter().zip(&row.outcomes);
             let by_technique: serde_json::Map<String, Value> = outcomes
-                .filter_map(|(name, found)| Some(((*name).into(), outcome(found.as_ref()?))))
+                .filter_map(|(name, found)| Some((name.clone(), outcome(found.as_ref()?))))
                 .collect();
             json!({ "case": row.name, "techniques": by_technique })
         };
@@ -167,6 +205,6 @@ fn cell(outcome: &Option<Outcome>) -> String {
         None => "-".into(),
         Some(outcome) if !outcome.failures.is_empty() => "**FAILS**".into(),
         Some(outcome) if outcome.limits.is_empty() => "0".into(),
-        Some(outcome) => format!("{:.3} %", outcome.interior_percent()),
+        Some(outcome) => format!("{:.4} %", outcome.interior_percent()),
     }
 }

@@ -77,10 +77,7 @@ fn inside_a_volume(random: &mut Random) -> Vec<Situation> {
             let away = (middle - light.truncate()) * light.w - light.truncate() * (1.0 - light.w);
             let eye = middle + away.normalize() * random.within(1.9, 2.2);
             Situation::new(name(light), light, random)
-                .caster(
-                    &shapes::cube().tilted(),
-                    at(middle.x, middle.y, middle.z),
-                )
+                .caster(&shapes::cube().tilted(), at(middle.x, middle.y, middle.z))
                 .caster(&shapes::sphere(10), at(3.5, 1.2, -1.5))
                 .camera(eye, Vec3::new(4.0, 0.5, -3.0) + random.point(0.5))
         })
@@ -93,13 +90,10 @@ fn near_plane_cuts(random: &mut Random) -> Vec<Situation> {
         for light in [Vec4::Y, Vec4::new(0.0, 8.0, 0.0, 1.0)] {
             // The light is overhead: the edge of the square's shadow runs down near z = 1.2.
             let eye = Vec3::new(0.0, 1.2, random.within(1.3, 1.6));
-            let mut situation = Situation::new(
-                format!("{}, {degrees} degrees", name(light)),
-                light,
-                random,
-            )
-            .caster(&shapes::square(1.2), at(0.0, 2.0, 0.0))
-            .camera(eye, eye + Vec3::new(0.1, -0.6, -1.0));
+            let mut situation =
+                Situation::new(format!("{}, {degrees} degrees", name(light)), light, random)
+                    .caster(&shapes::square(1.2), at(0.0, 2.0, 0.0))
+                    .camera(eye, eye + Vec3::new(0.1, -0.6, -1.0));
             situation.scene.camera.fovy = degrees.to_radians();
             situation.scene.camera.near = 0.2;
             situations.push(situation);
@@ -150,10 +144,13 @@ fn grazing(random: &mut Random) -> Vec<Situation> {
 }
 
 fn other_arithmetic(random: &mut Random) -> Vec<Situation> {
-    looks(random, &[Look {
-        premultiplied: true,
-        ..Look::default()
-    }])
+    looks(
+        random,
+        &[Look {
+            premultiplied: true,
+            ..Look::default()
+        }],
+    )
 }
 
 fn conventions(random: &mut Random) -> Vec<Situation> {
@@ -166,10 +163,13 @@ fn conventions(random: &mut Random) -> Vec<Situation> {
 }
 
 fn four_samples(random: &mut Random) -> Vec<Situation> {
-    looks(random, &[Look {
-        samples: 4,
-        ..Look::default()
-    }])
+    looks(
+        random,
+        &[Look {
+            samples: 4,
+            ..Look::default()
+        }],
+    )
 }
 
 /// Slopes, a contact and a smooth form, under both lights, as each of these hosts draws them.

@@ -86,9 +86,7 @@ fn inside_a_caster(random: &mut Random) -> Vec<Situation> {
     let floorless = shapes::cube().cut(|corners| corners.iter().any(|c| c.y > -0.5));
     [("whole", whole), ("no floor", floorless)]
         .into_iter()
-        .map(|(what, shape)| {
-            Situation::new(what, light, random).caster(&shape, at(0.0, 2.0, 0.0))
-        })
+        .map(|(what, shape)| Situation::new(what, light, random).caster(&shape, at(0.0, 2.0, 0.0)))
         .collect()
 }
 
@@ -110,7 +108,10 @@ fn in_a_plane(random: &mut Random) -> Vec<Situation> {
 
 fn on_a_vertex(random: &mut Random) -> Vec<Situation> {
     let mut situations = Vec::new();
-    for (what, shape, height) in [("box", shapes::cube(), 2.0), ("square", shapes::square(1.0), 3.0)] {
+    for (what, shape, height) in [
+        ("box", shapes::cube(), 2.0),
+        ("square", shapes::square(1.0), 3.0),
+    ] {
         for (where_to, light) in [
             ("vertex", Vec4::new(-1.0, 3.0, 1.0, 1.0)),
             ("edge", Vec4::new(0.0, 3.0, 1.0, 1.0)),

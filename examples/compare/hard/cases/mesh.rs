@@ -178,7 +178,11 @@ fn transforms(random: &mut Random) -> Vec<Situation> {
     [
         ("mirrored", Vec3::new(-1.0, 1.0, 1.0), turn),
         // 200 long and a fiftieth thick; it leaves the picture on both sides.
-        ("sheared", Vec3::new(1.0, 0.01, 100.0), Quat::from_rotation_y(1.5)),
+        (
+            "sheared",
+            Vec3::new(1.0, 0.01, 100.0),
+            Quat::from_rotation_y(1.5),
+        ),
     ]
     .into_iter()
     .flat_map(|(what, scale, turn)| {

@@ -4,6 +4,7 @@ mod camera;
 mod light;
 mod mesh;
 mod place;
+mod views;
 
 use super::situation::Situation;
 use crate::host::random::Random;
@@ -31,6 +32,8 @@ pub enum Expect {
     Exact,
     /// It cannot be right, for this reason; how wrong it is gets reported and is no failure.
     Reported(&'static str),
+    /// At most four interior pixels of a million are wrong, for this reason.
+    Rare(&'static str),
     /// Streaks of one pixel may be wrong, for this reason: no wrong interior pixel has a wrong
     /// neighbour both beside it and above or below it.
     Streaks(&'static str),
@@ -59,4 +62,5 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(light::CASES)
         .chain(mesh::CASES)
         .chain(place::CASES)
+        .chain(views::CASES)
 }

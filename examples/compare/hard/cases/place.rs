@@ -60,7 +60,10 @@ fn stacks(random: &mut Random) -> Vec<Situation> {
         // Straight light, and a stack thinner than a pixel: each point is under all or none.
         let situation = Situation::new(format!("{count} squares"), Vec4::Y, random);
         (0..count).fold(situation, |situation, sheet| {
-            situation.caster(&shapes::square(1.0), at(0.0, 1.0 + 2e-5 * sheet as f32, 0.0))
+            situation.caster(
+                &shapes::square(1.0),
+                at(0.0, 1.0 + 2e-5 * sheet as f32, 0.0),
+            )
         })
     });
     let both = shapes::cube().with(&shapes::cube().reversed());
@@ -128,7 +131,8 @@ fn seams(random: &mut Random) -> Vec<Situation> {
             let turn = Quat::from_rotation_y(degrees.to_radians())
                 * Quat::from_rotation_x(0.5 * degrees.to_radians());
             let light = random.point(0.1).extend(1.0);
-            let room = Affine3A::from_scale_rotation_translation(Vec3::splat(5.0), turn, Vec3::ZERO);
+            let room =
+                Affine3A::from_scale_rotation_translation(Vec3::splat(5.0), turn, Vec3::ZERO);
             let situation = Situation::new(format!("{degrees} degrees"), light, random)
                 .bare()
                 .receiver(&shapes::cube().reversed(), room);
@@ -147,7 +151,13 @@ fn seams(random: &mut Random) -> Vec<Situation> {
 /// Where three faces of a cube meet, and where two do.
 fn corners() -> impl Iterator<Item = Vec3> {
     (0..27)
-        .map(|i| Vec3::new((i % 3 - 1) as f32, (i / 3 % 3 - 1) as f32, (i / 9 - 1) as f32))
+        .map(|i| {
+            Vec3::new(
+                (i % 3 - 1) as f32,
+                (i / 3 % 3 - 1) as f32,
+                (i / 9 - 1) as f32,
+            )
+        })
         .filter(|corner| corner.length_squared() > 1.5)
 }
 
