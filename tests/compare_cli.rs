@@ -1,5 +1,6 @@
 //! The example `compare` as a user meets it: what it says, what it writes, how it exits.
 
+#[allow(dead_code)]
 #[path = "../examples/compare/date.rs"]
 mod date;
 #[path = "../examples/host/mod.rs"]

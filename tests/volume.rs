@@ -26,11 +26,11 @@ mod pictures;
 mod random;
 #[path = "volume/screen.rs"]
 mod screen;
-#[path = "volume/shapes.rs"]
-mod shapes;
 #[path = "volume/stage.rs"]
 mod stage;
 #[path = "volume/truth.rs"]
 mod truth;
 #[path = "volume/ways.rs"]
 mod ways;
+
+use host::shapes;

@@ -1,7 +1,6 @@
 //! What was found, as JSON for programs and as Markdown for people.
 
 use std::fmt::Write as _;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 use serde_json::Value;
@@ -9,7 +8,7 @@ use shadows::mesh::MeshKind;
 use shadows::reference::ReferenceImage;
 use shadows::wgpu;
 
-use crate::date::date;
+use crate::date::{date, now};
 use crate::host::gpu::{Gpu, describe};
 use crate::measure::{self, Measured};
 use crate::soft::{self, Soft};
@@ -133,9 +132,7 @@ impl Report {
         let size = stage.renderer.size();
         Self {
             adapter: adapter(&gpu.info),
-            unix_time: SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .map_or(0, |since| since.as_secs()),
+            unix_time: now(),
             size,
             camera: camera(stage),
             light: stage.scene.light.to_array(),

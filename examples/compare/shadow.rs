@@ -13,7 +13,7 @@ use shadows::{
 
 use crate::host::gpu::Gpu;
 use crate::host::pipelines::visibility_module;
-use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
+use crate::host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene::Cone;
 use crate::host::scene_gpu::SceneGpu;
 use crate::technique::{Config, Technique};
@@ -136,7 +136,8 @@ impl Shadow {
                 let descriptor = ShadowVolumeDescriptor {
                     label,
                     depth_stencil_format: renderer.depth_stencil_format(),
-                    depth: DEPTH,
+                    depth: renderer.look().depth,
+                    sample_count: renderer.look().samples,
                     ..*descriptor
                 };
                 let volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
@@ -222,6 +223,14 @@ impl Shadow {
             Means::Volume(_) => None,
         };
         host.draw_lit(encoder, scene, &self.lit, group);
+    }
+
+    /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
+    pub fn may_wrap(&mut self) -> bool {
+        match &mut self.means {
+            Means::Volume(volumes) => volumes.may_wrap(),
+            Means::Cube { .. } | Means::Flat { .. } => false,
+        }
     }
 
     /// What the last prepared frame takes.
