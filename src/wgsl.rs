@@ -20,8 +20,17 @@ pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
 /// `@builtin(sample_mask)`.
 pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
 
-/// Depth of casters on the faces of a cube map.
-pub(crate) const CUBE_CASTER: &str = include_str!("../shaders/cube_caster.wgsl");
+/// Depth of casters on one face of a cube map, or on a flat map.
+pub(crate) const CUBE_CASTER: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_face.wgsl"),
+);
+
+/// Depth of casters on several faces of a cube map at once.
+pub(crate) const CUBE_CASTER_VIEWS: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_views.wgsl"),
+);
 
 /// A cube map unfolded as a cross.
 pub(crate) const CUBE_CROSS: &str = include_str!("../shaders/cube_cross.wgsl");

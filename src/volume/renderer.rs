@@ -274,15 +274,17 @@ impl ShadowVolumeRenderer {
                 continue;
             };
             let volume = &mut self.on_cpu;
-            volume.extract(mesh, slot.mesh.kind(), &slot.instance);
-            slot.counts = volume.counts();
-            let write = |buffer, words: &[u32], place: u32| {
-                queue.write_buffer(buffer, u64::from(place) * 4, bytemuck::cast_slice(words));
-            };
-            write(caps, &volume.front, slot.instance.cap_base);
-            let after = slot.instance.cap_base + slot.counts.front;
-            write(caps, &volume.back, after);
-            write(sides, &volume.sides, slot.instance.side_base);
+            slot.counts = volume.extract(mesh, slot.mesh.kind(), &slot.instance);
+            let at = |place: u32| u64::from(place) * 4;
+            // Caps are most of it, and go where the queue takes them from.
+            let caps_size = at(slot.counts.front) + at(slot.counts.back);
+            let staging = wgpu::BufferSize::new(caps_size)
+                .and_then(|size| queue.write_buffer_with(caps, at(slot.instance.cap_base), size));
+            if let Some(mut staging) = staging {
+                volume.write_caps(mesh, staging.slice(..));
+            }
+            let words = bytemuck::cast_slice(&volume.sides);
+            queue.write_buffer(sides, at(slot.instance.side_base), words);
         }
     }
 
