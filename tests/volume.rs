@@ -18,6 +18,8 @@ mod hard;
 mod host;
 #[path = "volume/light_pass.rs"]
 mod light_pass;
+#[path = "volume/near_light.rs"]
+mod near_light;
 #[path = "volume/passes.rs"]
 mod passes;
 #[path = "volume/pictures.rs"]

@@ -141,6 +141,11 @@ impl Renderer {
         self.depth_stencil_format
     }
 
+    /// The depth-stencil buffer.
+    pub fn depth_stencil(&self) -> &wgpu::TextureView {
+        &self.depth_stencil
+    }
+
     /// The lit pass's pipeline for one way to find shadows.
     pub fn lit_pipeline(&self, gpu: &Gpu, access: &ShadowAccess<'_>) -> LitPipeline {
         lit_pipeline(
