@@ -169,6 +169,7 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    Caps, Extrusion, LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    Caps, CasterState, DebugColors, Extrusion, LightJoin, LightJoinDescriptor, Method, ShadowMask,
+    ShadowMaskDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
+    Silhouettes, VolumeDebug, VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
 };

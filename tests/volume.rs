@@ -6,6 +6,10 @@ mod chain;
 mod choices;
 #[path = "volume/combinations.rs"]
 mod combinations;
+#[path = "volume/debug_errors.rs"]
+mod debug_errors;
+#[path = "volume/debug_views.rs"]
+mod debug_views;
 #[path = "volume/errors.rs"]
 mod errors;
 #[path = "volume/far_away.rs"]
@@ -28,6 +32,8 @@ mod screen;
 mod shapes;
 #[path = "volume/stage.rs"]
 mod stage;
+#[path = "volume/survey.rs"]
+mod survey;
 #[path = "volume/truth.rs"]
 mod truth;
 #[path = "volume/ways.rs"]

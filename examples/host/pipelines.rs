@@ -6,7 +6,7 @@ use shadows::{DepthConvention, MapKind, PcfSampler, wgpu};
 pub const DEPTH: DepthConvention = DepthConvention::InfiniteReverse;
 
 // sRGB, so that the hardware blends light linearly.
-pub(super) const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+pub const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// How a light pass learns where there is shadow.

@@ -19,7 +19,7 @@ mod weld;
 pub use adjacency::{Adjacency, Edge, EdgeUse, MeshKind};
 pub use bounds::Bounds;
 pub use caster::{Caster, CasterMesh, HostPositions};
-pub(crate) use data::MeshData;
+pub(crate) use data::{MeshData, edge_records as mesh_edges};
 pub(crate) use records::EdgeRecord;
 #[cfg(test)]
 pub(crate) use records::edge_records;

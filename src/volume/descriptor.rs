@@ -1,6 +1,6 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
-use super::method::{Caps, Count, Extrusion, Method, Skip};
+use super::method::{Caps, Extrusion, Method};
 use super::{Silhouettes, limits};
 use crate::error::ShadowVolumeError;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
@@ -94,11 +94,7 @@ impl ShadowVolumeDescriptor<'_> {
             return Err(ShadowVolumeError::SampleCount(self.sample_count));
         }
         check_feature(device, format.required_features(), || format!("{format:?}"))?;
-        if self.depth.clips_far() {
-            check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
-                format!("DepthConvention::{:?}", self.depth)
-            })?;
-        }
+        check_depth(device, self.depth)?;
         self.validate_colors(device)
     }
 
@@ -116,6 +112,19 @@ impl ShadowVolumeDescriptor<'_> {
             u64::from(device.limits().max_color_attachments),
         )
     }
+}
+
+/// Whether the device keeps what lies beyond a far plane.
+pub(super) fn check_depth(
+    device: &wgpu::Device,
+    depth: DepthConvention,
+) -> Result<(), ShadowVolumeError> {
+    if !depth.clips_far() {
+        return Ok(());
+    }
+    check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
+        format!("DepthConvention::{depth:?}")
+    })
 }
 
 fn check_feature(
@@ -194,21 +203,4 @@ pub struct VolumeStatistics {
     pub gpu_bytes: u64,
     /// Triangles of all casters drawn.
     pub triangles: u64,
-}
-
-impl VolumeStatistics {
-    pub(super) fn skip(&mut self, reason: Skip) {
-        *match reason {
-            Skip::Empty => &mut self.skipped_empty,
-            Skip::OutOfRange => &mut self.skipped_out_of_range,
-            Skip::OutOfView => &mut self.skipped_out_of_view,
-        } += 1;
-    }
-
-    pub(super) fn draw(&mut self, count: Count) {
-        *match count {
-            Count::Pass => &mut self.casters_z_pass,
-            Count::Fail => &mut self.casters_z_fail,
-        } += 1;
-    }
 }

@@ -48,7 +48,21 @@ impl Feed {
         }
     }
 
-    fn vertex_buffers(self, faces: Faces) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    /// Binds caster and, where they are pulled, positions, edges, sides.
+    pub(super) fn layout(self, device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
+        let stage = wgpu::ShaderStages::VERTEX;
+        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
+        entries.extend((1..=self.storage_buffers()).map(|binding| storage(binding, stage, true)));
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        })
+    }
+
+    pub(super) fn vertex_buffers(
+        self,
+        faces: Faces,
+    ) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
         const CORNERS: [wgpu::VertexAttribute; 3] =
             wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
         const EDGE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
@@ -142,13 +156,7 @@ impl DrawPipelines {
         feed: Feed,
         label: &str,
     ) -> Self {
-        let stage = wgpu::ShaderStages::VERTEX;
-        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
-        entries.extend((1..=feed.storage_buffers()).map(|binding| storage(binding, stage, true)));
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(label),
-            entries: &entries,
-        });
+        let layout = feed.layout(device, label);
         let factory = Factory {
             device,
             descriptor,
@@ -269,12 +277,6 @@ impl Factory<'_> {
     fn make(&self, style: Style) -> wgpu::RenderPipeline {
         let faces = style.faces;
         let label = format!("{} {style:?}", self.label);
-        let entry_point = match faces {
-            Faces::LightCap => "shadows_volume_light_cap",
-            Faces::DarkCap => "shadows_volume_dark_cap",
-            Faces::Sides => "shadows_volume_side",
-            Faces::Fan => "shadows_volume_fan",
-        };
         let targets = self.targets();
         // A pass without colour needs no fragment stage, and is faster without.
         let fragment = (!targets.is_empty()).then(|| wgpu::FragmentState {
@@ -289,7 +291,7 @@ impl Factory<'_> {
                 layout: Some(&self.layout),
                 vertex: wgpu::VertexState {
                     module: &self.module,
-                    entry_point: Some(entry_point),
+                    entry_point: Some(faces.entry_point()),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
                     buffers: &self.feed.vertex_buffers(faces),
                 },

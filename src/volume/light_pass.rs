@@ -175,7 +175,10 @@ fn layout(device: &wgpu::Device, label: &str, multisampled: bool) -> wgpu::BindG
     })
 }
 
-fn check_color(device: &wgpu::Device, format: wgpu::TextureFormat) -> Result<(), ScreenPassError> {
+pub(super) fn check_color(
+    device: &wgpu::Device,
+    format: wgpu::TextureFormat,
+) -> Result<(), ScreenPassError> {
     let features = device.features();
     let usable = features.contains(format.required_features());
     let found = format.guaranteed_format_features(features);

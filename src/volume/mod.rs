@@ -12,6 +12,9 @@
 //! 2008, called it multiplicity). Closedness therefore does not depend on rounding.
 
 mod buffers;
+mod debug;
+mod debug_colors;
+mod debug_pipelines;
 mod descriptor;
 mod draw;
 mod groups;
@@ -29,13 +32,20 @@ mod renderer;
 mod rule;
 mod scissor;
 mod screen;
+mod screen_area;
 mod silhouette;
+mod statistics;
 mod subject;
+mod survey;
 mod world_box;
 
+pub use debug::{VolumeDebug, VolumeDebugDescriptor};
+pub use debug_colors::DebugColors;
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 pub use light_pass::{LightJoin, LightJoinDescriptor};
 pub use mask::{ShadowMask, ShadowMaskDescriptor};
 pub use method::{Caps, Extrusion, Method};
 pub use renderer::ShadowVolumeRenderer;
 pub use silhouette::Silhouettes;
+pub use statistics::CasterState;
+pub use survey::VolumeSurvey;

@@ -10,6 +10,7 @@ use super::regions::{Overflow, Place, Regions, Words};
 use super::rule;
 use super::scissor::Rect;
 use super::silhouette::{Counts, Way, Ways};
+use super::statistics::{CasterState, Tally};
 use super::subject::{Subject, subjects, validate};
 use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::error::ShadowVolumeError;
@@ -23,6 +24,18 @@ pub(super) enum Faces {
     Sides,
     /// The dark cap as a fan over the silhouette.
     Fan,
+}
+
+impl Faces {
+    /// The vertex shader that places them.
+    pub fn entry_point(self) -> &'static str {
+        match self {
+            Self::LightCap => "shadows_volume_light_cap",
+            Self::DarkCap => "shadows_volume_dark_cap",
+            Self::Sides => "shadows_volume_side",
+            Self::Fan => "shadows_volume_fan",
+        }
+    }
 }
 
 /// One draw. Ordered so that draws of one pipeline follow each other.
@@ -67,6 +80,8 @@ pub(super) struct Plan {
     /// For each instance, what its volume follows from.
     pub slots: Vec<Slot>,
     pub statistics: VolumeStatistics,
+    /// For each caster of the frame, what became of it.
+    pub states: Vec<CasterState>,
     /// What of the target is drawn to, and the target's size.
     pub scissor: Option<(Rect, [u32; 2])>,
 }
@@ -101,8 +116,8 @@ impl Plan {
         means: &Means<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
-        let mut statistics = VolumeStatistics::default();
-        let subjects = subjects(frame, means, limits, &mut statistics)?;
+        let mut tally = Tally::default();
+        let subjects = subjects(frame, means, limits, &mut tally)?;
         let count = subjects.len();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -122,8 +137,9 @@ impl Plan {
             casters_skipped: (frame.casters.len() - plan.casters.len()) as u32,
             draws: plan.draws.len() as u32,
             triangles: plan.triangles(),
-            ..statistics
+            ..tally.statistics
         };
+        plan.states = tally.states;
         plan.scissor = means.options.scissor(frame);
         plan.count_extraction();
         Ok(plan)

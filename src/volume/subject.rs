@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
+use super::ShadowVolumeFrame;
 use super::method::{Form, Rules, Skip};
 use super::plan::{Means, PlanLimits};
 use super::regions::Words;
 use super::rule::{self, ObjectLight};
 use super::silhouette::Way;
+use super::statistics::Tally;
 use super::world_box::WorldBox;
-use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::Caster;
 use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::{CasterMesh, MeshKind};
@@ -74,14 +75,14 @@ pub(super) fn subjects(
     frame: &ShadowVolumeFrame<'_>,
     means: &Means<'_>,
     limits: &PlanLimits,
-    statistics: &mut VolumeStatistics,
+    tally: &mut Tally,
 ) -> Result<Vec<Subject>, ShadowVolumeError> {
     let rules = Rules::new(frame, means.options);
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     let mut total = [0_u64; 3];
     for (index, caster) in frame.casters.iter().enumerate() {
-        let Some(subject) = subject(frame, means, &rules, (index, caster), statistics)? else {
+        let Some(subject) = subject(frame, means, &rules, (index, caster), tally)? else {
             continue;
         };
         for (total, words) in total.iter_mut().zip(subject.words(&caster.mesh)) {
@@ -109,7 +110,7 @@ fn subject(
     means: &Means<'_>,
     rules: &Rules,
     (index, caster): (usize, &Caster),
-    statistics: &mut VolumeStatistics,
+    tally: &mut Tally,
 ) -> Result<Option<Subject>, ShadowVolumeError> {
     let map = caster.transform();
     let light = ObjectLight::new(frame.light, &map, index)?;
@@ -117,7 +118,7 @@ fn subject(
     let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
     let skip = empty.or_else(|| rules.skips(&world));
     if let Some(skip) = skip {
-        statistics.skip(skip);
+        tally.note(skip.into());
         if !(skip == Skip::OutOfView && means.keep) {
             return Ok(None);
         }
@@ -128,7 +129,7 @@ fn subject(
         .ok_or(ShadowVolumeError::HostPositions { index })?;
     let form = skip.is_none().then(|| rules.form(&world));
     if let Some(form) = &form {
-        statistics.draw(form.count);
+        tally.note(form.count.into());
     }
     Ok(Some(Subject {
         light,

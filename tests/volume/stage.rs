@@ -343,7 +343,7 @@ impl Stage {
         gpu.read_texture(&picture, 0, wgpu::TextureAspect::All)
     }
 
-    fn prepass(
+    pub fn prepass(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
