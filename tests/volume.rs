@@ -6,6 +6,8 @@ mod chain;
 mod choices;
 #[path = "volume/combinations.rs"]
 mod combinations;
+#[path = "volume/counts.rs"]
+mod counts;
 #[path = "volume/debug_errors.rs"]
 mod debug_errors;
 #[path = "volume/debug_views.rs"]

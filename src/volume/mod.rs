@@ -12,14 +12,17 @@
 //! 2008, called it multiplicity). Closedness therefore does not depend on rounding.
 
 mod buffers;
+mod counter;
 mod debug;
 mod debug_colors;
 mod debug_pipelines;
 mod descriptor;
 mod draw;
+mod exact_count;
 mod groups;
 mod hull;
 mod kept;
+mod layers;
 mod layout;
 mod light_pass;
 mod limits;
@@ -39,9 +42,11 @@ mod subject;
 mod survey;
 mod world_box;
 
+pub use counter::Counter;
 pub use debug::{VolumeDebug, VolumeDebugDescriptor};
 pub use debug_colors::DebugColors;
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+pub use exact_count::{ExactCount, ExactCountDescriptor};
 pub use light_pass::{LightJoin, LightJoinDescriptor};
 pub use mask::{ShadowMask, ShadowMaskDescriptor};
 pub use method::{Caps, Extrusion, Method};

@@ -7,7 +7,7 @@ use super::params::CasterParams;
 use super::plan::{Draw, Faces};
 use super::renderer::Drawn;
 use super::screen_area::Screen;
-use super::silhouette::{CpuVolume, Way};
+use super::silhouette::{Counts, CpuVolume, Way};
 use crate::mesh::{Adjacency, Bounds, MeshData, MeshKind, mesh_edges};
 
 /// The faces that one frame draws, counted and measured by
@@ -71,6 +71,7 @@ impl ShadowVolumeRenderer {
         let mut surveyor = Surveyor {
             screen,
             volume: CpuVolume::default(),
+            counts: Counts::default(),
             survey: VolumeSurvey::default(),
         };
         // Draws are sorted by pipeline; a volume's own are needed together.
@@ -86,6 +87,7 @@ impl ShadowVolumeRenderer {
 struct Surveyor {
     screen: Screen,
     volume: CpuVolume,
+    counts: Counts,
     survey: VolumeSurvey,
 }
 
@@ -106,7 +108,7 @@ impl Surveyor {
                 (&boxed, MeshKind::Closed)
             }
         };
-        self.volume.extract(mesh, kind, &slot.instance);
+        self.counts = self.volume.extract(mesh, kind, &slot.instance);
         let corners = Corners::new(&drawn.plan.casters[first.caster as usize]);
         for draw in draws {
             match draw.style.faces {
@@ -120,16 +122,16 @@ impl Surveyor {
     }
 
     fn add_caps(&mut self, draw: &Draw, way: Way, mesh: &MeshData, corners: &Corners) {
-        let (front, back) = (&self.volume.front, &self.volume.back);
-        // Vertex shaders find both in one draw.
-        let lists: &[&Vec<u32>] = match (way, draw.back) {
-            (Way::Vertex, _) => &[front, back],
-            (_, false) => &[front],
-            (_, true) => &[back],
+        let front = self.counts.front as usize / 3;
+        // Vertex shaders find both lists in one draw.
+        let (skipped, taken) = match (way, draw.back) {
+            (Way::Vertex, _) => (0, usize::MAX),
+            (_, false) => (0, front),
+            (_, true) => (front, usize::MAX),
         };
         let dark = draw.style.faces == Faces::DarkCap;
         let (mut count, mut area) = (0, 0.0);
-        for triangle in lists.iter().flat_map(|list| list.as_chunks::<3>().0) {
+        for triangle in self.volume.caps(mesh).skip(skipped).take(taken) {
             let points = triangle.map(|v| mesh.positions[v as usize]);
             let points = points.map(|p| {
                 if dark {
@@ -243,10 +245,6 @@ fn box_mesh(bounds: Bounds) -> Option<MeshData> {
         2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
     ];
     let adjacency = Adjacency::new(&positions, &triangles).ok()?;
-    (adjacency.kind() == MeshKind::Closed).then(|| MeshData {
-        positions,
-        triangles: adjacency.triangles().to_vec(),
-        edges: mesh_edges(&adjacency),
-        edge_uses: Vec::new(),
-    })
+    let closed = adjacency.kind() == MeshKind::Closed;
+    closed.then(|| MeshData::new(positions, mesh_edges(&adjacency), &adjacency))
 }

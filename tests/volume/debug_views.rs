@@ -99,7 +99,7 @@ fn bytes([r, g, b, a]: [f32; 4]) -> [u8; 4] {
 }
 
 /// A box around another, and a third of which nothing is in the way.
-fn nested(light: HomogeneousLight) -> Stage {
+pub fn nested(light: HomogeneousLight) -> Stage {
     let inner = Affine3A::from_scale(Vec3::splat(0.4));
     Stage::new(
         light,

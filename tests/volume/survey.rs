@@ -3,7 +3,7 @@
 use shadows::glam::Vec3;
 use shadows::{Caps, HomogeneousLight, Method, ShadowVolumeRenderer, Silhouettes, VolumeSurvey};
 
-use crate::debug_views::{WAYS, layers};
+use crate::debug_views::{WAYS, layers, nested};
 use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
@@ -114,7 +114,7 @@ fn the_estimated_fill_is_what_is_drawn_within_three_percent() {
         passing,
     ];
     cases.extend(WAYS.map(|silhouettes| {
-        let mut stage = mixed(sun());
+        let mut stage = nested(sun());
         stage.savings.silhouettes = silhouettes;
         stage
     }));
