@@ -171,6 +171,6 @@ pub use view::{DepthConvention, View};
 pub use volume::{
     Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
     LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeDebug,
-    VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
+    VolumeDebug, VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
 };

@@ -34,6 +34,8 @@ mod screen;
 mod shapes;
 #[path = "volume/stage.rs"]
 mod stage;
+#[path = "volume/start_from.rs"]
+mod start_from;
 #[path = "volume/survey.rs"]
 mod survey;
 #[path = "volume/truth.rs"]

@@ -19,6 +19,8 @@ pub struct ShadowAccess<'a> {
     pub layout: Option<&'a wgpu::BindGroupLayout>,
     /// The stencil test, if that decides.
     pub stencil: Option<wgpu::StencilState>,
+    /// Whether smoothed normals alone say where the light ends, not the triangles' own.
+    pub smooth: bool,
 }
 
 /// A sampler's module for group 1, called as the host calls it whatever the kernel.
@@ -65,7 +67,7 @@ pub(super) fn ambient_pipeline(
         &module,
         &[Some(layout)],
         depth,
-        &targets,
+        (&targets, &[]),
     )
 }
 
@@ -110,7 +112,14 @@ pub(super) fn lit_pipeline(
     let mut layouts = vec![Some(layout)];
     layouts.extend(access.layout.map(Some));
     LitPipeline {
-        pipeline: pipeline(device, "host_lit", &module, &layouts, depth, &targets),
+        pipeline: pipeline(
+            device,
+            "host_lit",
+            &module,
+            &layouts,
+            depth,
+            (&targets, &[("host_smooth", f64::from(access.smooth))]),
+        ),
         uses_stencil: access.stencil.is_some(),
     }
 }
@@ -130,7 +139,7 @@ fn pipeline(
     module: &wgpu::ShaderModule,
     layouts: &[Option<&wgpu::BindGroupLayout>],
     depth: wgpu::DepthStencilState,
-    targets: &[Option<wgpu::ColorTargetState>],
+    (targets, constants): (&[Option<wgpu::ColorTargetState>], &[(&str, f64)]),
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(fragment),
@@ -164,7 +173,10 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants,
+                ..Default::default()
+            },
             targets,
         }),
         multiview_mask: None,

@@ -221,7 +221,7 @@ impl VolumeDebug {
     /// later one.
     pub fn draw_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, renderer: &ShadowVolumeRenderer) {
         let drawn = renderer.drawn();
-        for draw in &drawn.plan.draws {
+        for draw in drawn.plan.draws.iter().filter(|draw| !draw.is_repeat()) {
             let style = draw.style;
             let swatch = match (style.faces, style.count) {
                 (Faces::LightCap, _) => Swatch::LightCaps,
@@ -240,7 +240,7 @@ impl VolumeDebug {
     /// surfaces included: the edges from which sides are extruded.
     pub fn draw_edges(&self, pass: &mut wgpu::RenderPass<'_>, renderer: &ShadowVolumeRenderer) {
         let drawn = renderer.drawn();
-        let sides = |draw: &&Draw| draw.style.faces == Faces::Sides;
+        let sides = |draw: &&Draw| draw.style.faces == Faces::Sides && !draw.is_repeat();
         for draw in drawn.plan.draws.iter().filter(sides) {
             let pipeline = |feed: &FeedPipelines| Some(feed.edges.clone());
             if self.bind(pass, renderer, &drawn, draw, (pipeline, Swatch::Edges)) {

@@ -1,7 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
 use super::method::{Caps, Extrusion, Method};
-use super::{Counter, Silhouettes, counter, limits};
+use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
@@ -34,6 +34,8 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub caps: Caps,
     /// How far volumes reach. Default [`Extrusion::ToRange`].
     pub extrusion: Extrusion,
+    /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
+    pub start_from: StartFrom,
     /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
     /// and the draws clipped to what the range covers on screen. Default `true`.
     pub culling: bool,
@@ -59,6 +61,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             method: Method::Auto,
             caps: Caps::AsNeeded,
             extrusion: Extrusion::ToRange,
+            start_from: StartFrom::LightFacing,
             culling: true,
             keep_between_frames: true,
             silhouettes: Silhouettes::Auto,
@@ -192,6 +195,9 @@ pub struct VolumeStatistics {
     pub casters_z_pass: u32,
     /// Those of them that are counted behind the visible surfaces.
     pub casters_z_fail: u32,
+    /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
+    /// as [`StartFrom::AwayFacing`] asks; 0 where it is not asked for.
+    pub casters_away_facing: u32,
     /// Casters left out, for any of the next three reasons.
     pub casters_skipped: u32,
     /// Casters left out because their meshes have no triangles.

@@ -1,13 +1,14 @@
 //! The pipelines that count a volume's faces in the stencil buffer.
 
-use super::ShadowVolumeDescriptor;
 use super::buffers::Buffers;
 use super::counter::{self, Counter, Counting};
 use super::layout::{storage, uniform};
 use super::method::Count;
 use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces, Plan};
+use super::rule::Counted;
 use super::silhouette::{LIGHT_SIDE, Way};
+use super::{ShadowVolumeDescriptor, StartFrom};
 use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
@@ -116,7 +117,40 @@ pub(super) struct Style {
     pub faces: Faces,
     /// Whether faces that are clockwise on screen are the volume's front.
     pub clockwise: bool,
+    pub part: Part,
 }
+
+impl Style {
+    /// -1 for faces that are set toward the viewer, 1 for all others.
+    fn away(self) -> i32 {
+        match (self.part, self.faces) {
+            (Part::Front, Faces::Sides) | (Part::Back, Faces::LightCap) => -1,
+            _ => 1,
+        }
+    }
+}
+
+/// The faces of one draw that count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Whole,
+    /// Those seen from outside the volume, of one that starts at the far side of its mesh; see
+    /// `start.rs`.
+    Front,
+    /// The others.
+    Back,
+}
+
+/// What such volumes add.
+const PARTS: [(Count, Faces, Part); 7] = [
+    (Count::Fail, Faces::LightCap, Part::Front),
+    (Count::Fail, Faces::LightCap, Part::Back),
+    (Count::Fail, Faces::Sides, Part::Front),
+    (Count::Fail, Faces::Sides, Part::Back),
+    (Count::Pass, Faces::Sides, Part::Front),
+    (Count::Pass, Faces::Sides, Part::Back),
+    (Count::Pass, Faces::LightCap, Part::Back),
+];
 
 /// z-pass needs no caps, except the fan where rays may start beyond a finite volume.
 const KINDS: [(Count, Faces); 6] = [
@@ -156,11 +190,18 @@ impl DrawPipelines {
                 immediate_size: 0,
             }),
         };
-        let styles = KINDS.into_iter().flat_map(|(count, faces)| {
+        let parts = match descriptor.start_from {
+            StartFrom::LightFacing => &[][..],
+            StartFrom::AwayFacing => &PARTS,
+        };
+        let kinds = KINDS.map(|(count, faces)| (count, faces, Part::Whole));
+        let kinds = kinds.iter().chain(parts);
+        let styles = kinds.flat_map(|&(count, faces, part)| {
             [false, true].map(|clockwise| Style {
                 count,
                 faces,
                 clockwise,
+                part,
             })
         });
         let pipelines = styles.map(|style| (style, factory.make(style))).collect();
@@ -241,7 +282,7 @@ fn issue_records(
     };
     // Two triangles that both count are extruded twice where they run through the edge alike.
     let copies = match (mesh.kind(), caster.both_sides) {
-        (MeshKind::Closed, 0) => 1,
+        (MeshKind::Closed, counted) if counted != Counted::All as u32 => 1,
         _ => 2,
     };
     pass.set_vertex_buffer(0, records.edges.slice(..));
@@ -292,12 +333,16 @@ impl Factory<'_> {
                         false => wgpu::FrontFace::Ccw,
                         true => wgpu::FrontFace::Cw,
                     },
-                    cull_mode: None,
+                    cull_mode: match style.part {
+                        Part::Whole => None,
+                        Part::Front => Some(wgpu::Face::Back),
+                        Part::Back => Some(wgpu::Face::Front),
+                    },
                     // Faces beyond a finite far plane must count; clamped, they do.
                     unclipped_depth: self.descriptor.depth.clips_far(),
                     ..Default::default()
                 },
-                depth_stencil: Some(self.depth_stencil(faces, counting)),
+                depth_stencil: Some(self.depth_stencil(style, counting)),
                 multisample: wgpu::MultisampleState {
                     count: self.descriptor.sample_count,
                     ..Default::default()
@@ -319,14 +364,14 @@ impl Factory<'_> {
         formats.chain(counting.target.clone().map(Some)).collect()
     }
 
-    fn depth_stencil(&self, faces: Faces, counting: Counting) -> wgpu::DepthStencilState {
+    fn depth_stencil(&self, style: Style, counting: Counting) -> wgpu::DepthStencilState {
         let depth = self.descriptor.depth;
-        let bias = match faces {
+        let bias = match style.faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
             // At infinity, or beyond the light's range, they are behind everything as they are.
             Faces::DarkCap | Faces::Fan => 0,
-        };
+        } * style.away();
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),

@@ -6,7 +6,7 @@ use super::ShadowVolumeFrame;
 use super::method::{Form, Rules, Skip};
 use super::plan::{Means, PlanLimits};
 use super::regions::Words;
-use super::rule::{self, ObjectLight};
+use super::rule::{Counted, ObjectLight};
 use super::silhouette::Way;
 use super::statistics::Tally;
 use super::world_box::WorldBox;
@@ -19,13 +19,23 @@ pub(super) struct Subject {
     pub light: ObjectLight,
     /// What is drawn of it; `None` if it only keeps its place until it comes into view again.
     pub form: Option<Form>,
-    pub both_sides: bool,
+    pub counted: Counted,
     pub mirrored: bool,
     pub way: Way,
     pub index: usize,
 }
 
 impl Subject {
+    /// The lists of caps that are drawn: those that count +1 (`false`), those that count -1.
+    pub fn cap_lists(&self) -> &'static [bool] {
+        match (self.way, self.counted) {
+            // Where vertex shaders decide, they turn the caps that count -1 over.
+            (Way::Vertex, _) | (_, Counted::LightFacing) => &[false],
+            (_, Counted::All) => &[false, true],
+            (_, Counted::AwayFacing) => &[true],
+        }
+    }
+
     /// Words for facings, caps and sides, the worst case: they cannot overflow.
     ///
     /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its
@@ -128,13 +138,16 @@ fn subject(
         .of(&caster.mesh)
         .ok_or(ShadowVolumeError::HostPositions { index })?;
     let form = skip.is_none().then(|| rules.form(&world));
+    let counted = Counted::of(caster, &world, frame, means.options.start_from);
     if let Some(form) = &form {
+        let away = counted == Counted::AwayFacing;
+        tally.statistics.casters_away_facing += u32::from(away);
         tally.note(form.count.into());
     }
     Ok(Some(Subject {
         light,
         form,
-        both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
+        counted,
         mirrored: map.matrix3.determinant() < 0.0,
         way,
         index,

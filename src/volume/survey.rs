@@ -75,7 +75,7 @@ impl ShadowVolumeRenderer {
             survey: VolumeSurvey::default(),
         };
         // Draws are sorted by pipeline; a volume's own are needed together.
-        let mut draws: Vec<&Draw> = drawn.plan.draws.iter().collect();
+        let mut draws: Vec<&Draw> = drawn.plan.draws.iter().filter(|d| !d.is_repeat()).collect();
         draws.sort_by_key(|draw| draw.instance);
         for draws in draws.chunk_by(|a, b| a.instance == b.instance) {
             surveyor.add(&drawn, draws);

@@ -15,12 +15,12 @@ use crate::stage::{Body, Stage};
 pub const WAYS: [Silhouettes; 3] = [Silhouettes::Compute, Silhouettes::Cpu, Silhouettes::Vertex];
 
 /// A stage, drawn once and ready for its debug views.
-struct Shown<'a> {
+pub struct Shown<'a> {
     gpu: &'a Gpu,
     stage: &'a Stage,
-    renderer: ShadowVolumeRenderer,
-    casters: Vec<Caster>,
-    debug: VolumeDebug,
+    pub renderer: ShadowVolumeRenderer,
+    pub casters: Vec<Caster>,
+    pub debug: VolumeDebug,
     depth: wgpu::TextureView,
     format: wgpu::TextureFormat,
 }
@@ -31,7 +31,7 @@ impl<'a> Shown<'a> {
     }
 
     /// `surfaces`: whether the scene has a depth.
-    fn with(gpu: &'a Gpu, stage: &'a Stage, colors: DebugColors, surfaces: bool) -> Self {
+    pub fn with(gpu: &'a Gpu, stage: &'a Stage, colors: DebugColors, surfaces: bool) -> Self {
         let format = wgpu::TextureFormat::Rgba8Unorm;
         let descriptor = VolumeDebugDescriptor {
             label: Some("test"),
@@ -69,7 +69,7 @@ impl<'a> Shown<'a> {
     }
 
     /// A view over black, with the depth-stencil buffer read-only: RGBA, 0 to 255.
-    fn view(&self, draw: impl Fn(&VolumeDebug, &mut wgpu::RenderPass<'_>)) -> Vec<[u8; 4]> {
+    pub fn view(&self, draw: impl Fn(&VolumeDebug, &mut wgpu::RenderPass<'_>)) -> Vec<[u8; 4]> {
         let size = [self.stage.side; 2];
         let samples = self.gpu.target(size, self.format, self.stage.samples);
         let picture = self.gpu.target(size, self.format, 1);
