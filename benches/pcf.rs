@@ -161,7 +161,7 @@ impl Yard {
             &ShadowAccess {
                 module: Some(&visibility_module(&sampler)),
                 layout: Some(sampler.bind_group_layout()),
-                stencil: None,
+                ..Default::default()
             },
         );
         Ok(Way {
@@ -207,7 +207,6 @@ impl Yard {
                 buffers: &[],
             },
             primitive: Default::default(),
-            depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &module,
@@ -300,7 +299,7 @@ fn keep_points(
         &ShadowAccess {
             module: Some(STORE),
             layout: Some(&write.0),
-            stencil: None,
+            ..Default::default()
         },
     );
     gpu.run(|encoder| renderer.draw_lit(encoder, scene, &store, Some(&write.1)));

@@ -169,7 +169,8 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, LightJoin, LightJoinDescriptor,
-    Method, ShadowMask, ShadowMaskDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
+    LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
+    VolumeDebug, VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
 };

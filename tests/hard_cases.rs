@@ -17,6 +17,8 @@ mod output;
 mod progress;
 #[path = "../examples/compare/shadow.rs"]
 mod shadow;
+#[path = "../examples/compare/soft.rs"]
+mod soft;
 #[path = "../examples/compare/stage.rs"]
 mod stage;
 #[path = "../examples/compare/table.rs"]

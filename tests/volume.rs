@@ -8,6 +8,10 @@ mod choices;
 mod combinations;
 #[path = "volume/counts.rs"]
 mod counts;
+#[path = "volume/debug_errors.rs"]
+mod debug_errors;
+#[path = "volume/debug_views.rs"]
+mod debug_views;
 #[path = "volume/errors.rs"]
 mod errors;
 #[path = "volume/far_away.rs"]
@@ -30,6 +34,10 @@ mod random;
 mod screen;
 #[path = "volume/stage.rs"]
 mod stage;
+#[path = "volume/start_from.rs"]
+mod start_from;
+#[path = "volume/survey.rs"]
+mod survey;
 #[path = "volume/truth.rs"]
 mod truth;
 #[path = "volume/ways.rs"]

@@ -243,7 +243,7 @@ impl Shadow {
     /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
     pub fn may_wrap(&mut self) -> bool {
         match &mut self.means {
-            Means::Volume(volumes) => volumes.may_wrap(),
+            Means::Volume { volumes, .. } => volumes.may_wrap(),
             Means::Cube { .. } | Means::Flat { .. } => false,
         }
     }
@@ -381,6 +381,7 @@ fn sampled(gpu: &Gpu, renderer: &Renderer, sampler: &PcfSampler) -> LitPipeline 
             module: Some(&visibility_module(sampler)),
             layout: Some(sampler.bind_group_layout()),
             stencil: None,
+            ..Default::default()
         },
     )
 }

@@ -27,7 +27,7 @@ impl Default for Look {
 }
 
 // sRGB, so that the hardware blends light linearly.
-pub(super) const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+pub const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// How a light pass learns where there is shadow.
@@ -40,6 +40,8 @@ pub struct ShadowAccess<'a> {
     pub layout: Option<&'a wgpu::BindGroupLayout>,
     /// The stencil test, if that decides.
     pub stencil: Option<wgpu::StencilState>,
+    /// Whether smoothed normals alone say where the light ends, not the triangles' own.
+    pub smooth: bool,
 }
 
 /// A sampler's module for group 1, called as the host calls it whatever the kernel.
@@ -87,7 +89,7 @@ pub(super) fn ambient_pipeline(
         &module,
         &[Some(layout)],
         (depth, look.samples),
-        &targets,
+        (&targets, &[]),
     )
 }
 
@@ -139,7 +141,7 @@ pub(super) fn lit_pipeline(
             &module,
             &layouts,
             (depth, look.samples),
-            &targets,
+            (&targets, &[("host_smooth", f64::from(access.smooth))]),
         ),
         uses_stencil: access.stencil.is_some(),
     }
@@ -160,7 +162,7 @@ fn pipeline(
     module: &wgpu::ShaderModule,
     layouts: &[Option<&wgpu::BindGroupLayout>],
     (depth, samples): (wgpu::DepthStencilState, u32),
-    targets: &[Option<wgpu::ColorTargetState>],
+    (targets, constants): (&[Option<wgpu::ColorTargetState>], &[(&str, f64)]),
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(fragment),
@@ -197,7 +199,10 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants,
+                ..Default::default()
+            },
             targets,
         }),
         multiview_mask: None,

@@ -7,8 +7,8 @@ use shadows::{View, wgpu};
 
 use super::gpu::Gpu;
 use super::image;
-pub use super::pipelines::{DEPTH, LitPipeline, Look, ShadowAccess};
-use super::pipelines::{SHADED, VISIBILITY, ambient_pipeline, lit_pipeline};
+pub use super::pipelines::{DEPTH, LitPipeline, Look, SHADED, ShadowAccess};
+use super::pipelines::{VISIBILITY, ambient_pipeline, lit_pipeline};
 use super::scene::Scene;
 use super::scene_gpu::SceneGpu;
 
@@ -193,6 +193,24 @@ impl Renderer {
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("stencil"),
             depth_stencil_attachment: Some(self.stencil_attachment(wgpu::LoadOp::Clear(0))),
+            ..Default::default()
+        })
+    }
+
+    /// A pass that draws over the shaded picture, depth and stencil read-only.
+    pub fn begin_overlay_pass<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+    ) -> wgpu::RenderPass<'e> {
+        let (shaded, resolved) = self.shaded.views();
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("overlay"),
+            color_attachments: &[Some(color(&shaded, resolved.as_ref(), wgpu::LoadOp::Load))],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.depth_stencil,
+                depth_ops: None,
+                stencil_ops: None,
+            }),
             ..Default::default()
         })
     }

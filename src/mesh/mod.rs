@@ -22,7 +22,7 @@ pub use adjacency::{Adjacency, Edge, EdgeUse, MeshKind};
 pub(crate) use blocks::{BLOCK, BlockWords};
 pub use bounds::Bounds;
 pub use caster::{Caster, CasterMesh, HostPositions};
-pub(crate) use data::MeshData;
+pub(crate) use data::{MeshData, edge_records as mesh_edges};
 pub(crate) use planes::{Facings, LANES};
 pub(crate) use records::EdgeRecord;
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
-use super::method::{Caps, Count, Extrusion, Method, Skip};
-use super::{Counter, Silhouettes, counter, limits};
+use super::method::{Caps, Extrusion, Method};
+use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
@@ -34,6 +34,8 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub caps: Caps,
     /// How far volumes reach. Default [`Extrusion::ToRange`].
     pub extrusion: Extrusion,
+    /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
+    pub start_from: StartFrom,
     /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
     /// and the draws clipped to what the range covers on screen. Default `true`.
     pub culling: bool,
@@ -59,6 +61,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             method: Method::Auto,
             caps: Caps::AsNeeded,
             extrusion: Extrusion::ToRange,
+            start_from: StartFrom::LightFacing,
             culling: true,
             keep_between_frames: true,
             silhouettes: Silhouettes::Auto,
@@ -97,11 +100,7 @@ impl ShadowVolumeDescriptor<'_> {
             return Err(ShadowVolumeError::SampleCount(self.sample_count));
         }
         check_feature(device, format.required_features(), || format!("{format:?}"))?;
-        if self.depth.clips_far() {
-            check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
-                format!("DepthConvention::{:?}", self.depth)
-            })?;
-        }
+        check_depth(device, self.depth)?;
         self.validate_colors(device)
     }
 
@@ -124,6 +123,19 @@ impl ShadowVolumeDescriptor<'_> {
             u64::from(device.limits().max_color_attachments),
         )
     }
+}
+
+/// Whether the device keeps what lies beyond a far plane.
+pub(super) fn check_depth(
+    device: &wgpu::Device,
+    depth: DepthConvention,
+) -> Result<(), ShadowVolumeError> {
+    if !depth.clips_far() {
+        return Ok(());
+    }
+    check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
+        format!("DepthConvention::{depth:?}")
+    })
 }
 
 fn check_feature(
@@ -183,6 +195,9 @@ pub struct VolumeStatistics {
     pub casters_z_pass: u32,
     /// Those of them that are counted behind the visible surfaces.
     pub casters_z_fail: u32,
+    /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
+    /// as [`StartFrom::AwayFacing`] asks; 0 where it is not asked for.
+    pub casters_away_facing: u32,
     /// Casters left out, for any of the next three reasons.
     pub casters_skipped: u32,
     /// Casters left out because their meshes have no triangles.
@@ -202,21 +217,4 @@ pub struct VolumeStatistics {
     pub gpu_bytes: u64,
     /// Triangles of all casters drawn.
     pub triangles: u64,
-}
-
-impl VolumeStatistics {
-    pub(super) fn skip(&mut self, reason: Skip) {
-        *match reason {
-            Skip::Empty => &mut self.skipped_empty,
-            Skip::OutOfRange => &mut self.skipped_out_of_range,
-            Skip::OutOfView => &mut self.skipped_out_of_view,
-        } += 1;
-    }
-
-    pub(super) fn draw(&mut self, count: Count) {
-        *match count {
-            Count::Pass => &mut self.casters_z_pass,
-            Count::Fail => &mut self.casters_z_fail,
-        } += 1;
-    }
 }

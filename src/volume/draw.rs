@@ -1,13 +1,14 @@
 //! The pipelines that count a volume's faces in the stencil buffer.
 
-use super::ShadowVolumeDescriptor;
 use super::buffers::Buffers;
 use super::counter::{self, Counter, Counting};
 use super::layout::{storage, uniform};
 use super::method::Count;
 use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces, Plan};
+use super::rule::Counted;
 use super::silhouette::{LIGHT_SIDE, Way};
+use super::{ShadowVolumeDescriptor, StartFrom};
 use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
@@ -49,7 +50,21 @@ impl Feed {
         }
     }
 
-    fn vertex_buffers(self, faces: Faces) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    /// Binds caster and, where they are pulled, positions, edges, sides.
+    pub(super) fn layout(self, device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
+        let stage = wgpu::ShaderStages::VERTEX;
+        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
+        entries.extend((1..=self.storage_buffers()).map(|binding| storage(binding, stage, true)));
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        })
+    }
+
+    pub(super) fn vertex_buffers(
+        self,
+        faces: Faces,
+    ) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
         const CORNERS: [wgpu::VertexAttribute; 3] =
             wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
         const EDGE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
@@ -102,7 +117,40 @@ pub(super) struct Style {
     pub faces: Faces,
     /// Whether faces that are clockwise on screen are the volume's front.
     pub clockwise: bool,
+    pub part: Part,
 }
+
+impl Style {
+    /// -1 for faces that are set toward the viewer, 1 for all others.
+    fn away(self) -> i32 {
+        match (self.part, self.faces) {
+            (Part::Front, Faces::Sides) | (Part::Back, Faces::LightCap) => -1,
+            _ => 1,
+        }
+    }
+}
+
+/// The faces of one draw that count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Whole,
+    /// Those seen from outside the volume, of one that starts at the far side of its mesh; see
+    /// `start.rs`.
+    Front,
+    /// The others.
+    Back,
+}
+
+/// What such volumes add.
+const PARTS: [(Count, Faces, Part); 7] = [
+    (Count::Fail, Faces::LightCap, Part::Front),
+    (Count::Fail, Faces::LightCap, Part::Back),
+    (Count::Fail, Faces::Sides, Part::Front),
+    (Count::Fail, Faces::Sides, Part::Back),
+    (Count::Pass, Faces::Sides, Part::Front),
+    (Count::Pass, Faces::Sides, Part::Back),
+    (Count::Pass, Faces::LightCap, Part::Back),
+];
 
 /// z-pass needs no caps, except the fan where rays may start beyond a finite volume.
 const KINDS: [(Count, Faces); 6] = [
@@ -121,13 +169,7 @@ impl DrawPipelines {
         feed: Feed,
         label: &str,
     ) -> Self {
-        let stage = wgpu::ShaderStages::VERTEX;
-        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
-        entries.extend((1..=feed.storage_buffers()).map(|binding| storage(binding, stage, true)));
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(label),
-            entries: &entries,
-        });
+        let layout = feed.layout(device, label);
         let module = |source: String| {
             device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(label),
@@ -148,11 +190,18 @@ impl DrawPipelines {
                 immediate_size: 0,
             }),
         };
-        let styles = KINDS.into_iter().flat_map(|(count, faces)| {
+        let parts = match descriptor.start_from {
+            StartFrom::LightFacing => &[][..],
+            StartFrom::AwayFacing => &PARTS,
+        };
+        let kinds = KINDS.map(|(count, faces)| (count, faces, Part::Whole));
+        let kinds = kinds.iter().chain(parts);
+        let styles = kinds.flat_map(|&(count, faces, part)| {
             [false, true].map(|clockwise| Style {
                 count,
                 faces,
                 clockwise,
+                part,
             })
         });
         let pipelines = styles.map(|style| (style, factory.make(style))).collect();
@@ -233,7 +282,7 @@ fn issue_records(
     };
     // Two triangles that both count are extruded twice where they run through the edge alike.
     let copies = match (mesh.kind(), caster.both_sides) {
-        (MeshKind::Closed, 0) => 1,
+        (MeshKind::Closed, counted) if counted != Counted::All as u32 => 1,
         _ => 2,
     };
     pass.set_vertex_buffer(0, records.edges.slice(..));
@@ -255,12 +304,6 @@ impl Factory<'_> {
     fn make(&self, style: Style) -> wgpu::RenderPipeline {
         let faces = style.faces;
         let label = format!("{} {style:?}", self.label);
-        let entry_point = match faces {
-            Faces::LightCap => "shadows_volume_light_cap",
-            Faces::DarkCap => "shadows_volume_dark_cap",
-            Faces::Sides => "shadows_volume_side",
-            Faces::Fan => "shadows_volume_fan",
-        };
         let nearer = self.descriptor.depth.nearer();
         let counting = self.descriptor.counter.counting(style.count, nearer);
         let targets = self.targets(&counting);
@@ -281,7 +324,7 @@ impl Factory<'_> {
                 layout: Some(&self.layout),
                 vertex: wgpu::VertexState {
                     module: &self.module,
-                    entry_point: Some(entry_point),
+                    entry_point: Some(faces.entry_point()),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
                     buffers: &self.feed.vertex_buffers(faces),
                 },
@@ -290,12 +333,16 @@ impl Factory<'_> {
                         false => wgpu::FrontFace::Ccw,
                         true => wgpu::FrontFace::Cw,
                     },
-                    cull_mode: None,
+                    cull_mode: match style.part {
+                        Part::Whole => None,
+                        Part::Front => Some(wgpu::Face::Back),
+                        Part::Back => Some(wgpu::Face::Front),
+                    },
                     // Faces beyond a finite far plane must count; clamped, they do.
                     unclipped_depth: self.descriptor.depth.clips_far(),
                     ..Default::default()
                 },
-                depth_stencil: Some(self.depth_stencil(faces, counting)),
+                depth_stencil: Some(self.depth_stencil(style, counting)),
                 multisample: wgpu::MultisampleState {
                     count: self.descriptor.sample_count,
                     ..Default::default()
@@ -317,14 +364,14 @@ impl Factory<'_> {
         formats.chain(counting.target.clone().map(Some)).collect()
     }
 
-    fn depth_stencil(&self, faces: Faces, counting: Counting) -> wgpu::DepthStencilState {
+    fn depth_stencil(&self, style: Style, counting: Counting) -> wgpu::DepthStencilState {
         let depth = self.descriptor.depth;
-        let bias = match faces {
+        let bias = match style.faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
             // At infinity, or beyond the light's range, they are behind everything as they are.
             Faces::DarkCap | Faces::Fan => 0,
-        };
+        } * style.away();
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),

@@ -190,7 +190,10 @@ pub(super) fn bind(
     })
 }
 
-fn check_color(device: &wgpu::Device, format: wgpu::TextureFormat) -> Result<(), ScreenPassError> {
+pub(super) fn check_color(
+    device: &wgpu::Device,
+    format: wgpu::TextureFormat,
+) -> Result<(), ScreenPassError> {
     let features = device.features();
     let usable = features.contains(format.required_features());
     let found = format.guaranteed_format_features(features);

@@ -27,11 +27,11 @@
 
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-use super::ShadowVolumeFrame;
 use super::descriptor::ShadowVolumeDescriptor;
 use super::hull::Hull;
 use super::scissor::{self, Rect};
 use super::world_box::WorldBox;
+use super::{ShadowVolumeFrame, StartFrom};
 use crate::{HomogeneousLight, View};
 
 /// Which of a volume's faces are counted.
@@ -77,6 +77,7 @@ pub(super) struct Options {
     pub caps: Caps,
     pub extrusion: Extrusion,
     pub culling: bool,
+    pub start_from: StartFrom,
 }
 
 impl Options {
@@ -86,6 +87,7 @@ impl Options {
             caps: descriptor.caps,
             extrusion: descriptor.extrusion,
             culling: descriptor.culling,
+            start_from: descriptor.start_from,
         }
     }
 

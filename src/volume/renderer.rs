@@ -9,8 +9,9 @@ use super::kept::Kept;
 use super::layers;
 use super::method::Options;
 use super::params::{Arguments, BatchParams, CasterParams};
-use super::plan::{Batch, Means, Plan, PlanLimits};
+use super::plan::{Batch, Draw, Means, Plan, PlanLimits};
 use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
+use super::statistics::CasterState;
 use super::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
@@ -59,6 +60,13 @@ pub struct ShadowVolumeRenderer {
     counter: Counter,
     /// Whether `encode` was called since the last `prepare`.
     encoded: AtomicBool,
+}
+
+/// What the last frame draws, and where it lies.
+pub(super) struct Drawn<'a> {
+    pub plan: &'a Plan,
+    pub buffers: &'a Buffers,
+    pub depth: DepthConvention,
 }
 
 impl ShadowVolumeRenderer {
@@ -204,7 +212,7 @@ impl ShadowVolumeRenderer {
                 Way::Vertex => self.fed.as_ref(),
                 Way::Compute | Way::Cpu => self.pulled.as_ref(),
             };
-            let (Some(pipelines), Some(group)) = (pipelines, self.groups.get(batch)) else {
+            let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw)) else {
                 continue;
             };
             let state = (draw.style, way == Way::Vertex);
@@ -215,8 +223,6 @@ impl ShadowVolumeRenderer {
                 pass.set_pipeline(pipeline);
                 current = Some(state);
             }
-            let step = window::<CasterParams>(&self.device.limits()) as u32;
-            pass.set_bind_group(0, &group.draw, &[draw.caster * step]);
             issue(pass, draw, &self.plan, &self.buffers);
         }
         if let Some((_, [width, height])) = self.plan.scissor {
@@ -242,6 +248,31 @@ impl ShadowVolumeRenderer {
     /// What the last [`prepare`](Self::prepare) came to.
     pub fn statistics(&self) -> VolumeStatistics {
         self.plan.statistics
+    }
+
+    /// What was decided for each caster of the last frame that was prepared, in the frame's order.
+    pub fn caster_states(&self) -> &[CasterState] {
+        &self.plan.states
+    }
+
+    /// What the debug views draw from.
+    pub(super) fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            plan: &self.plan,
+            buffers: &self.buffers,
+            depth: self.depth,
+        }
+    }
+
+    /// Sets the bind group that a draw reads, if it is there.
+    pub(super) fn bind_volume(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
+        let batch = self.plan.batch_of[draw.instance as usize] as usize;
+        let Some(group) = self.groups.get(batch) else {
+            return false;
+        };
+        let step = window::<CasterParams>(&self.device.limits()) as u32;
+        pass.set_bind_group(0, &group.draw, &[draw.caster * step]);
+        true
     }
 
     /// No visible point is in more volumes than this, of those that the last

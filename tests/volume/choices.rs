@@ -3,7 +3,7 @@
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
     Caps, Caster, Counter, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, VolumeStatistics, wgpu,
+    ShadowVolumeRenderer, Silhouettes, StartFrom, VolumeStatistics, wgpu,
 };
 
 use crate::host::gpu::Gpu;
@@ -17,6 +17,7 @@ pub const TEXTBOOK: Savings = Savings {
     extrusion: Extrusion::Infinite,
     unculled: true,
     silhouettes: Silhouettes::Auto,
+    start_from: StartFrom::LightFacing,
     counter: Counter::Stencil,
 };
 

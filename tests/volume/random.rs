@@ -2,7 +2,7 @@
 //! fields of view from 20 to 150 degrees, every depth convention and format, 1x and 4x.
 
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, wgpu};
+use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, StartFrom, wgpu};
 
 use crate::choices::{TEXTBOOK, depths};
 use crate::host::gpu::Gpu;
@@ -138,8 +138,13 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
     let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
     for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
         let silhouettes = ways[(seed / 4 + turn) as usize % 3];
+        let start_from = match (seed / 3 + turn) % 2 {
+            0 => StartFrom::LightFacing,
+            _ => StartFrom::AwayFacing,
+        };
         let savings = Savings {
             silhouettes,
+            start_from,
             ..savings
         };
         let picture = Stage {

@@ -7,7 +7,7 @@ use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
     Caps, Caster, CasterMesh, Counter, DepthConvention, ExactCount, ExactCountDescriptor,
     Extrusion, HomogeneousLight, HostPositions, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    ShadowVolumeRenderer, Silhouettes, StartFrom, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -88,6 +88,7 @@ pub struct Savings {
     /// Whether nothing is skipped or clipped.
     pub unculled: bool,
     pub silhouettes: Silhouettes,
+    pub start_from: StartFrom,
     pub counter: Counter,
 }
 
@@ -205,6 +206,7 @@ impl Stage {
             extrusion: self.savings.extrusion,
             culling: !self.savings.unculled,
             silhouettes: self.savings.silhouettes,
+            start_from: self.savings.start_from,
             counter: self.savings.counter,
             ..Default::default()
         }

@@ -59,6 +59,9 @@ fn host_ambient(in: HostVaryings) -> @location(0) vec4f {
     return vec4f(host_object.albedo.rgb * host_frame.ambient * sky, 1.0);
 }
 
+// Whether light ends where the smoothed normal turns away, not already where the triangle does.
+override host_smooth: bool = false;
+
 struct HostLit {
     @location(0) shaded: vec4f,
     @location(1) visibility: f32,
@@ -79,7 +82,7 @@ fn host_light(in: HostVaryings, visibility: f32) -> HostLit {
         falloff = select(0.0, window * window / squared, along >= host_frame.cone.w);
     }
     let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
-    let facing = select(0.0, 1.0, dot(flat_normal, toward_light) > 0.0);
+    let facing = select(0.0, 1.0, host_smooth || dot(flat_normal, toward_light) > 0.0);
     let light = 1.0 - exp(-host_frame.intensity * falloff * cosine * facing);
     let diffuse = host_object.albedo.rgb * (1.0 - host_frame.ambient) * light;
     return HostLit(vec4f(diffuse * visibility, 0.0), visibility);

@@ -7,6 +7,7 @@ use glam::{Vec3, Vec4};
 use wgpu::WriteOnly;
 
 use super::super::params::InstanceParams;
+use super::super::rule::Counted;
 use super::light_side::light_side;
 use crate::mesh::{BLOCK, BlockWords, Facings, LANES, MeshData, MeshKind};
 
@@ -86,8 +87,11 @@ impl CpuVolume {
                 word.front |= u64::from(side > 0) << place;
                 word.back |= u64::from(side < 0) << place;
             }
-            if instance.both_sides == 0 {
+            if instance.both_sides == Counted::LightFacing as u32 {
                 word.back = 0;
+            }
+            if instance.both_sides == Counted::AwayFacing as u32 {
+                word.front = 0;
             }
         }
     }
@@ -256,7 +260,7 @@ mod tests {
                     off.normalize() * 1e-8,
                 ),
             ] {
-                for both_sides in [0, 1] {
+                for both_sides in [0, 1, 2] {
                     lights.push(InstanceParams {
                         light: light.to_array(),
                         light_rest: rest.to_array(),
@@ -273,9 +277,10 @@ mod tests {
     fn plainly(mesh: &MeshData, kind: MeshKind, instance: &InstanceParams) -> [Vec<u32>; 3] {
         let (light, rest) = (instance.light.into(), instance.light_rest.into());
         let lowest = if instance.both_sides == 0 { 0 } else { -1 };
+        let highest = if instance.both_sides == 2 { 0 } else { 1 };
         let facing = |corners: &[u32; 3]| {
             let [a, b, c] = corners.map(|v| Vec3::from(mesh.positions[v as usize]));
-            i32::from(light_side(a, b, c, light, rest).max(lowest))
+            i32::from(light_side(a, b, c, light, rest).clamp(lowest, highest))
         };
         let facings: Vec<i32> = mesh.triangles.iter().map(facing).collect();
         let caps = |side| {
