@@ -3,6 +3,7 @@
 use super::method::{Caps, Count, Extrusion, Method, Skip};
 use super::{Silhouettes, limits};
 use crate::error::ShadowVolumeError;
+use crate::mesh::Bounds;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
@@ -146,6 +147,11 @@ pub struct ShadowVolumeFrame<'a> {
     /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
     /// of it: the draws are then clipped to what `range` covers on screen. `None`: they are not.
     pub target_size: Option<[u32; 2]>,
+    /// Bounds in world space of everything that is to be shadowed: all surfaces in the pass's depth
+    /// buffer, those of casters included. Volumes that are counted in front of the visible surfaces
+    /// then end just behind these bounds, and casters that shadow nothing within them are skipped;
+    /// what lies outside may be shadowed or not. `None`, the default: anywhere.
+    pub receivers: Option<Bounds>,
     /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
     /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound
     /// outward; z-pass relies on their being drawn.)
@@ -153,13 +159,14 @@ pub struct ShadowVolumeFrame<'a> {
 }
 
 impl<'a> ShadowVolumeFrame<'a> {
-    /// A frame with a light of no range, and no target size.
+    /// A frame with a light of no range, no target size and receivers anywhere.
     pub fn new(view: &'a View, light: HomogeneousLight, casters: &'a [Caster]) -> Self {
         Self {
             view,
             light,
             range: None,
             target_size: None,
+            receivers: None,
             casters,
         }
     }
@@ -181,7 +188,7 @@ pub struct VolumeStatistics {
     pub skipped_empty: u32,
     /// Casters left out because they are beyond the light's range.
     pub skipped_out_of_range: u32,
-    /// Casters left out because nothing they could shadow is in view.
+    /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,
     /// Draw calls that `render` records.
     pub draws: u32,

@@ -14,6 +14,7 @@
 mod buffers;
 mod descriptor;
 mod draw;
+mod far_end;
 mod groups;
 mod hull;
 mod kept;
