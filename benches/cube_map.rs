@@ -4,6 +4,9 @@
 //!   wait for the device, against the textbook preset (six unculled passes, distance written by the
 //!   fragment shader).
 //! - `one_moving_vs_all_moving`, `still_vs_all_moving`: the same scene, one sphere or none moving.
+//! - `multiview_vs_six_passes`: the same scene, all moving, all six faces in one multiview pass
+//!   against a pass for each, where the device has multiview; `_of_64`: with faces of 64 texels, so
+//!   that passes and draws weigh more than pixels.
 //! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
 //!   against all moving.
 //! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
@@ -28,7 +31,8 @@ use host::scene_gpu::SceneGpu;
 use shadows::glam::{Affine3A, DVec3, DVec4, Vec3, Vec3A, Vec4Swizzles as _};
 use shadows::mesh::Adjacency;
 use shadows::{
-    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu,
+    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight,
+    wgpu,
 };
 
 fn main() {
@@ -39,6 +43,20 @@ fn main() {
     };
     println!("adapter {}", host::gpu::describe(&gpu.info));
     spheres(&gpu, if quick { 5 } else { 25 });
+    if gpu.support.multiview {
+        multiview(
+            &gpu,
+            "multiview_vs_six_passes",
+            1024,
+            if quick { 5 } else { 25 },
+        );
+        multiview(
+            &gpu,
+            "multiview_vs_six_passes_of_64",
+            64,
+            if quick { 5 } else { 25 },
+        );
+    }
     prepare(&gpu, if quick { 5 } else { 25 });
     for count in [100, 10_000, 100_000] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
@@ -111,6 +129,34 @@ fn spheres(gpu: &Gpu, rounds: u32) {
     ratio("all_moving_vs_textbook", &mut all, &mut book);
     ratio("one_moving_vs_all_moving", &mut one, &mut all);
     ratio("still_vs_all_moving", &mut still, &mut all);
+}
+
+fn multiview(gpu: &Gpu, name: &str, size: u32, rounds: u32) {
+    let scene = spheres_moving(0.0);
+    let light = PointLight::new(scene.light.truncate(), scene.shadow_near, scene.range);
+    let casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
+    let [mut joint, mut separate] = [FacePasses::Multiview, FacePasses::Separate].map(|passes| {
+        let descriptor = CubeShadowMapDescriptor {
+            size,
+            passes,
+            cache: false,
+            ..Default::default()
+        };
+        new_map(gpu, &descriptor)
+    });
+    let (mut one, mut six) = (Vec::new(), Vec::new());
+    // The first round makes pipelines and textures.
+    for round in 0..=rounds {
+        let times = [
+            frame(gpu, &mut joint, light, &casters),
+            frame(gpu, &mut separate, light, &casters),
+        ];
+        if round > 0 {
+            one.push(times[0]);
+            six.push(times[1]);
+        }
+    }
+    ratio(name, &mut one, &mut six);
 }
 
 /// Boxes in a flat world of one a square metre, lights all over it.

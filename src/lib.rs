@@ -157,7 +157,7 @@ mod wgsl_layout;
 pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FacePasses, FaceState,
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
     texture_from_clip,
 };
@@ -169,6 +169,7 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    Caps, Extrusion, LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, LightJoin, LightJoinDescriptor,
+    Method, ShadowMask, ShadowMaskDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
 };

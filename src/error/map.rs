@@ -73,6 +73,16 @@ pub enum CubeShadowMapError {
         /// Lights the map was made for.
         slots: usize,
     },
+    /// Faces are to be drawn in one pass on a device that cannot.
+    #[error(
+        "FacePasses::Multiview needs a device with {missing:?} and max_multiview_view_count of at least 6 (this one has {views}); ask for what Support::features and Support::limits give, or pass FacePasses::Auto"
+    )]
+    Multiview {
+        /// The features that the device lacks.
+        missing: wgpu::Features,
+        /// Its `max_multiview_view_count`.
+        views: u32,
+    },
     /// A pinned light that is not in the frame.
     #[error("light {pinned} is pinned, but the frame has {lights} lights, counted from 0")]
     Pinned {

@@ -8,6 +8,7 @@ use super::assign::assign;
 use super::descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 use super::draws::DrawLists;
 use super::face::CubeFace;
+use super::joint::Joint;
 use super::light::LightUniform;
 use super::plan::SlotPlan;
 use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
@@ -71,6 +72,8 @@ pub struct CubeShadowMap {
     pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     pub(super) face_uniforms: wgpu::Buffer,
     pub(super) face_group: wgpu::BindGroup,
+    /// For a map that draws several faces in one pass.
+    pub(super) joint: Option<Joint>,
     pub(super) lights: resources::Lights,
     pub(super) instances: wgpu::Buffer,
     pub(super) scene: Scene,
@@ -125,7 +128,12 @@ impl CubeShadowMap {
             slope_scale: bias.slope_scale,
             // A point light has no plane to pull casters onto.
             unclipped_depth: false,
+            constants: &[],
         };
+        let joint = descriptor
+            .passes
+            .joint()
+            .then(|| Joint::new(device, &label, &face_uniforms, &kind));
         let mut textures = Textures::new(device, &label, size, format, slots, cube_array);
         if descriptor.allocation == Allocation::AtOnce {
             for slot in 0..slots {
@@ -155,7 +163,8 @@ impl CubeShadowMap {
                 .collect(),
             order: Vec::new(),
             plans: Vec::new(),
-            draws: DrawLists::new(slots),
+            draws: DrawLists::new(slots, joint.as_ref()),
+            joint,
             written_lights: vec![None; slots],
             written_faces: vec![None; slots],
             statistics: CubeStatistics::default(),
@@ -188,11 +197,7 @@ impl CubeShadowMap {
         self.write_lights(queue, frame.lights);
 
         let mut statistics = self.tally(&plans);
-        for draw in self.draws.iter() {
-            statistics.draws += 1;
-            statistics.triangles +=
-                u64::from(draw.mesh.triangle_count()) * u64::from(draw.instance_count);
-        }
+        self.count_draws(&mut statistics, &plans);
         statistics.bytes = self.bytes();
         statistics.prepare = clock.elapsed();
         self.statistics = statistics;

@@ -1,5 +1,6 @@
 //! How a cube map is made, and what it is told each frame.
 
+use super::joint::FacePasses;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
 use crate::{Bias, PointLight, View};
@@ -108,6 +109,8 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// The most faces drawn in one `prepare`; default none. At least 1. See
     /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order and the longest wait.
     pub max_faces_per_frame: Option<u32>,
+    /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
+    pub passes: FacePasses,
 }
 
 impl CubeShadowMapDescriptor<'_> {
@@ -150,6 +153,7 @@ impl CubeShadowMapDescriptor<'_> {
         if self.max_faces_per_frame == Some(0) {
             return Err(CubeShadowMapError::Budget);
         }
+        self.passes.validate(device)?;
         self.bias.validate()?;
         if self.bias.slope_scale != 0.0 && self.encoding == DepthEncoding::LinearDistance {
             return Err(CubeShadowMapError::SlopeScale);
@@ -183,6 +187,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             cache: true,
             sides: CasterSides::default(),
             max_faces_per_frame: None,
+            passes: FacePasses::default(),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DAffine3;
 
 use super::descriptor::CasterSides;
+use super::joint::Joint;
 use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
@@ -35,18 +36,29 @@ impl Draw {
         pipelines: &HashMap<PipelineKey, wgpu::RenderPipeline>,
         instances: &wgpu::Buffer,
     ) {
+        // Prepare made one for every key.
+        if let Some(pipeline) = pipelines.get(&self.key()) {
+            self.record_with(pass, pipeline, instances, self.instance_count);
+        }
+    }
+
+    /// Records it with a pipeline made for its key, and the instances that follow its own.
+    pub fn record_with(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipeline: &wgpu::RenderPipeline,
+        instances: &wgpu::Buffer,
+        count: u32,
+    ) {
         let (_, offset) = self.mesh.layout();
-        let Some(pipeline) = pipelines.get(&self.key()) else {
-            return; // prepare made one for every key
-        };
-        let size = u64::from(self.instance_count) * INSTANCE_SIZE;
+        let size = u64::from(count) * INSTANCE_SIZE;
         let first = self.first_instance * INSTANCE_SIZE;
         pass.set_pipeline(pipeline);
         pass.set_vertex_buffer(0, self.mesh.positions().slice(offset..));
         // Sliced rather than drawn from a first instance, which GL does not have.
         pass.set_vertex_buffer(1, instances.slice(first..first + size));
         pass.set_index_buffer(self.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..count);
     }
 }
 
@@ -91,12 +103,18 @@ pub(super) struct DrawLists {
     // Kept only for its memory: group, culling and row of each caster on each face.
     members: [Vec<(u32, Cull, u32)>; 6],
     rows: Vec<Instance>,
+    /// Whether all faces of a slot share one list, that of the lowest face drawn.
+    joint: bool,
+    /// Follows the instances of every draw.
+    separator: Option<Instance>,
 }
 
 impl DrawLists {
-    pub fn new(slots: usize) -> Self {
+    pub fn new(slots: usize, joint: Option<&Joint>) -> Self {
         Self {
             faces: (0..slots).map(|_| Default::default()).collect(),
+            joint: joint.is_some(),
+            separator: joint.and_then(Joint::separator),
             ..Self::default()
         }
     }
@@ -122,7 +140,10 @@ impl DrawLists {
         self.members.iter_mut().for_each(Vec::clear);
         for at in touching(slot.masks(), mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
-            let on = slot.masks()[at] & mask;
+            let on = match self.joint {
+                true => mask & mask.wrapping_neg(),
+                false => slot.masks()[at] & mask,
+            };
             let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
             let cull = Cull::of(scene.sides(), record, clear);
             for (bit, members) in self.members.iter_mut().enumerate() {
@@ -147,6 +168,7 @@ impl DrawLists {
                 });
                 let rows = run.iter().map(|&(.., row)| self.rows[row as usize]);
                 self.instances.extend(rows);
+                self.instances.extend(self.separator);
             }
         }
     }

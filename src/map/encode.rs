@@ -3,6 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use super::cube::CubeShadowMap;
+use super::draws::Draw;
 use super::face::CubeFace;
 use super::resources::UNIFORM_STRIDE;
 
@@ -12,20 +13,37 @@ impl CubeShadowMap {
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         for (index, slot) in self.slots.iter().enumerate() {
             let pending = slot.pending.swap(0, Ordering::Relaxed);
+            if let Some(joint) = &self.joint {
+                self.encode_joint(encoder, index, pending, joint);
+                slot.encoded.fetch_or(pending, Ordering::Relaxed);
+                continue;
+            }
             for face in CubeFace::ALL {
                 if pending & face.bit() == 0 {
                     continue;
                 }
-                let Some(mut pass) = self.begin_pass(encoder, index, face) else {
-                    continue; // prepare made the texture of every slot with pending faces
-                };
-                let offset = (index as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
-                pass.set_bind_group(0, &self.face_group, &[offset]);
-                for draw in self.draws.of(index, face.layer() as usize) {
-                    draw.record(&mut pass, &self.pipelines, &self.instances);
-                }
+                let draws = self.draws.of(index, face.layer() as usize);
+                self.encode_face(encoder, index, face, draws);
                 slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
             }
+        }
+    }
+
+    /// Draws one face in a pass of its own.
+    pub(super) fn encode_face(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        slot: usize,
+        face: CubeFace,
+        draws: &[Draw],
+    ) {
+        let Some(mut pass) = self.begin_pass(encoder, slot, face) else {
+            return; // prepare made the texture of every slot with pending faces
+        };
+        let offset = (slot as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
+        pass.set_bind_group(0, &self.face_group, &[offset]);
+        for draw in draws {
+            draw.record(&mut pass, &self.pipelines, &self.instances);
         }
     }
 
@@ -52,24 +70,35 @@ impl CubeShadowMap {
         Some(pass)
     }
 
-    fn begin_pass<'encoder>(
+    pub(super) fn begin_pass<'encoder>(
         &self,
         encoder: &'encoder mut wgpu::CommandEncoder,
         slot: usize,
         face: CubeFace,
     ) -> Option<wgpu::RenderPass<'encoder>> {
         let texture = self.textures.slot(slot)?;
+        texture.cleared.fetch_or(face.bit(), Ordering::Relaxed);
         Some(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(&format!("{} {slot} {face:?}", self.label)),
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &texture.faces[face.layer() as usize],
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(self.encoding.clear_depth()),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
+            depth_stencil_attachment: Some(
+                self.depth_attachment(&texture.faces[face.layer() as usize]),
+            ),
             ..Default::default()
         }))
+    }
+
+    /// A view of the texture to be cleared and drawn on.
+    pub(super) fn depth_attachment<'view>(
+        &self,
+        view: &'view wgpu::TextureView,
+    ) -> wgpu::RenderPassDepthStencilAttachment<'view> {
+        wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(self.encoding.clear_depth()),
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: None,
+        }
     }
 }

@@ -111,6 +111,7 @@ impl ShadowMap {
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
             unclipped_depth: descriptor.unclipped_depth && clip_control,
+            constants: &[],
         };
         Ok(Self {
             size,
@@ -320,7 +321,7 @@ impl ShadowMap {
             let key = draw.key();
             self.pipelines
                 .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
         }
         let digests = members.iter().map(|member| member.3);
         Some(Content {

@@ -1,5 +1,7 @@
 //! The textures of a cube map, made when the first light casts.
 
+use std::sync::{OnceLock, atomic::AtomicU8};
+
 use super::face::CubeFace;
 
 /// One light's six layers.
@@ -9,6 +11,10 @@ pub(super) struct SlotTexture {
     pub first_layer: u32,
     pub cube: wgpu::TextureView,
     pub faces: [wgpu::TextureView; 6],
+    /// Faces that have been cleared or drawn since the texture was made. Atomic because `encode`
+    /// borrows the map shared.
+    pub cleared: AtomicU8,
+    layers: OnceLock<wgpu::TextureView>,
 }
 
 /// A texture for all lights, or one for each, or none yet.
@@ -120,9 +126,24 @@ impl SlotTexture {
         Self {
             cube: cube_view(&texture, label, first_layer),
             faces: CubeFace::ALL.map(|face| face_view(&texture, label, first_layer, face)),
+            cleared: AtomicU8::new(0),
+            layers: OnceLock::new(),
             texture,
             first_layer,
         }
+    }
+
+    /// All six faces as layers, for a pass that draws several.
+    pub fn layers(&self) -> &wgpu::TextureView {
+        self.layers.get_or_init(|| {
+            self.texture.create_view(&wgpu::TextureViewDescriptor {
+                label: Some("shadows cube map faces"),
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                base_array_layer: self.first_layer,
+                array_layer_count: Some(6),
+                ..Default::default()
+            })
+        })
     }
 }
 

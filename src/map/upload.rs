@@ -24,6 +24,7 @@ impl CubeShadowMap {
                 }
             }
         }
+        count += self.joint.as_ref().map_or(0, |joint| joint.room(count));
         let limit = device.limits().max_buffer_size;
         let size = count as u64 * INSTANCE_SIZE;
         if size > limit {
@@ -63,8 +64,9 @@ impl CubeShadowMap {
             let key = draw.key();
             self.pipelines
                 .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
         }
+        self.make_joint_pipelines(device, plans);
         if !self.draws.instances.is_empty() {
             let bytes = bytemuck::cast_slice(&self.draws.instances);
             queue.write_buffer(&self.instances, 0, bytes);

@@ -12,12 +12,15 @@
 //! 2008, called it multiplicity). Closedness therefore does not depend on rounding.
 
 mod buffers;
+mod counter;
 mod descriptor;
 mod draw;
+mod exact_count;
 mod far_end;
 mod groups;
 mod hull;
 mod kept;
+mod layers;
 mod layout;
 mod light_pass;
 mod limits;
@@ -34,7 +37,9 @@ mod silhouette;
 mod subject;
 mod world_box;
 
+pub use counter::Counter;
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+pub use exact_count::{ExactCount, ExactCountDescriptor};
 pub use light_pass::{LightJoin, LightJoinDescriptor};
 pub use mask::{ShadowMask, ShadowMaskDescriptor};
 pub use method::{Caps, Extrusion, Method};

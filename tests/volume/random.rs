@@ -82,7 +82,7 @@ impl Random {
     }
 }
 
-fn scene(seed: u64, gpu: &Gpu) -> Stage {
+pub fn scene(seed: u64, gpu: &Gpu) -> Stage {
     let random = &mut Random(seed);
     let bodies: Vec<Body> = (0..1 + random.below(4))
         .map(|_| Body::caster(random.shape(), random.transform()))
@@ -115,7 +115,7 @@ fn scene(seed: u64, gpu: &Gpu) -> Stage {
     if !light.is_directional() && random.below(3) == 0 {
         stage.range = Some(random.within(5.0, 12.0));
     }
-    if seed / 4 % 2 == 0 {
+    if (seed / 4).is_multiple_of(2) {
         stage.receivers = Some(Stage::bounds(&stage.bodies));
     }
     stage

@@ -63,6 +63,19 @@ impl CpuVolume {
         }
     }
 
+    /// The corners of the caps' triangles: those that face the light, then those that face away
+    /// from it where they count.
+    pub fn caps<'m>(&'m self, mesh: &'m MeshData) -> impl Iterator<Item = [u32; 3]> + 'm {
+        [|word: &Facings| word.front, |word: &Facings| word.back]
+            .into_iter()
+            .flat_map(move |side| {
+                let words = self.facings.iter().zip(mesh.triangles.chunks(LANES));
+                words.flat_map(move |(word, triangles)| {
+                    ones(side(word)).map(|place| triangles[place])
+                })
+            })
+    }
+
     fn find_facings(&mut self, mesh: &MeshData, instance: &InstanceParams) {
         let light = Vec4::from(instance.light);
         let rest = Vec3::from(instance.light_rest);
