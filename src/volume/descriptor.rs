@@ -159,6 +159,10 @@ pub struct ShadowVolumeFrame<'a> {
     /// buffer, those of casters included. Volumes that are counted in front of the visible surfaces
     /// then end just behind these bounds, and casters that shadow nothing within them are skipped;
     /// what lies outside may be shadowed or not. `None`, the default: anywhere.
+    ///
+    /// Worth giving: the whole of a frame's shadows then took 0.6 to 0.7 of the time on a scene of
+    /// 64 spheres around a point light, 0.4 under a directional light (software Vulkan, 1280x720;
+    /// `cargo bench --bench shadow_volume`). The closer the bounds, the better.
     pub receivers: Option<Bounds>,
     /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
     /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound
