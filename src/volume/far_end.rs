@@ -8,8 +8,9 @@
 //!
 //! **Behind the receivers**: in the plane of that side of their box which the caster's shadow
 //! reaches first. Where rays start before that plane, they reach every receiver before it, and cross
-//! the volume cut off there as they cross the endless one. Only z-pass volumes end there: z-fail
-//! would need a cap in that plane, told from the receivers by the depth format's last digits alone.
+//! the volume cut off there as they cross the endless one: up to the receiver, which is what z-pass
+//! counts, and with a cap in the plane on the whole, which is what z-fail needs. (The depth format
+//! may not tell the cap from a receiver; it is set back, and "behind" is right wherever it is seen.)
 //!
 //! All of it in f64, with room for what a vertex shader's f32 makes of it.
 

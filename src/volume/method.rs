@@ -212,7 +212,7 @@ impl Rules {
             Count::Pass if self.starts_beyond(&far) => DarkCap::Fan,
             Count::Pass => DarkCap::None,
             Count::Fail if full || !world.excludes(self.light) => DarkCap::Full,
-            Count::Fail if directional => DarkCap::None,
+            Count::Fail if directional && far.is_infinite() => DarkCap::None,
             Count::Fail => DarkCap::Fan,
         };
         Form {
@@ -234,9 +234,11 @@ impl Rules {
             return infinite;
         }
         let end = self.ends.at_range(world).unwrap_or(infinite);
+        let end = self.ends.behind_receivers(world, end);
+        // Dark caps that z-fail counts are pushed away from the viewer: none may be before a receiver.
         match count {
-            Count::Pass => self.ends.behind_receivers(world, end),
-            Count::Fail => end,
+            Count::Fail if self.starts_beyond(&end) => infinite,
+            _ => end,
         }
     }
 
