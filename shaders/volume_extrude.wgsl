@@ -6,7 +6,8 @@ struct Caster {
     world_from_object: mat4x4f,
     // World space, homogeneous.
     light: vec4f,
-    // xyz: far points lie where its product with the direction from the light is 1; 0: at infinity.
+    // The plane of far points; xyz 0: at infinity. Point light: its product xyz with what lies
+    // between the light and a point is 1. Directional light: xyz . p = w.
     far_plane: vec4f,
     // A point of that plane, or at infinity, homogeneous: where the fan's triangles meet.
     apex: vec4f,
@@ -47,6 +48,10 @@ fn far_point(position: vec3f) -> vec4f {
         return near_point(position);
     }
     let w = dot(caster.far_plane.xyz, direction);
+    if caster.light.w == 0.0 && w != 0.0 {
+        let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
+        return caster.clip_from_world * vec4f(to_plane * direction + w * world, w);
+    }
     return caster.clip_from_world * vec4f(direction + w * caster.light.xyz, w);
 }
 

@@ -30,6 +30,8 @@ mod passes;
 mod pictures;
 #[path = "volume/random.rs"]
 mod random;
+#[path = "volume/receivers.rs"]
+mod receivers;
 #[path = "volume/screen.rs"]
 mod screen;
 #[path = "volume/stage.rs"]

@@ -204,6 +204,7 @@ impl Shadow {
             Means::Volume { volumes, .. } => {
                 let frame = ShadowVolumeFrame {
                     range: inputs.light_range(),
+                    receivers: Some(inputs.receivers),
                     ..ShadowVolumeFrame::new(&inputs.view, inputs.light, casters)
                 };
                 volumes.prepare(&gpu.device, &gpu.queue, &frame)?;

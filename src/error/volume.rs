@@ -77,6 +77,14 @@ pub enum ShadowVolumeError {
     /// The target size has no pixels.
     #[error("a target of {0:?} pixels has none; pass its width and height, or None")]
     TargetSize([u32; 2]),
+    /// The bounds of the receivers are no box.
+    #[error("receivers from {min:?} to {max:?} are no box; pass finite corners, min <= max")]
+    Receivers {
+        /// The smallest corner passed.
+        min: [f32; 3],
+        /// The largest corner passed.
+        max: [f32; 3],
+    },
     /// The positions lie in a buffer of the host, where the CPU cannot read them.
     #[error(
         "caster {index}: its positions are in the host's buffer, and only Silhouettes::Compute reads them there; make the mesh with CasterMesh::new or a renderer that may use compute"

@@ -3,6 +3,7 @@
 use super::method::{Caps, Extrusion, Method};
 use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
+use crate::mesh::Bounds;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
@@ -166,6 +167,15 @@ pub struct ShadowVolumeFrame<'a> {
     /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
     /// of it: the draws are then clipped to what `range` covers on screen. `None`: they are not.
     pub target_size: Option<[u32; 2]>,
+    /// Bounds in world space of everything that is to be shadowed: all surfaces in the pass's depth
+    /// buffer, those of casters included. Volumes then end just behind these bounds, and casters that
+    /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
+    /// default: anywhere.
+    ///
+    /// Worth giving: the whole of a frame's shadows then took 0.6 to 0.7 of the time on a scene of
+    /// 64 spheres around a point light, 0.4 under a directional light (software Vulkan, 1280x720;
+    /// `cargo bench --bench shadow_volume`). The closer the bounds, the better.
+    pub receivers: Option<Bounds>,
     /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
     /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound
     /// outward; z-pass relies on their being drawn.)
@@ -173,13 +183,14 @@ pub struct ShadowVolumeFrame<'a> {
 }
 
 impl<'a> ShadowVolumeFrame<'a> {
-    /// A frame with a light of no range, and no target size.
+    /// A frame with a light of no range, no target size and receivers anywhere.
     pub fn new(view: &'a View, light: HomogeneousLight, casters: &'a [Caster]) -> Self {
         Self {
             view,
             light,
             range: None,
             target_size: None,
+            receivers: None,
             casters,
         }
     }
@@ -204,7 +215,7 @@ pub struct VolumeStatistics {
     pub skipped_empty: u32,
     /// Casters left out because they are beyond the light's range.
     pub skipped_out_of_range: u32,
-    /// Casters left out because nothing they could shadow is in view.
+    /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,
     /// Draw calls that `render` records.
     pub draws: u32,

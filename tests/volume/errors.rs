@@ -3,7 +3,7 @@
 use shadows::error::{CasterError, LightError, ShadowVolumeError as Error};
 use shadows::glam::camera::rh::proj::directx as proj;
 use shadows::glam::{Affine3A, Vec3, Vec4};
-use shadows::mesh::Adjacency;
+use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
@@ -246,6 +246,19 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
                 ..good
             },
             LightError::Range(inf).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                receivers: Some(Bounds {
+                    min: Vec3::ONE,
+                    max: Vec3::ZERO,
+                }),
+                ..good
+            },
+            Error::Receivers {
+                min: [1.0; 3],
+                max: [0.0; 3],
+            },
         ),
         (
             ShadowVolumeFrame {

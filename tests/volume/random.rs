@@ -92,6 +92,9 @@ pub fn scene(seed: u64, gpu: &Gpu) -> Stage {
     if !light.is_directional() && random.below(3) == 0 {
         stage.range = Some(random.within(5.0, 12.0));
     }
+    if (seed / 4).is_multiple_of(2) {
+        stage.receivers = Some(Stage::bounds(&stage.bodies));
+    }
     stage
 }
 
@@ -155,8 +158,8 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
         let found = truth.errors(&picture);
         assert_eq!(
             found.wrong, 0,
-            "seed {seed}, {savings:?}: {found:?}; {:?}, {:?}, {}x, range {:?}",
-            stage.depth, stage.format, stage.samples, stage.range
+            "seed {seed}, {savings:?}: {found:?}; {:?}, {:?}, {}x, range {:?}, receivers {:?}",
+            stage.depth, stage.format, stage.samples, stage.range, stage.receivers
         );
         total.interior += found.interior;
         total.lit += found.lit;

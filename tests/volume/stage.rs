@@ -74,6 +74,8 @@ pub struct Stage {
     /// Pixels along an edge of the picture.
     pub side: u32,
     pub range: Option<f32>,
+    /// Bounds of what receives, where the renderer is told.
+    pub receivers: Option<Bounds>,
     pub savings: Savings,
     /// The camera, where it is not the one that the fields above describe.
     pub placed_view: Option<View>,
@@ -113,9 +115,19 @@ impl Stage {
             lens: Lens::Perspective,
             side: SIDE,
             range: None,
+            receivers: None,
             savings: Savings::default(),
             placed_view: None,
         }
+    }
+
+    /// The box around all bodies, world space.
+    pub fn bounds(bodies: &[Body]) -> Bounds {
+        let points = bodies.iter().flat_map(|body| {
+            let positions = body.shape.positions.iter();
+            positions.map(|&p| body.transform.transform_point3(p.into()))
+        });
+        Bounds::of_points(points).unwrap()
     }
 
     pub fn view(&self) -> View {
@@ -260,6 +272,7 @@ impl Stage {
         let frame = ShadowVolumeFrame {
             range: self.range,
             target_size: Some([self.side; 2]),
+            receivers: self.receivers,
             ..ShadowVolumeFrame::new(&view, self.light, casters)
         };
         renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
