@@ -123,6 +123,8 @@ pub fn run(gpu: &Gpu, rounds: u32) {
 /// How many texels of depth are copied in the time in which a small triangle is drawn.
 fn texels_a_triangle(gpu: &Gpu, rounds: u32) {
     const SIDE: u32 = 1024;
+    const FEW: u32 = 512;
+    const MANY: u32 = 32_768;
     let depth = |usage| {
         gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
@@ -141,11 +143,11 @@ fn texels_a_triangle(gpu: &Gpu, rounds: u32) {
     };
     let from = depth(wgpu::TextureUsages::COPY_SRC);
     let to = depth(wgpu::TextureUsages::COPY_DST);
-    let mut scenes = [512, 8192].map(|triangles| {
+    let mut scenes = [FEW, MANY].map(|triangles| {
         Surroundings::new(gpu, 256, StillPart::small(triangles), StillLayers::Never)
     });
     let (mut few, mut many, mut copy) = (Vec::new(), Vec::new(), Vec::new());
-    for _ in 0..=rounds {
+    for _ in 0..rounds.max(15) {
         let [light, heavy] = scenes.each_mut().map(|scene| scene.frame(gpu)[1]);
         few.push(light);
         many.push(heavy);
@@ -153,7 +155,7 @@ fn texels_a_triangle(gpu: &Gpu, rounds: u32) {
             encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
         }));
     }
-    let triangle = (median(&mut many) - median(&mut few)) / (6.0 * (8192.0 - 512.0));
+    let triangle = (median(&mut many) - median(&mut few)) / f64::from(6 * (MANY - FEW));
     let texel = median(&mut copy) / f64::from(6 * SIDE * SIDE);
     println!(
         "a triangle {:.1} ns, a texel copied {:.3} ns",

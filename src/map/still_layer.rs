@@ -21,10 +21,10 @@ pub enum StillLayers {
     ///
     /// On software drivers one triangle is enough for 1024 texels: 64 on a face of 256 texels a
     /// side, 1,024 on one of 1024. Mesa's llvmpipe draws a small triangle in the time in which it
-    /// copies 136 to 177 texels (`texels_a_triangle` of the bench `cube_map`, three runs), and takes
+    /// copies 120 to 180 texels (`texels_a_triangle` of the bench `cube_map`, five runs), and takes
     /// no longer to copy a layer than to clear a face, so a layer loses nothing but its making: one
     /// copy, which the rule has repaid within eight frames. With a caster moving on each face, a
-    /// frame takes 0.4 to 1.0 of the time with 8 still triangles a face, and 0.1 to 0.2 with 4,608
+    /// frame takes 0.4 to 1.0 of the time with 8 still triangles a face, and 0.08 to 0.2 with 4,608
     /// that cover a third of it (`static_layer_vs_redraw`).
     ///
     /// On GPUs one triangle is enough for 16 texels, which is an estimate: it supposes that
