@@ -72,7 +72,13 @@ fn a_convex_caster_has_no_shadow_on_itself_and_the_same_on_others() {
             let facing = stage.draw(&gpu);
             let from_away = away(stage).draw(&gpu);
             let what = format!("{place}: {:?}, {method:?}, {silhouettes:?}", stage.light);
-            assert_eq!(compare(&seen, &from_away, &facing), (0, 0), "{what}");
+            let (own, elsewhere) = compare(&seen, &from_away, &facing);
+            assert_eq!(own, 0, "{what}");
+            // One pixel of 65,536 was found to differ, on the edge of a shadow: sides are set off by
+            // two units of depth to the one side or the other. Inside, none may.
+            assert!(elsewhere <= 1, "{what}: {elsewhere}");
+            let found = stage.truth().errors(&from_away);
+            assert_eq!(found.wrong, 0, "{what}: {found:?}");
             // From the light's side the far half is in shadow.
             let (own, elsewhere) = compare(&seen, &facing, &facing);
             assert!(own > 300 && elsewhere == 0, "{what}: {own}");
