@@ -10,11 +10,11 @@ use common::rays::Triangles;
 use common::shapes::{Random, cuboid};
 use glam::{Affine3A, DVec2, DVec3, Vec3};
 use host::gpu::Gpu;
-use receivers::{pixel, visibility};
+use receivers::{ask_sampler, pixel, visibility};
 use shadows::{
     AnyMap, Caster, ContactHardening, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FlatLight,
-    Kernel, PointLight, Radius, RandomDisk, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
-    VogelDisk, glam,
+    Kernel, PcfDescriptor, PcfSampler, PointLight, Radius, RandomDisk, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, SpotLight, VogelDisk, glam,
 };
 
 const SIZE: u32 = 512;
@@ -245,15 +245,14 @@ fn turn(i: usize) -> DVec2 {
 }
 
 /// Vogel's spiral turned, each tap an exact ray.
-fn vogel(yard: &Yard, i: usize, point: DVec2, taps: u32, radius: f64) -> f64 {
+fn vogel(yard: &Yard, i: usize, point: DVec2, taps: u32, axes: DVec2) -> f64 {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let turn = turn(i);
     let lit = (0..taps).map(|tap| {
         let tap = f64::from(tap);
         let offset = DVec2::from_angle(tap * golden) * ((tap + 0.5) / f64::from(taps)).sqrt();
-        let offset = turn.rotate(offset) * radius;
-        // The disk's axes on the ground: first -z, then -x.
-        yard.lit(point - DVec2::new(offset.y, offset.x))
+        let offset = turn.rotate(offset);
+        yard.lit(point + DVec2::new(offset.y, offset.x) * axes)
     });
     lit.sum::<f64>() / f64::from(taps)
 }
@@ -261,16 +260,30 @@ fn vogel(yard: &Yard, i: usize, point: DVec2, taps: u32, radius: f64) -> f64 {
 #[test]
 fn a_vogel_disk_says_what_it_says_with_exact_taps() {
     let Some(yard) = Yard::new() else { return };
-    let cube = yard.cube();
+    let (cube, flat) = (yard.cube(), yard.flat());
     for (taps, radius) in [(4, 3.0), (16, 8.0), (64, 24.0)] {
         let radius_on_ground = radius * TEXEL;
-        let exact = yard.exact(|yard, i, point| vogel(yard, i, point, taps, radius_on_ground));
-        let unturned = yard.exact(|yard, _, point| vogel(yard, 0, point, taps, radius_on_ground));
-        for radius in [
-            Radius::Texels(radius as f32),
-            Radius::World(radius_on_ground as f32),
+        // The disk's axes on the ground: first -z, then -x; in the spot's frame first +z, then -x.
+        let world = DVec2::new(-1.0, -1.0);
+        let framed = DVec2::new(-1.0, 1.0);
+        for (map, axes, radius) in [
+            (AnyMap::from(&cube), world, Radius::Texels(radius as f32)),
+            (
+                AnyMap::from(&cube),
+                world,
+                Radius::World(radius_on_ground as f32),
+            ),
+            (AnyMap::from(&flat), framed, Radius::Texels(radius as f32)),
+            (
+                AnyMap::from(&flat),
+                framed,
+                Radius::World(radius_on_ground as f32),
+            ),
         ] {
-            let seen = yard.seen(&cube, Kernel::Vogel(VogelDisk { radius, taps }));
+            let disk = |i, point| vogel(&yard, i, point, taps, radius_on_ground * axes);
+            let exact = yard.exact(|_, i, point| disk(i, point));
+            let unturned = yard.exact(|_, _, point| disk(0, point));
+            let seen = yard.seen(map, Kernel::Vogel(VogelDisk { radius, taps }));
             let (rms, largest) = error(&seen, &exact);
             let (noise, _) = error(&exact, &unturned);
             println!(
@@ -293,6 +306,41 @@ fn mean(lit: impl Fn(DVec2) -> f64) -> f64 {
         lit(DVec2::from_angle(i * golden) * ((i + 0.5) / 1024.0).sqrt())
     };
     (0..1024).map(sample).sum::<f64>() / 1024.0
+}
+
+#[test]
+fn frames_average_the_noise_away() {
+    let Some(mut yard) = Yard::new() else { return };
+    yard.points.truncate(1000);
+    let cube = yard.cube();
+    let exact = yard.exact(|yard, _, point| mean(|at| yard.lit(point + at * 8.0 * TEXEL)));
+    let points: Vec<_> = yard.points.iter().map(|point| (*point, Vec3::Y)).collect();
+    let descriptor = PcfDescriptor {
+        kernel: Kernel::Vogel(VogelDisk {
+            radius: Radius::Texels(8.0),
+            taps: 4,
+        }),
+        ..Default::default()
+    };
+    let sampler = PcfSampler::new(&yard.gpu.device, &yard.gpu.queue, &descriptor).unwrap();
+    let average = |frames: [u32; 16]| {
+        let mut sum = vec![0.0; points.len()];
+        for frame in frames {
+            sampler.set_frame(&yard.gpu.queue, frame);
+            let map = AnyMap::from(&cube);
+            let seen = ask_sampler(&yard.gpu, map, &descriptor, &sampler, 0, &points, |m| m);
+            for (sum, seen) in sum.iter_mut().zip(seen) {
+                *sum += f64::from(seen) / 16.0;
+            }
+        }
+        error(&sum, &exact).0
+    };
+    let moving = average(std::array::from_fn(|frame| frame as u32));
+    // The broken twin: the same frame every time; and after 64 frames it is the same.
+    let still = average([0; 16]);
+    println!("noise of 16 frames {moving:.4}, of one {still:.4}");
+    assert!(moving < 0.5 * still, "{moving} {still}");
+    assert_eq!(still, average([64; 16]));
 }
 
 #[test]

@@ -112,10 +112,7 @@ impl Textures {
     }
 
     pub fn bytes(&self) -> u64 {
-        let texel = match self.format {
-            wgpu::TextureFormat::Depth16Unorm => 2,
-            _ => 4,
-        };
+        let texel = texel_bytes(self.format);
         let cubes = self.slots.iter().flatten().count() as u64;
         (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel
     }
@@ -147,7 +144,15 @@ impl SlotTexture {
     }
 }
 
-fn create(
+/// Bytes of a texel.
+pub(super) fn texel_bytes(format: wgpu::TextureFormat) -> u64 {
+    match format {
+        wgpu::TextureFormat::Depth16Unorm => 2,
+        _ => 4,
+    }
+}
+
+pub(super) fn create(
     device: &wgpu::Device,
     label: &str,
     size: u32,

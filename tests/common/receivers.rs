@@ -67,8 +67,21 @@ pub fn ask_changed(
     points: &[(Vec3, Vec3)],
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
+    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, descriptor).unwrap();
+    ask_sampler(gpu, map, descriptor, &sampler, light, points, change)
+}
+
+/// The same by a sampler that was made of the descriptor.
+pub fn ask_sampler(
+    gpu: &Gpu,
+    map: AnyMap<'_>,
+    descriptor: &PcfDescriptor<'_>,
+    sampler: &PcfSampler,
+    light: usize,
+    points: &[(Vec3, Vec3)],
+    change: impl FnOnce(String) -> String,
+) -> Vec<f32> {
     let device = &gpu.device;
-    let sampler = PcfSampler::new(device, &gpu.queue, descriptor).unwrap();
     let call = match descriptor.many_lights {
         false => "shadows_visibility_flat(".to_owned(),
         true => format!("shadows_visibility_flat({light}u, "),
