@@ -33,6 +33,7 @@ mod rule;
 mod scissor;
 mod screen;
 mod silhouette;
+mod skin;
 mod subject;
 mod world_box;
 

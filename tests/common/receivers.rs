@@ -68,15 +68,18 @@ pub fn ask_changed(
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
     let sampler = PcfSampler::new(&gpu.device, &gpu.queue, descriptor).unwrap();
-    ask_sampler(gpu, map, descriptor, &sampler, light, points, change)
+    let group = match map {
+        AnyMap::Cube(map) => sampler.bind_group_of(&gpu.device, map, light).unwrap(),
+        _ => sampler.bind_group(&gpu.device, map).unwrap(),
+    };
+    ask_group(gpu, (&sampler, &group), descriptor, light, points, change)
 }
 
-/// The same by a sampler that was made of the descriptor.
-pub fn ask_sampler(
+/// The same through a bind group that is there already.
+pub fn ask_group(
     gpu: &Gpu,
-    map: AnyMap<'_>,
+    (sampler, map_group): (&PcfSampler, &wgpu::BindGroup),
     descriptor: &PcfDescriptor<'_>,
-    sampler: &PcfSampler,
     light: usize,
     points: &[(Vec3, Vec3)],
     change: impl FnOnce(String) -> String,
@@ -159,15 +162,11 @@ pub fn ask_sampler(
             },
         ],
     });
-    let map_group = match map {
-        AnyMap::Cube(map) => sampler.bind_group_of(device, map, light).unwrap(),
-        _ => sampler.bind_group(device, map).unwrap(),
-    };
     gpu.run(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
-        pass.set_bind_group(1, &map_group, &[]);
+        pass.set_bind_group(1, map_group, &[]);
         pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
     });
     bytemuck::pod_collect_to_vec(&gpu.read_buffer(&output))
