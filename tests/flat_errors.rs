@@ -47,6 +47,21 @@ fn sizes_and_biases_out_of_range_are_refused() {
 }
 
 #[test]
+fn formats_that_are_no_depth_are_refused() {
+    for format in [
+        wgpu::TextureFormat::Rgba8Unorm,
+        wgpu::TextureFormat::Depth24PlusStencil8,
+    ] {
+        let descriptor = ShadowMapDescriptor {
+            format,
+            ..Default::default()
+        };
+        let expected = ShadowMapError::Format(format);
+        assert_eq!(new(&descriptor).unwrap_err(), expected);
+    }
+}
+
+#[test]
 fn a_reach_out_of_range_is_refused() {
     for reach in [
         Radius::Texels(0.0),

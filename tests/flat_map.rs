@@ -14,7 +14,7 @@ use receivers::{ask_changed, visibility};
 use shadows::{
     AnyMap, Bias, Caster, CasterSides, DepthConvention, DirectionalLight, FlatLight, Kernel,
     MapKind, PcfDescriptor, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, View,
-    VogelDisk, glam,
+    VogelDisk, glam, wgpu,
 };
 
 fn spot(position: Vec3, direction: Vec3, half_angle: f32, scale: f32) -> FlatLight {
@@ -350,6 +350,55 @@ fn the_map_covers_no_more_than_casts_receives_and_is_seen() {
     assert!((8.0..13.0).contains(&all), "{all}");
     assert!(near < 0.6 * all, "{near} of {all}");
     assert!((1.0..1.25).contains(&few), "{few}");
+}
+
+#[test]
+fn coarser_formats_show_no_acne_either() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let casters = [square(6.0).caster(&gpu.device, Affine3A::IDENTITY)];
+    let mut random = Random::new(5);
+    let points: Vec<_> = (0..2000)
+        .map(|_| (Vec3::new(random.next(), 0.0, random.next()) * 3.0, Vec3::Y))
+        .collect();
+    let toward = Vec3::new(0.6, 0.8, 0.0);
+    let mut broken = 0;
+    for format in [
+        wgpu::TextureFormat::Depth32Float,
+        wgpu::TextureFormat::Depth24Plus,
+        wgpu::TextureFormat::Depth16Unorm,
+    ] {
+        for light in [sun(toward), spot(toward * 8.0, -toward, 0.6, 1.0)] {
+            let descriptor = ShadowMapDescriptor {
+                format,
+                ..of_size(2048, Bias::default())
+            };
+            let map = drawn(&gpu, &descriptor, &ShadowFrame::new(light, &casters));
+            assert_eq!(map.texture().format(), format);
+            // A single texel, gathered ones, and taps of a disk.
+            for kernel in [
+                Kernel::Hard,
+                Kernel::Weighted7,
+                Kernel::Vogel(VogelDisk::default()),
+            ] {
+                let acne = |lit: Vec<f32>| lit.iter().filter(|&&lit| lit < 1.0).count();
+                let seen = visibility(&gpu, &map, kernel, &points);
+                assert_eq!(acne(seen), 0, "{format:?} {light:?} {kernel:?}");
+                // The broken twin: no step of the format.
+                let descriptor = PcfDescriptor {
+                    kernel,
+                    map: MapKind::Flat,
+                    ..Default::default()
+                };
+                let map = AnyMap::Flat(&map);
+                broken += acne(ask_changed(&gpu, map, &descriptor, 0, &points, |module| {
+                    module
+                        .replace("+= light.quantum", "+= 0.0")
+                        .replace("light.depth_bias + light.quantum", "light.depth_bias")
+                }));
+            }
+        }
+    }
+    assert!(broken > 1000, "{broken}");
 }
 
 #[test]

@@ -11,8 +11,12 @@ mod receivers;
 mod yard;
 
 use exact_kernels::{SQUARES, TEXEL, mean, square, vogel};
-use glam::DVec3;
-use shadows::{AnyMap, ContactHardening, Kernel, Radius, RandomDisk, VogelDisk, glam};
+use glam::{DVec2, DVec3, Vec3};
+use receivers::ask_group;
+use shadows::{
+    AnyMap, ContactHardening, Kernel, PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
+    glam,
+};
 use yard::{LIGHT, Yard, error};
 
 #[test]
@@ -41,16 +45,30 @@ fn squares_of_texels_say_what_they_say_with_exact_texels() {
 #[test]
 fn a_vogel_disk_says_what_it_says_with_exact_taps() {
     let Some(yard) = Yard::new() else { return };
-    let cube = yard.cube();
+    let (cube, flat) = (yard.cube(), yard.flat());
     for (taps, radius) in [(4, 3.0), (16, 8.0), (64, 24.0)] {
         let radius_on_ground = radius * TEXEL;
-        let exact = yard.exact(|yard, i, point| vogel(yard, i, point, taps, radius_on_ground));
-        let unturned = yard.exact(|yard, _, point| vogel(yard, 0, point, taps, radius_on_ground));
-        for radius in [
-            Radius::Texels(radius as f32),
-            Radius::World(radius_on_ground as f32),
+        // The disk's axes on the ground: first -z, then -x; in the spot's frame first +z, then -x.
+        let world = DVec2::new(-1.0, -1.0);
+        let framed = DVec2::new(-1.0, 1.0);
+        for (map, axes, radius) in [
+            (AnyMap::from(&cube), world, Radius::Texels(radius as f32)),
+            (
+                AnyMap::from(&cube),
+                world,
+                Radius::World(radius_on_ground as f32),
+            ),
+            (AnyMap::from(&flat), framed, Radius::Texels(radius as f32)),
+            (
+                AnyMap::from(&flat),
+                framed,
+                Radius::World(radius_on_ground as f32),
+            ),
         ] {
-            let seen = yard.seen(&cube, Kernel::Vogel(VogelDisk { radius, taps }));
+            let disk = |i, point| vogel(&yard, i, point, taps, radius_on_ground * axes);
+            let exact = yard.exact(|_, i, point| disk(i, point));
+            let unturned = yard.exact(|_, _, point| disk(0, point));
+            let seen = yard.seen(map, Kernel::Vogel(VogelDisk { radius, taps }));
             let (rms, largest) = error(&seen, &exact);
             let (noise, _) = error(&exact, &unturned);
             println!(
@@ -63,6 +81,48 @@ fn a_vogel_disk_says_what_it_says_with_exact_taps() {
             assert!(error(&seen, &unturned).0 > 1.2 * rms);
         }
     }
+}
+
+#[test]
+fn frames_average_the_noise_away() {
+    let Some(mut yard) = Yard::new() else { return };
+    yard.points.truncate(1000);
+    let cube = yard.cube();
+    let exact = yard.exact(|yard, _, point| mean(|at| yard.lit(point + at * 8.0 * TEXEL)));
+    let points: Vec<_> = yard.points.iter().map(|point| (*point, Vec3::Y)).collect();
+    let descriptor = PcfDescriptor {
+        kernel: Kernel::Vogel(VogelDisk {
+            radius: Radius::Texels(8.0),
+            taps: 4,
+        }),
+        ..Default::default()
+    };
+    let sampler = PcfSampler::new(&yard.gpu.device, &yard.gpu.queue, &descriptor).unwrap();
+    let group = sampler.bind_group(&yard.gpu.device, &cube).unwrap();
+    let average = |frames: [u32; 16]| {
+        let mut sum = vec![0.0; points.len()];
+        for frame in frames {
+            sampler.set_frame(&yard.gpu.queue, frame);
+            let seen = ask_group(
+                &yard.gpu,
+                (&sampler, &group),
+                &descriptor,
+                0,
+                &points,
+                |m| m,
+            );
+            for (sum, seen) in sum.iter_mut().zip(seen) {
+                *sum += f64::from(seen) / 16.0;
+            }
+        }
+        error(&sum, &exact).0
+    };
+    let moving = average(std::array::from_fn(|frame| frame as u32));
+    // The broken twin: the same frame every time; and after 64 frames it is the same.
+    let still = average([0; 16]);
+    println!("noise of 16 frames {moving:.4}, of one {still:.4}");
+    assert!(moving < 0.5 * still, "{moving} {still}");
+    assert_eq!(still, average([64; 16]));
 }
 
 #[test]

@@ -124,6 +124,9 @@ pub enum ShadowMapError {
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// The format is none that a map can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
     /// The reach of the kernels is out of range.
     #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
     Reach(crate::Radius),

@@ -138,6 +138,7 @@ impl Textures {
     }
 }
 
+/// Bytes of a texel.
 pub(super) fn texel_bytes(format: wgpu::TextureFormat) -> u64 {
     match format {
         wgpu::TextureFormat::Depth16Unorm => 2,
@@ -171,7 +172,7 @@ impl SlotTexture {
     }
 }
 
-fn create(
+pub(super) fn create(
     device: &wgpu::Device,
     label: &str,
     size: u32,

@@ -59,8 +59,9 @@ pub struct RandomDisk {
     /// 8. 1 to 256.
     pub size: u32,
     /// Whether only the first eight taps (the outermost) are taken where they agree. Default true.
-    /// It misses what lies inside the disk only, such as the shadow of a wire; `benches/pcf.rs`
-    /// and `tests/pcf_kernels.rs` say how often.
+    /// It misses what lies inside the disk only, such as the shadow of a wire: of 8 x 8 taps on the
+    /// scene of `benches/pcf.rs` it changes 0.5 % of the pixels, by 0.011 root mean square over all
+    /// and 0.62 at most, for less than half the time.
     pub early_out: bool,
 }
 

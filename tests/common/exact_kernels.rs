@@ -88,16 +88,16 @@ fn turn(i: usize) -> DVec2 {
     DVec2::from_angle(noise * std::f64::consts::TAU)
 }
 
-/// Vogel's spiral turned, each tap an exact ray.
-pub fn vogel(yard: &Yard, i: usize, point: DVec2, taps: u32, radius: f64) -> f64 {
+/// Vogel's spiral turned, each tap an exact ray. `axes` turns the disk's first axis into z and its
+/// second into x: the radius, with their signs.
+pub fn vogel(yard: &Yard, i: usize, point: DVec2, taps: u32, axes: DVec2) -> f64 {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let turn = turn(i);
     let lit = (0..taps).map(|tap| {
         let tap = f64::from(tap);
         let offset = DVec2::from_angle(tap * golden) * ((tap + 0.5) / f64::from(taps)).sqrt();
-        let offset = turn.rotate(offset) * radius;
-        // The disk's axes on the ground: first -z, then -x.
-        yard.lit(point - DVec2::new(offset.y, offset.x))
+        let offset = turn.rotate(offset);
+        yard.lit(point + DVec2::new(offset.y, offset.x) * axes)
     });
     lit.sum::<f64>() / f64::from(taps)
 }
