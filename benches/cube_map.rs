@@ -4,6 +4,9 @@
 //!   wait for the device, against the textbook preset (six unculled passes, distance written by the
 //!   fragment shader).
 //! - `one_moving_vs_all_moving`, `still_vs_all_moving`: the same scene, one sphere or none moving.
+//! - `multiview_vs_six_passes`: the same scene, all moving, all six faces in one multiview pass
+//!   against a pass for each, where the device has multiview; `_of_64`: with faces of 64 texels, so
+//!   that passes and draws weigh more than pixels.
 //! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
 //!   against all moving.
 //! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
@@ -13,11 +16,23 @@
 //!   uniform grid up to date and asking it for what each light reaches, against testing every
 //!   caster's sphere for each light, as the map does.
 //!
+//! - `static_layer_vs_redraw`: a heavy part that stands still, 4,608 triangles a face of 1024
+//!   texels, with one box moving before each face: its layers copied against drawing all again.
+//! - `static_layer_vs_redraw_SIZE_TRIANGLES`: the same by size of face and triangles that stand
+//!   still on it, all in one small mesh.
+//! - `texels_a_triangle`: how many texels are copied in the time in which a small triangle is drawn,
+//!   which is what `StillLayers::Auto` decides by.
+//!
 //! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
 //! machine that slows down slows both. `--quick` takes fewer rounds.
 
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[allow(dead_code)] // what other tests need
+#[path = "../tests/common/shapes.rs"]
+mod shapes;
+#[path = "cube_map/still_layers.rs"]
+mod still_layers;
 
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
@@ -26,10 +41,10 @@ use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
 use shadows::glam::{Affine3A, DVec3, DVec4, Vec3, Vec3A, Vec4Swizzles as _};
-use shadows::mesh::Adjacency;
 use shadows::{
-    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu,
+    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight, wgpu,
 };
+use shapes::cuboid;
 
 fn main() {
     let quick = std::env::args().any(|arg| arg == "--quick");
@@ -39,6 +54,21 @@ fn main() {
     };
     println!("adapter {}", host::gpu::describe(&gpu.info));
     spheres(&gpu, if quick { 5 } else { 25 });
+    if gpu.support.multiview {
+        multiview(
+            &gpu,
+            "multiview_vs_six_passes",
+            1024,
+            if quick { 5 } else { 25 },
+        );
+        multiview(
+            &gpu,
+            "multiview_vs_six_passes_of_64",
+            64,
+            if quick { 5 } else { 25 },
+        );
+    }
+    still_layers::run(&gpu, if quick { 5 } else { 25 });
     prepare(&gpu, if quick { 5 } else { 25 });
     for count in [100, 10_000, 100_000] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
@@ -113,6 +143,34 @@ fn spheres(gpu: &Gpu, rounds: u32) {
     ratio("still_vs_all_moving", &mut still, &mut all);
 }
 
+fn multiview(gpu: &Gpu, name: &str, size: u32, rounds: u32) {
+    let scene = spheres_moving(0.0);
+    let light = PointLight::new(scene.light.truncate(), scene.shadow_near, scene.range);
+    let casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
+    let [mut joint, mut separate] = [FacePasses::Multiview, FacePasses::Separate].map(|passes| {
+        let descriptor = CubeShadowMapDescriptor {
+            size,
+            passes,
+            cache: false,
+            ..Default::default()
+        };
+        new_map(gpu, &descriptor)
+    });
+    let (mut one, mut six) = (Vec::new(), Vec::new());
+    // The first round makes pipelines and textures.
+    for round in 0..=rounds {
+        let times = [
+            frame(gpu, &mut joint, light, &casters),
+            frame(gpu, &mut separate, light, &casters),
+        ];
+        if round > 0 {
+            one.push(times[0]);
+            six.push(times[1]);
+        }
+    }
+    ratio(name, &mut one, &mut six);
+}
+
 /// Boxes in a flat world of one a square metre, lights all over it.
 struct World {
     casters: Vec<Caster>,
@@ -122,16 +180,7 @@ struct World {
 
 impl World {
     fn new(gpu: &Gpu, count: usize, range: f32) -> Self {
-        let positions: Vec<[f32; 3]> = (0..8)
-            .map(|i: u32| [1, 2, 4].map(|bit| if i & bit == 0 { -0.2 } else { 0.2 }))
-            .collect();
-        #[rustfmt::skip]
-        let indices = [
-            0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-            2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
-        ];
-        let adjacency = Adjacency::new(&positions, &indices).expect("a box is a mesh");
-        let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a box fits");
+        let mesh = cuboid(Vec3::splat(0.2)).mesh(&gpu.device);
         let side = (count as f32).sqrt().ceil();
         let place = |i: usize| {
             let (x, z) = (i as f32 % side, (i as f32 / side).floor());

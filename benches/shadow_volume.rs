@@ -3,9 +3,16 @@
 //!
 //! On the scene `spheres`, 1280 x 720, per frame: prepare, extraction and stencil pass, in
 //! interleaved rounds so that a machine that slows down slows both.
-//! - `ratio auto_vs_textbook`: the default renderer over `ShadowVolumeDescriptor::textbook()`.
+//! - `ratio auto_vs_textbook`: the default renderer over `ShadowVolumeDescriptor::textbook()`. Both
+//!   are told the light's range, the target's size and the scene's bounds (and the textbook has no use
+//!   for any of them).
+//! - `ratio unbounded_vs_textbook`: the default renderer without the scene's bounds.
 //! - `ratio zfail_vs_textbook`: the same with z-fail forced, so without what z-pass saves.
-//! - `ratio infinite_vs_textbook`: the default with volumes that do not end at the light's range.
+//! - `ratio infinite_vs_textbook`: the default with volumes that end at infinity.
+//! - `ratio nothing_vs_textbook`: the pass without any caster, a floor that all of them stand on.
+//!
+//! Then the camera moves while light and casters stand still: `extracted` counts the silhouettes
+//! searched, which must be none.
 //!
 //! Then `prepare` with ten thousand casters, all of them beside the view:
 //! - `ratio skipped_vs_drawn`: a skipped caster over one that is drawn, both on the CPU.
@@ -22,6 +29,7 @@ use host::renderer::{self, Renderer};
 use host::scene_gpu::SceneGpu;
 use host::timer::Timer;
 use shadows::glam::{Affine3A, Vec3};
+use shadows::mesh::Bounds;
 use shadows::{
     Caster, Extrusion, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
     ShadowVolumeRenderer, View,
@@ -44,6 +52,9 @@ struct Studio {
     view: View,
     light: HomogeneousLight,
     range: Option<f32>,
+    receivers: Bounds,
+    /// A walk of the camera.
+    walk: Vec<View>,
 }
 
 impl Studio {
@@ -52,11 +63,18 @@ impl Studio {
         let scene = host::scene::spheres();
         let scene_gpu = SceneGpu::new(&gpu, &scene)?;
         let light = HomogeneousLight(scene.light);
+        let all = scene.bounds();
+        let receivers = Bounds {
+            min: all.min.as_vec3(),
+            max: all.max.as_vec3(),
+        };
         Ok(Self {
             timer: Timer::new(&gpu),
             host: Renderer::new(&gpu, SIZE, &scene, &scene_gpu)?,
             view: renderer::view(&scene, SIZE)?,
             range: (!light.is_directional()).then_some(scene.range),
+            receivers,
+            walk: walk(&scene)?,
             scene: scene_gpu,
             light,
             gpu,
@@ -72,24 +90,28 @@ impl Studio {
         Ok(ShadowVolumeRenderer::new(&self.gpu.device, &descriptor)?)
     }
 
-    fn prepare(&self, volumes: &mut ShadowVolumeRenderer, casters: &[Caster]) -> f64 {
-        let start = Instant::now();
-        let frame = ShadowVolumeFrame {
+    fn told<'a>(&self, view: &'a View, casters: &'a [Caster]) -> ShadowVolumeFrame<'a> {
+        ShadowVolumeFrame {
             range: self.range,
             target_size: Some(SIZE),
-            ..ShadowVolumeFrame::new(&self.view, self.light, casters)
-        };
+            receivers: Some(self.receivers),
+            ..ShadowVolumeFrame::new(view, self.light, casters)
+        }
+    }
+
+    fn prepare(&self, volumes: &mut ShadowVolumeRenderer, frame: &ShadowVolumeFrame<'_>) -> f64 {
+        let start = Instant::now();
         volumes
-            .prepare(&self.gpu.device, &self.gpu.queue, &frame)
+            .prepare(&self.gpu.device, &self.gpu.queue, frame)
             .expect("a sound frame");
         start.elapsed().as_secs_f64() * 1e3
     }
 
     /// Milliseconds of one frame's shadows.
-    fn frame(&self, volumes: &mut ShadowVolumeRenderer) -> f64 {
+    fn frame(&self, volumes: &mut ShadowVolumeRenderer, frame: &ShadowVolumeFrame<'_>) -> f64 {
         self.gpu
             .run(|encoder| self.host.draw_ambient(encoder, &self.scene));
-        let prepare = self.prepare(volumes, &self.scene.casters);
+        let prepare = self.prepare(volumes, frame);
         prepare
             + self.timer.time(&self.gpu, |encoder| {
                 volumes.encode(encoder);
@@ -107,6 +129,30 @@ impl Studio {
         };
         (0..SKIPPED).map(moved).collect()
     }
+}
+
+/// The scene's camera, a little farther along at every step.
+fn walk(scene: &host::scene::Scene) -> anyhow::Result<Vec<View>> {
+    let step = |i| {
+        let mut scene = scene.clone();
+        scene.camera.eye += Vec3::new(1.0, 0.3, -0.5) * i as f32;
+        renderer::view(&scene, SIZE)
+    };
+    (0..10).map(step).collect()
+}
+
+/// Silhouettes searched after the first frame while only the camera moves.
+fn extracted_on_the_walk(studio: &Studio) -> anyhow::Result<u32> {
+    let mut volumes = studio.volumes(ShadowVolumeDescriptor::default())?;
+    let mut extracted = 0;
+    for (place, view) in studio.walk.iter().enumerate() {
+        let frame = studio.told(view, &studio.scene.casters);
+        studio.frame(&mut volumes, &frame);
+        let searched = volumes.statistics().casters_extracted;
+        assert_eq!(searched > 0, place == 0, "frame {place}: {searched}");
+        extracted += if place == 0 { 0 } else { searched };
+    }
+    Ok(extracted)
 }
 
 /// Microseconds a caster on the CPU: skipped, and drawn.
@@ -167,11 +213,31 @@ fn main() -> anyhow::Result<()> {
             "textbook",
             studio.volumes(ShadowVolumeDescriptor::textbook())?,
         ),
+        (
+            "unbounded",
+            studio.volumes(ShadowVolumeDescriptor::default())?,
+        ),
+        (
+            "nothing",
+            studio.volumes(ShadowVolumeDescriptor::default())?,
+        ),
     ];
-    let mut times = [const { Vec::new() }; 4];
+    let mut times = [const { Vec::new() }; 6];
     for round in 0..=rounds {
-        for ((_, volumes), times) in contestants.iter_mut().zip(&mut times) {
-            let time = studio.frame(volumes);
+        for ((name, volumes), times) in contestants.iter_mut().zip(&mut times) {
+            let told = studio.told(&studio.view, &studio.scene.casters);
+            let frame = match *name {
+                "nothing" => ShadowVolumeFrame {
+                    casters: &[],
+                    ..told
+                },
+                "unbounded" => ShadowVolumeFrame {
+                    receivers: None,
+                    ..told
+                },
+                _ => told,
+            };
+            let time = studio.frame(volumes, &frame);
             if round > 0 {
                 times.push(time);
             }
@@ -182,10 +248,20 @@ fn main() -> anyhow::Result<()> {
         println!("{name}: {median:.2} ms; {:?}", volumes.statistics());
     }
     let [skipped, drawn] = skipped_and_drawn(&studio, rounds.min(7))?;
-    println!("a caster skipped {skipped:.3} us, drawn {drawn:.3} us, of {SKIPPED}");
+    println!(
+        "a caster skipped {:.0} ns, drawn {:.0} ns, of {SKIPPED}",
+        1e3 * skipped,
+        1e3 * drawn
+    );
+    println!(
+        "extracted {} while the camera moves",
+        extracted_on_the_walk(&studio)?
+    );
     println!("ratio auto_vs_textbook {:.3}", medians[0] / medians[3]);
     println!("ratio zfail_vs_textbook {:.3}", medians[1] / medians[3]);
     println!("ratio infinite_vs_textbook {:.3}", medians[2] / medians[3]);
+    println!("ratio unbounded_vs_textbook {:.3}", medians[4] / medians[3]);
+    println!("ratio nothing_vs_textbook {:.3}", medians[5] / medians[3]);
     println!("ratio skipped_vs_drawn {:.3}", skipped / drawn);
     Ok(())
 }

@@ -20,8 +20,8 @@ struct ShadowsFlatLight {
     depth_bias: f32,
     // 1 for a spot, 0 for a directional light.
     perspective: f32,
-    // 0 where nothing is in the map: all is lit.
-    filled: f32,
+    // One step of the map's format; negative where nothing is in the map: all is lit.
+    quantum: f32,
 }
 
 // Depth is near / d (spot) or 1 - d / range (directional), d along the frame's forward axis. Of a
@@ -65,7 +65,7 @@ fn shadows_flat_receiver(
         return receiver;
     }
     // Behind a spot the map says nothing.
-    if light.filled < 0.5 || (spot && !(local.x > 0.0)) {
+    if light.quantum < 0.0 || (spot && !(local.x > 0.0)) {
         receiver.known = 1.0;
         return receiver;
     }
@@ -94,8 +94,9 @@ fn shadows_flat_receiver(
         }
         let near = light.near * light.depth_bias;
         receiver.plane = near / plane_distance * vec3f(n.x, across);
-        receiver.bound = 32.0 * near / local.x;
-        receiver.horizon = 0.0;
+        receiver.plane.x += light.quantum;
+        receiver.bound = 32.0 * near / local.x + light.quantum;
+        receiver.horizon = light.quantum;
         return receiver;
     }
     if !(n.x < 0.0) {
@@ -103,7 +104,7 @@ fn shadows_flat_receiver(
         return receiver;
     }
     let per_depth = 1.0 / (n.x * light.range);
-    let middle = 1.0 - plane_distance * per_depth + light.depth_bias;
+    let middle = 1.0 - plane_distance * per_depth + light.depth_bias + light.quantum;
     receiver.plane = vec3f(middle, across * per_depth);
     receiver.bound = dot(receiver.plane, vec3f(1.0, uv)) + 32.0 / (light.scale * light.range);
     receiver.horizon = -3e38;

@@ -25,7 +25,8 @@ struct Instance {
     // The light in the mesh's own space, homogeneous, and what xyz lost when rounded to f32.
     light: vec4f,
     light_rest: vec3f,
-    // 0: light-facing triangles count; 1: every triangle counts, turned toward the light.
+    // 0: light-facing triangles count; 1: every triangle, turned toward the light; 2: those turned
+    // away, turned over.
     both_sides: u32,
     // Where this instance's part of the shared buffers begins, in words.
     facing_base: u32,

@@ -38,9 +38,7 @@ fn shadows_volume_facing(
             instance.light,
             instance.light_rest,
         );
-        if instance.both_sides == 0u {
-            count = max(count, 0);
-        }
+        count = counted(count, instance.both_sides);
         facing[instance.facing_base + triangle] = count;
     }
     if count > 0 {

@@ -35,3 +35,9 @@ fn light_side(a: vec3f, b: vec3f, c: vec3f, light: vec4f, rest: vec3f) -> i32 {
     let bound = sum3((abs(p) + abs(q)) * r_bound) * (10.0 / 16777216.0);
     return select(0, 1, det > bound) - select(0, 1, det < -bound);
 }
+
+// What a triangle counts, by the side on which the light lies: with 0 only if it faces the light,
+// with 1 whichever way it faces, with 2 only if it is turned away.
+fn counted(side: i32, both_sides: u32) -> i32 {
+    return clamp(side, select(-1, 0, both_sides == 0u), select(1, 0, both_sides == 2u));
+}

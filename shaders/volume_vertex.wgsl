@@ -6,7 +6,7 @@
 
 fn cap_count(a: vec3f, b: vec3f, c: vec3f) -> i32 {
     let count = light_side(a, b, c, caster.object_light, caster.object_light_rest);
-    return select(max(count, 0), count, caster.both_sides != 0u);
+    return counted(count, caster.both_sides);
 }
 
 // Corner 0 of a triangle stays, 1 and 2 change places.

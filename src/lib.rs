@@ -157,9 +157,9 @@ mod wgsl_layout;
 pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FacePasses, FaceState,
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    texture_from_clip,
+    StillLayers, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
@@ -169,6 +169,8 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    Caps, Extrusion, LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
+    LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
+    VolumeDebug, VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
 };

@@ -1,6 +1,9 @@
 //! What an adapter offers, what of it is worth asking for, and what is used where it is missing.
 
 use std::fmt;
+use std::future::Future as _;
+use std::pin::pin;
+use std::task::{Context, Poll, Waker};
 
 use wgpu::{DownlevelFlags, Features, Limits};
 
@@ -28,11 +31,11 @@ pub struct Support {
     pub depth_clip_control: bool,
     /// `Depth32FloatStencil8`: stencil beside float depth.
     pub depth32float_stencil8: bool,
-    /// Multiview with any mask of six views: all cube faces in one pass. Asked for so that a device
-    /// need not change for it; cube maps take a pass for each face so far, with it too.
+    /// Multiview with any mask of six views: the faces of a cube map in one pass
+    /// ([`FacePasses::Multiview`](crate::FacePasses)).
     pub multiview: bool,
-    /// Blending in `R32Float`: counters that never wrap. Asked for likewise; shadow volumes count in
-    /// the 8-bit stencil so far, with it too.
+    /// Blending in `R32Float`: shadow volumes that count without wrapping
+    /// ([`Counter::Exact`](crate::Counter::Exact)).
     pub float32_blending: bool,
     /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
     pub vertex_storage: bool,
@@ -58,9 +61,6 @@ impl fmt::Display for Fallback {
     }
 }
 
-/// The features that make sense together for six views at once.
-const MULTIVIEW: Features = Features::MULTIVIEW.union(Features::SELECTIVE_MULTIVIEW);
-
 /// Compute is of use only together with indirect draws.
 const COMPUTE: DownlevelFlags =
     DownlevelFlags::COMPUTE_SHADERS.union(DownlevelFlags::INDIRECT_EXECUTION);
@@ -69,6 +69,9 @@ const COMPUTE: DownlevelFlags =
 pub(crate) const STORAGE_BUFFERS: u32 = 6;
 
 impl Support {
+    /// The features that make sense together for six views at once.
+    pub(crate) const MULTIVIEW: Features = Features::MULTIVIEW.union(Features::SELECTIVE_MULTIVIEW);
+
     /// Asks an adapter, before the host creates its device.
     pub fn of_adapter(adapter: &wgpu::Adapter) -> Self {
         Self::new(
@@ -83,7 +86,7 @@ impl Support {
             cube_arrays: downlevel.contains(DownlevelFlags::CUBE_ARRAY_TEXTURES),
             depth_clip_control: features.contains(Features::DEPTH_CLIP_CONTROL),
             depth32float_stencil8: features.contains(Features::DEPTH32FLOAT_STENCIL8),
-            multiview: features.contains(MULTIVIEW) && limits.max_multiview_view_count >= 6,
+            multiview: features.contains(Self::MULTIVIEW) && limits.max_multiview_view_count >= 6,
             float32_blending: features.contains(Features::FLOAT32_BLENDABLE),
             vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
                 && limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS,
@@ -98,7 +101,7 @@ impl Support {
         [
             (self.depth_clip_control, Features::DEPTH_CLIP_CONTROL),
             (self.depth32float_stencil8, Features::DEPTH32FLOAT_STENCIL8),
-            (self.multiview, MULTIVIEW),
+            (self.multiview, Self::MULTIVIEW),
             (self.float32_blending, Features::FLOAT32_BLENDABLE),
             (self.clamp_to_border, Features::ADDRESS_MODE_CLAMP_TO_BORDER),
         ]
@@ -147,7 +150,7 @@ impl Support {
             (
                 self.float32_blending,
                 "FLOAT32_BLENDABLE",
-                "the 8-bit stencil counts volumes modulo 256",
+                "the 8-bit stencil counts volumes modulo 256; ShadowVolumeRenderer::may_wrap says when that could matter",
             ),
             (
                 self.vertex_storage,
@@ -170,6 +173,19 @@ impl Support {
         .map(|(_, missing, instead)| Fallback { missing, instead })
         .collect()
     }
+}
+
+/// Whether a device takes shaders with cube array textures, which none of its features or limits
+/// tells. The answer comes at once from wgpu's own validation; WebGPU gives it later, and has them.
+pub(crate) fn has_cube_arrays(device: &wgpu::Device) -> bool {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let source = "@group(0) @binding(0) var map: texture_cube_array<f32>;";
+    drop(device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("shadows cube array"),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    }));
+    let answer = pin!(scope.pop()).poll(&mut Context::from_waker(Waker::noop()));
+    !matches!(answer, Poll::Ready(Some(_)))
 }
 
 #[cfg(test)]

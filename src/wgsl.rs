@@ -11,8 +11,41 @@ pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 /// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
-/// Depth of casters on the faces of a cube map.
-pub(crate) const CUBE_CASTER: &str = include_str!("../shaders/cube_caster.wgsl");
+/// Any of this crate's WGSL as a module for naga_oil, which hosts name by `path`, e.g.
+/// `shadows::pcf`:
+///
+/// ```
+/// let module = shadows::wgsl::import_module("shadows::mask", shadows::wgsl::MASK);
+/// assert!(module.starts_with("#define_import_path shadows::mask\n"));
+/// ```
+///
+/// and then `#import shadows::mask::shadows_mask` in the host's shader. Two samplers for the same kind
+/// of map share their functions' names when pasted, and are two modules when imported. The text is
+/// no plain WGSL: naga itself refuses the first line.
+pub fn import_module(path: &str, wgsl: &str) -> String {
+    format!("#define_import_path {path}\n{wgsl}")
+}
+
+/// Reads an [`ExactCount`](crate::ExactCount) of one sample a pixel:
+/// `shadows_exact_visibility(counts, pixel)`, 1 lit, 0 in shadow.
+pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
+
+/// Reads an [`ExactCount`](crate::ExactCount) of several samples a pixel:
+/// `shadows_exact_lit_samples(counts, pixel)`, a bit for each sample, to be a fragment shader's
+/// `@builtin(sample_mask)`.
+pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
+
+/// Depth of casters on one face of a cube map, or on a flat map.
+pub(crate) const CUBE_CASTER: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_face.wgsl"),
+);
+
+/// Depth of casters on several faces of a cube map at once.
+pub(crate) const CUBE_CASTER_VIEWS: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_views.wgsl"),
+);
 
 /// A cube map unfolded as a cross.
 pub(crate) const CUBE_CROSS: &str = include_str!("../shaders/cube_cross.wgsl");

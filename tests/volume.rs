@@ -6,6 +6,12 @@ mod chain;
 mod choices;
 #[path = "volume/combinations.rs"]
 mod combinations;
+#[path = "volume/counts.rs"]
+mod counts;
+#[path = "volume/debug_errors.rs"]
+mod debug_errors;
+#[path = "volume/debug_views.rs"]
+mod debug_views;
 #[path = "volume/errors.rs"]
 mod errors;
 #[path = "volume/far_away.rs"]
@@ -16,19 +22,27 @@ mod hard;
 mod host;
 #[path = "volume/light_pass.rs"]
 mod light_pass;
+#[path = "volume/near_light.rs"]
+mod near_light;
 #[path = "volume/passes.rs"]
 mod passes;
 #[path = "volume/pictures.rs"]
 mod pictures;
 #[path = "volume/random.rs"]
 mod random;
+#[path = "volume/receivers.rs"]
+mod receivers;
 #[path = "volume/screen.rs"]
 mod screen;
-#[path = "volume/shapes.rs"]
-mod shapes;
 #[path = "volume/stage.rs"]
 mod stage;
+#[path = "volume/start_from.rs"]
+mod start_from;
+#[path = "volume/survey.rs"]
+mod survey;
 #[path = "volume/truth.rs"]
 mod truth;
 #[path = "volume/ways.rs"]
 mod ways;
+
+use host::shapes;

@@ -7,35 +7,39 @@
 
 mod args;
 mod date;
+mod hard;
 #[path = "../host/mod.rs"]
 mod host;
 mod measure;
 mod output;
 mod plot;
+mod progress;
 mod report;
+mod shadow;
+mod soft;
 mod stage;
+mod table;
 mod technique;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
-use shadows::{HomogeneousLight, Kernel};
 
 use crate::args::Args;
 use crate::host::gpu::{Gpu, describe};
 use crate::host::scene::{self, Scene};
 use crate::measure::Plan;
 use crate::output::{File, Results};
+use crate::progress::progress;
 use crate::report::LeftOut;
 use crate::stage::Stage;
-use crate::technique::Technique;
+use crate::technique::{Config, Technique};
 
 fn main() -> ExitCode {
     let args = args::parse();
     match run(&args) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             let message = format!("{error:#}").replace(['\n', '\r'], " ");
             eprintln!("error: {message}");
@@ -52,7 +56,10 @@ struct Job {
     left_out: Vec<LeftOut>,
 }
 
-fn run(args: &Args) -> Result<()> {
+fn run(args: &Args) -> Result<ExitCode> {
+    if args.hard_cases {
+        return hard_cases(args);
+    }
     // Everything that can be wrong with what was asked comes before the first picture.
     let jobs: Vec<Job> = args
         .scene_dirs()
@@ -77,29 +84,46 @@ fn run(args: &Args) -> Result<()> {
         println!("{}", result.summary);
         println!("{}", result.dir.join("report.md").display());
     }
-    Ok(())
+    Ok(ExitCode::SUCCESS)
+}
+
+fn hard_cases(args: &Args) -> Result<ExitCode> {
+    let gpu = Gpu::new(args.adapter.as_deref())?;
+    eprintln!("{}", describe(&gpu.info));
+    Ok(match hard::run(&gpu, &args.out, args.rounds)? {
+        0 => ExitCode::SUCCESS,
+        _ => ExitCode::FAILURE,
+    })
 }
 
 fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     let ground = args.ground == args::Ground::Auto;
     let mut scene = scene::load(name, ground)?;
     scene.override_with(args.light, args.range, args.camera_override());
+    if let Some(kind) = args.light_kind {
+        let made = scene.shine_as(kind);
+        made.with_context(|| format!("scene {name}: --light-kind"))?;
+    }
     host::renderer::view(&scene, args.size).with_context(|| format!("scene {name}: camera"))?;
-    let light = HomogeneousLight(scene.light);
-    let asked = args.techniques.0.iter().copied().map(Technique::from);
+    let light = scene.light_kind();
+    let asked = args.techniques.0.iter().map(|row| row.at(args.face));
     let (techniques, others): (Vec<_>, Vec<_>) =
-        asked.partition(|technique| technique.applies_to(light));
-    let reason = "cube shadow maps need a point light, and this one is directional (w = 0)";
+        asked.partition(|technique| technique.config.applies_to(light));
+    if techniques.is_empty() {
+        let reasons: Vec<&str> = others.iter().map(|other| other.config.limit()).collect();
+        bail!("no technique is left: {}", reasons[0]);
+    }
+    // The usual flat maps are for lights that are no points; where nobody asked for them, that is
+    // nothing to tell.
+    let unasked = args.techniques.are_usual();
     let left_out: Vec<LeftOut> = others
-        .iter()
-        .map(|technique| LeftOut {
-            name: technique.name(),
-            reason,
+        .into_iter()
+        .filter(|other| !(unasked && matches!(other.config, Config::Flat { .. })))
+        .map(|other| LeftOut {
+            name: other.name.into_owned(),
+            reason: other.config.limit(),
         })
         .collect();
-    if techniques.is_empty() {
-        bail!("no technique is left: {reason}");
-    }
     for left in &left_out {
         eprintln!("{} is left out: {}", left.name, left.reason);
     }
@@ -122,14 +146,14 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
 
     let plan = Plan {
         techniques: &job.techniques,
-        face: args.face,
         frames: args.frames,
         seed: args.seed,
     };
     let steps = u64::from(plan.frames) * plan.techniques.len() as u64;
     let bar = progress(steps, &format!("{name}: frames"));
-    let measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
+    let mut measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
+    soft::judge(gpu, &stage, &reference, &mut measured)?;
 
     let report = report::Report::new(gpu, &stage, &reference, &measured, &job.left_out);
     let mut files = vec![
@@ -147,26 +171,4 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
         summary: report.summary(),
         export: args.export.then_some(stage.scene),
     })
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(length: u64, what: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta}");
-    ProgressBar::new(length)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-        .with_message(what.to_owned())
-}
-
-impl From<args::Technique> for Technique {
-    fn from(name: args::Technique) -> Self {
-        match name {
-            args::Technique::CubeHard => Self::Cube(Kernel::Hard),
-            args::Technique::Cube2x2 => Self::Cube(Kernel::Bilinear),
-            args::Technique::Cube16 => Self::Cube(Kernel::FourTaps),
-            args::Technique::Cube1024 => Self::Cube1024,
-            args::Technique::CubeCached => Self::CubeCached,
-            args::Technique::CubeTextbook => Self::CubeTextbook,
-            args::Technique::Volume => Self::Volume,
-        }
-    }
 }

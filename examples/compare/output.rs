@@ -54,7 +54,7 @@ pub fn pictures(
         File::new("coverage.png", grey_png(size, &reference.coverage())?),
     ];
     for technique in measured {
-        let name = technique.technique.name();
+        let name = &technique.technique.name;
         let picture = &technique.picture;
         let errors = error_picture(&picture.shaded, &technique.error.verdicts);
         files.extend([
@@ -105,6 +105,19 @@ pub fn check(dir: &Path) -> Result<()> {
 pub fn write_all(results: &[Results]) -> Result<()> {
     let staged: Result<Vec<Staged>> = results.iter().map(Staged::new).collect();
     staged?.iter().try_for_each(Staged::publish)
+}
+
+/// Writes files of one run, all of them or none.
+///
+/// # Errors
+/// The file or directory that could not be written.
+pub fn write(dir: &Path, files: Vec<File>) -> Result<()> {
+    write_all(&[Results {
+        dir: dir.into(),
+        files,
+        summary: String::new(),
+        export: None,
+    }])
 }
 
 /// Results in a directory of their own inside the one where they belong; gone when dropped.

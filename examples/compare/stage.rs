@@ -2,14 +2,16 @@
 
 use anyhow::Result;
 use shadows::HomogeneousLight;
+use shadows::glam::Vec3;
+use shadows::mesh::Bounds;
 use shadows::reference::ReferenceImage;
 
 use crate::host::exact;
 use crate::host::gpu::Gpu;
-use crate::host::renderer::{self, Renderer};
+use crate::host::renderer::{self, Look, Renderer};
 use crate::host::scene::Scene;
 use crate::host::scene_gpu::SceneGpu;
-use crate::technique::{Shadow, ShadowInputs};
+use crate::shadow::{Shadow, ShadowInputs};
 
 /// A scene, the targets it is drawn to, and what every technique is told about it.
 pub struct Stage {
@@ -32,15 +34,26 @@ impl Stage {
     /// # Errors
     /// If something of it does not fit the device, or the camera makes no view.
     pub fn new(gpu: &Gpu, scene: Scene, size: [u32; 2]) -> Result<Self> {
-        let view = renderer::view(&scene, size)?;
+        Self::with_look(gpu, scene, size, Look::default())
+    }
+
+    /// The same, drawn in another way.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_look(gpu: &Gpu, scene: Scene, size: [u32; 2], look: Look) -> Result<Self> {
+        let view = renderer::view_as(&scene, size, look)?;
         let scene_gpu = SceneGpu::new(gpu, &scene)?;
-        let renderer = Renderer::new(gpu, size, &scene, &scene_gpu)?;
+        let renderer = Renderer::with_look(gpu, size, &scene, &scene_gpu, look)?;
         let inputs = ShadowInputs {
             view,
             light: HomogeneousLight(scene.light),
+            cone: scene.cone,
             near: scene.shadow_near,
             range: scene.range,
             casters: scene_gpu.casters.clone(),
+            receivers: receivers(&scene),
+            seen: seen(&scene),
         };
         Ok(Self {
             scene,
@@ -82,7 +95,28 @@ impl Stage {
     ) -> Result<ReferenceImage> {
         let [width, height] = self.renderer.size();
         let scene = exact::reference_scene(&self.scene)?.with_progress(progress);
+        if let Some(spot) = self.inputs.spot_light() {
+            return Ok(scene.render_spot(&self.inputs.view, width, height, &spot)?);
+        }
         let (light, range) = (self.inputs.light, self.inputs.light_range());
         Ok(scene.render(&self.inputs.view, width, height, light, range)?)
     }
+}
+
+/// Bounds of all that is seen.
+fn receivers(scene: &Scene) -> Bounds {
+    let bounds = scene.bounds();
+    Bounds {
+        min: bounds.min.as_vec3(),
+        max: bounds.max.as_vec3(),
+    }
+}
+
+/// Distance along the camera's axis to the last of all corners, at least the near plane.
+fn seen(scene: &Scene) -> f32 {
+    let camera = &scene.camera;
+    let axis = (camera.target - camera.eye).normalize();
+    let Bounds { min, max } = receivers(scene);
+    let farthest = Vec3::select(axis.cmpgt(Vec3::ZERO), max, min);
+    axis.dot(farthest - camera.eye).max(camera.near)
 }

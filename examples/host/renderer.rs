@@ -7,8 +7,8 @@ use shadows::{View, wgpu};
 
 use super::gpu::Gpu;
 use super::image;
-pub use super::pipelines::{DEPTH, LitPipeline, ShadowAccess};
-use super::pipelines::{SHADED, VISIBILITY, ambient_pipeline, lit_pipeline};
+pub use super::pipelines::{DEPTH, LitPipeline, Look, SHADED, ShadowAccess};
+use super::pipelines::{VISIBILITY, ambient_pipeline, lit_pipeline};
 use super::scene::Scene;
 use super::scene_gpu::SceneGpu;
 
@@ -29,15 +29,17 @@ struct FrameUniform {
     clip_from_world: [[f32; 4]; 4],
     eye: [f32; 4],
     light: [f32; 4],
+    cone: [f32; 4],
     range: f32,
     intensity: f32,
     ambient: f32,
-    padding: f32,
+    premultiplied: u32,
 }
 
 /// Targets and pipelines for one scene seen by one camera.
 pub struct Renderer {
     size: [u32; 2],
+    look: Look,
     depth_stencil_format: wgpu::TextureFormat,
     targets: Targets,
     host_layout: wgpu::BindGroupLayout,
@@ -50,12 +52,17 @@ pub struct Renderer {
 /// What is drawn into.
 struct Targets {
     depth_stencil: wgpu::TextureView,
-    shaded: wgpu::Texture,
-    visibility: wgpu::Texture,
+    shaded: Target,
+    visibility: Target,
 }
 
 impl Targets {
-    fn new(gpu: &Gpu, size: [u32; 2], depth_stencil: wgpu::TextureFormat) -> Result<Self> {
+    fn new(
+        gpu: &Gpu,
+        size: [u32; 2],
+        depth_stencil: wgpu::TextureFormat,
+        samples: u32,
+    ) -> Result<Self> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         ensure!(
             size.iter().all(|&side| side <= limit),
@@ -63,12 +70,36 @@ impl Targets {
             size[0],
             size[1]
         );
-        let depth_stencil = gpu.target(size, depth_stencil, 1);
+        let depth_stencil = gpu.target(size, depth_stencil, samples);
         Ok(Self {
             depth_stencil: depth_stencil.create_view(&Default::default()),
-            shaded: gpu.target(size, SHADED, 1),
-            visibility: gpu.target(size, VISIBILITY, 1),
+            shaded: Target::new(gpu, size, SHADED, samples),
+            visibility: Target::new(gpu, size, VISIBILITY, samples),
         })
+    }
+}
+
+/// One of them: the texture that is read, resolved from the samples where there are several.
+struct Target {
+    texture: wgpu::Texture,
+    samples: Option<wgpu::Texture>,
+}
+
+impl Target {
+    fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) -> Self {
+        Self {
+            texture: gpu.target(size, format, 1),
+            samples: (samples > 1).then(|| gpu.target(size, format, samples)),
+        }
+    }
+
+    /// Where a pass draws, and where it resolves to.
+    fn views(&self) -> (wgpu::TextureView, Option<wgpu::TextureView>) {
+        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+        match &self.samples {
+            None => (view(&self.texture), None),
+            Some(samples) => (view(samples), Some(view(&self.texture))),
+        }
     }
 }
 
@@ -78,21 +109,37 @@ impl Renderer {
     /// # Errors
     /// If the device cannot make targets of this size.
     pub fn new(gpu: &Gpu, size: [u32; 2], scene: &Scene, scene_gpu: &SceneGpu) -> Result<Self> {
+        Self::with_look(gpu, size, scene, scene_gpu, Look::default())
+    }
+
+    /// The same, drawn in another way.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_look(
+        gpu: &Gpu,
+        size: [u32; 2],
+        scene: &Scene,
+        scene_gpu: &SceneGpu,
+        look: Look,
+    ) -> Result<Self> {
         let depth_stencil_format = depth_stencil_format(gpu);
-        let targets = Targets::new(gpu, size, depth_stencil_format)?;
-        let frame = frame_buffer(gpu, scene, size);
+        let targets = Targets::new(gpu, size, depth_stencil_format, look.samples)?;
+        let frame = frame_buffer(gpu, scene, size, look);
         let host_layout = host_layout(&gpu.device);
         let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
         Ok(Self {
             size,
+            look,
             depth_stencil_format,
             targets,
             frame,
-            ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format),
+            ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format, look),
             unshadowed: lit_pipeline(
                 &gpu.device,
                 &host_layout,
                 depth_stencil_format,
+                look,
                 &ShadowAccess::default(),
             ),
             host_layout,
@@ -106,10 +153,11 @@ impl Renderer {
     /// If the device cannot make targets of this size.
     pub fn update(&mut self, gpu: &Gpu, size: [u32; 2], scene: &Scene) -> Result<()> {
         if size != self.size {
-            self.targets = Targets::new(gpu, size, self.depth_stencil_format)?;
+            let format = self.depth_stencil_format;
+            self.targets = Targets::new(gpu, size, format, self.look.samples)?;
             self.size = size;
         }
-        let frame = frame_uniform(scene, size);
+        let frame = frame_uniform(scene, size, self.look);
         gpu.queue
             .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         Ok(())
@@ -117,12 +165,12 @@ impl Renderer {
 
     /// The shaded picture, sRGB.
     pub fn shaded(&self) -> &wgpu::Texture {
-        &self.targets.shaded
+        &self.targets.shaded.texture
     }
 
     /// Visibility of the light at each pixel, `R8Unorm`: 1 lit; 0 also where there is no surface.
     pub fn visibility(&self) -> &wgpu::Texture {
-        &self.targets.visibility
+        &self.targets.visibility.texture
     }
 
     /// Width and height in pixels.
@@ -130,9 +178,19 @@ impl Renderer {
         self.size
     }
 
+    /// How it draws.
+    pub fn look(&self) -> Look {
+        self.look
+    }
+
     /// The format of the depth-stencil buffer.
     pub fn depth_stencil_format(&self) -> wgpu::TextureFormat {
         self.depth_stencil_format
+    }
+
+    /// The depth-stencil buffer.
+    pub fn depth_stencil(&self) -> &wgpu::TextureView {
+        &self.depth_stencil
     }
 
     /// The lit pass's pipeline for one way to find shadows.
@@ -141,6 +199,7 @@ impl Renderer {
             &gpu.device,
             &self.host_layout,
             self.depth_stencil_format,
+            self.look,
             access,
         )
     }
@@ -152,14 +211,14 @@ impl Renderer {
 
     /// Clears, then draws depth and ambient light.
     pub fn draw_ambient(&self, encoder: &mut wgpu::CommandEncoder, scene: &SceneGpu) {
-        let shaded = self.targets.shaded.create_view(&Default::default());
+        let (shaded, _) = self.targets.shaded.views();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("ambient"),
-            color_attachments: &[Some(color(&shaded, wgpu::LoadOp::Clear(SKY)))],
+            color_attachments: &[Some(color(&shaded, None, wgpu::LoadOp::Clear(SKY)))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.targets.depth_stencil,
                 depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(DEPTH.clear_depth()),
+                    load: wgpu::LoadOp::Clear(self.look.depth.clear_depth()),
                     store: wgpu::StoreOp::Store,
                 }),
                 stencil_ops: Some(wgpu::Operations {
@@ -185,6 +244,24 @@ impl Renderer {
         })
     }
 
+    /// A pass that draws over the shaded picture, depth and stencil read-only.
+    pub fn begin_overlay_pass<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+    ) -> wgpu::RenderPass<'e> {
+        let (shaded, resolved) = self.targets.shaded.views();
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("overlay"),
+            color_attachments: &[Some(color(&shaded, resolved.as_ref(), wgpu::LoadOp::Load))],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.targets.depth_stencil,
+                depth_ops: None,
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
+    }
+
     /// Adds the light where it is not shadowed, and writes its visibility.
     pub fn draw_lit(
         &self,
@@ -193,8 +270,8 @@ impl Renderer {
         lit: &LitPipeline,
         shadow_group: Option<&wgpu::BindGroup>,
     ) {
-        let shaded = self.targets.shaded.create_view(&Default::default());
-        let visibility = self.targets.visibility.create_view(&Default::default());
+        let (shaded, resolved) = self.targets.shaded.views();
+        let (visibility, resolved_visibility) = self.targets.visibility.views();
         let mut depth_stencil = self.stencil_attachment(wgpu::LoadOp::Load);
         if !lit.uses_stencil {
             depth_stencil.stencil_ops = None;
@@ -202,9 +279,10 @@ impl Renderer {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("lit"),
             color_attachments: &[
-                Some(color(&shaded, wgpu::LoadOp::Load)),
+                Some(color(&shaded, resolved.as_ref(), wgpu::LoadOp::Load)),
                 Some(color(
                     &visibility,
+                    resolved_visibility.as_ref(),
                     wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                 )),
             ],
@@ -221,12 +299,12 @@ impl Renderer {
 
     /// The shaded picture, sRGB.
     pub fn read_shaded(&self, gpu: &Gpu) -> Vec<[u8; 3]> {
-        image::without_alpha(&gpu.read_texture(&self.targets.shaded, 0, wgpu::TextureAspect::All))
+        image::without_alpha(&gpu.read_texture(self.shaded(), 0, wgpu::TextureAspect::All))
     }
 
     /// Visibility of the light at each pixel, 255 lit; 0 also where there is no surface.
     pub fn read_visibility(&self, gpu: &Gpu) -> Vec<u8> {
-        gpu.read_texture(&self.targets.visibility, 0, wgpu::TextureAspect::All)
+        gpu.read_texture(self.visibility(), 0, wgpu::TextureAspect::All)
     }
 
     fn stencil_attachment(
@@ -264,8 +342,17 @@ impl Renderer {
 /// # Errors
 /// If the camera's numbers make no view, e.g. because it looks straight up or down.
 pub fn view(scene: &Scene, size: [u32; 2]) -> Result<View> {
+    view_as(scene, size, Look::default())
+}
+
+/// The same, drawn in another way.
+///
+/// # Errors
+/// As [`view`].
+pub fn view_as(scene: &Scene, size: [u32; 2], look: Look) -> Result<View> {
     let aspect = size[0] as f32 / size[1] as f32;
-    Ok(View::new(scene.camera.clip_from_world(aspect), DEPTH)?)
+    let matrix = scene.camera.clip_from_world_as(aspect, look.depth);
+    Ok(View::new(matrix, look.depth)?)
 }
 
 fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
@@ -280,7 +367,7 @@ fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     }
 }
 
-fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
+fn frame_uniform(scene: &Scene, size: [u32; 2], look: Look) -> FrameUniform {
     let camera = &scene.camera;
     let aspect = size[0] as f32 / size[1] as f32;
     // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
@@ -293,22 +380,29 @@ fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
             reach * reach
         };
     FrameUniform {
-        clip_from_world: camera.clip_from_world(aspect).to_cols_array_2d(),
+        clip_from_world: camera
+            .clip_from_world_as(aspect, look.depth)
+            .to_cols_array_2d(),
         eye: camera.eye.extend(1.0).to_array(),
         light: scene.light.to_array(),
+        // Direction and cosine; without a cone every angle's cosine is above the -1.
+        cone: scene.cone.map_or([0.0, 0.0, 0.0, -1.0], |cone| {
+            let axis = cone.direction.normalize();
+            axis.extend(cone.half_angle.cos()).to_array()
+        }),
         range: scene.range,
         intensity,
         ambient: AMBIENT,
-        padding: 0.0,
+        premultiplied: u32::from(look.premultiplied),
     }
 }
 
-fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> wgpu::Buffer {
+fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2], look: Look) -> wgpu::Buffer {
     use wgpu::util::DeviceExt as _;
     gpu.device
         .create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("frame"),
-            contents: bytemuck::bytes_of(&frame_uniform(scene, size)),
+            contents: bytemuck::bytes_of(&frame_uniform(scene, size, look)),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         })
 }
@@ -358,12 +452,13 @@ fn host_group(
 
 fn color<'v>(
     view: &'v wgpu::TextureView,
+    resolve_target: Option<&'v wgpu::TextureView>,
     load: wgpu::LoadOp<wgpu::Color>,
 ) -> wgpu::RenderPassColorAttachment<'v> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
-        resolve_target: None,
+        resolve_target,
         ops: wgpu::Operations {
             load,
             store: wgpu::StoreOp::Store,

@@ -65,6 +65,16 @@ pub enum CubeShadowMapError {
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
     )]
     SlopeScale,
+    /// A cube array on a device without such textures.
+    #[error(
+        "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for cube_array: each light then has a cube and a bind group of its own"
+    )]
+    CubeArray,
+    /// Layers of still casters on a back end that cannot copy depth.
+    #[error(
+        "StillLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
+    )]
+    StillLayers,
     /// More lights in a frame than the map was made for.
     #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
     TooManyLights {
@@ -72,6 +82,16 @@ pub enum CubeShadowMapError {
         lights: usize,
         /// Lights the map was made for.
         slots: usize,
+    },
+    /// Faces are to be drawn in one pass on a device that cannot.
+    #[error(
+        "FacePasses::Multiview needs a device with {missing:?} and max_multiview_view_count of at least 6 (this one has {views}); ask for what Support::features and Support::limits give, or pass FacePasses::Auto"
+    )]
+    Multiview {
+        /// The features that the device lacks.
+        missing: wgpu::Features,
+        /// Its `max_multiview_view_count`.
+        views: u32,
     },
     /// A pinned light that is not in the frame.
     #[error("light {pinned} is pinned, but the frame has {lights} lights, counted from 0")]
@@ -104,6 +124,12 @@ pub enum ShadowMapError {
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// The format is none that a map can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
     /// The distance up to which a view shows shadows is out of range.
     #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
     Distance(f32),
@@ -194,6 +220,11 @@ pub enum PcfError {
         /// What the sampler reads.
         sampler: crate::DepthEncoding,
     },
+    /// A sampler for many lights on a device without cube array textures.
+    #[error(
+        "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for many_lights: each light is then read through a bind group of its own"
+    )]
+    CubeArray,
     /// A sampler for many lights and a map with one texture for each.
     #[error(
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"

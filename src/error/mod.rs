@@ -6,6 +6,7 @@ mod mesh;
 #[cfg(feature = "reference")]
 mod reference;
 mod volume;
+mod volume_debug;
 
 pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
@@ -13,3 +14,4 @@ pub use mesh::{CasterError, CasterMeshError, MeshError};
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
 pub use volume::{ScreenPassError, ShadowVolumeError};
+pub use volume_debug::VolumeDebugError;

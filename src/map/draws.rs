@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DAffine3;
 
 use super::descriptor::CasterSides;
+use super::joint::Joint;
 use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
@@ -35,18 +36,29 @@ impl Draw {
         pipelines: &HashMap<PipelineKey, wgpu::RenderPipeline>,
         instances: &wgpu::Buffer,
     ) {
+        // Prepare made one for every key.
+        if let Some(pipeline) = pipelines.get(&self.key()) {
+            self.record_with(pass, pipeline, instances, self.instance_count);
+        }
+    }
+
+    /// Records it with a pipeline made for its key, and the instances that follow its own.
+    pub fn record_with(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipeline: &wgpu::RenderPipeline,
+        instances: &wgpu::Buffer,
+        count: u32,
+    ) {
         let (_, offset) = self.mesh.layout();
-        let Some(pipeline) = pipelines.get(&self.key()) else {
-            return; // prepare made one for every key
-        };
-        let size = u64::from(self.instance_count) * INSTANCE_SIZE;
+        let size = u64::from(count) * INSTANCE_SIZE;
         let first = self.first_instance * INSTANCE_SIZE;
         pass.set_pipeline(pipeline);
         pass.set_vertex_buffer(0, self.mesh.positions().slice(offset..));
         // Sliced rather than drawn from a first instance, which GL does not have.
         pass.set_vertex_buffer(1, instances.slice(first..first + size));
         pass.set_index_buffer(self.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..count);
     }
 }
 
@@ -87,22 +99,32 @@ impl Cull {
 #[derive(Debug, Default)]
 pub(super) struct DrawLists {
     faces: Vec<[Vec<Draw>; 6]>,
+    /// Those of the layers under the faces, where they are drawn.
+    layers: Vec<[Vec<Draw>; 6]>,
     pub instances: Vec<Instance>,
-    // Kept only for its memory: group, culling and row of each caster on each face.
-    members: [Vec<(u32, Cull, u32)>; 6],
+    // Kept only for its memory: group, culling and row of each caster on each face and layer.
+    members: [Vec<(u32, Cull, u32)>; 12],
     rows: Vec<Instance>,
+    /// Whether all faces of a slot share one list, that of the lowest face drawn.
+    joint: bool,
+    /// Follows the instances of every draw.
+    separator: Option<Instance>,
 }
 
 impl DrawLists {
-    pub fn new(slots: usize) -> Self {
+    pub fn new(slots: usize, joint: Option<&Joint>) -> Self {
         Self {
             faces: (0..slots).map(|_| Default::default()).collect(),
+            joint: joint.is_some(),
+            separator: joint.and_then(Joint::separator),
+            layers: (0..slots).map(|_| Default::default()).collect(),
             ..Self::default()
         }
     }
 
     pub fn clear(&mut self) {
-        self.faces.iter_mut().flatten().for_each(Vec::clear);
+        let lists = self.faces.iter_mut().chain(&mut self.layers);
+        lists.flatten().for_each(Vec::clear);
         self.instances.clear();
     }
 
@@ -110,8 +132,13 @@ impl DrawLists {
         &self.faces[slot][face]
     }
 
+    /// What goes on the layer under a face.
+    pub fn of_layer(&self, slot: usize, face: usize) -> &[Draw] {
+        &self.layers[slot][face]
+    }
+
     pub fn iter(&self) -> impl Iterator<Item = &Draw> {
-        self.faces.iter().flatten().flatten()
+        self.faces.iter().chain(&self.layers).flatten().flatten()
     }
 
     /// Adds some faces of a slot.
@@ -122,18 +149,25 @@ impl DrawLists {
         self.members.iter_mut().for_each(Vec::clear);
         for at in touching(slot.masks(), mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
-            let on = slot.masks()[at] & mask;
+            let lists = match self.joint {
+                true => u16::from(mask & mask.wrapping_neg()),
+                false => slot.lists(slot.masks()[at] & mask, record),
+            };
+            if lists == 0 {
+                continue; // all on layers that are there
+            }
             let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
             let cull = Cull::of(scene.sides(), record, clear);
             for (bit, members) in self.members.iter_mut().enumerate() {
-                if on & 1 << bit != 0 {
+                if lists & 1 << bit != 0 {
                     members.push((record.group, cull, self.rows.len() as u32));
                 }
             }
             self.rows
                 .push(instance(&(light_from_world * caster.transform())));
         }
-        for (members, draws) in self.members.iter_mut().zip(&mut self.faces[index]) {
+        let lists = self.faces[index].iter_mut().chain(&mut self.layers[index]);
+        for (members, draws) in self.members.iter_mut().zip(lists) {
             members.sort_unstable();
             for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
                 let Some(group) = scene.group(run[0].0) else {
@@ -147,6 +181,7 @@ impl DrawLists {
                 });
                 let rows = run.iter().map(|&(.., row)| self.rows[row as usize]);
                 self.instances.extend(rows);
+                self.instances.extend(self.separator);
             }
         }
     }
@@ -154,7 +189,7 @@ impl DrawLists {
 
 /// The casters that touch any face of a mask. Most casters touch none, so sixteen at a time are
 /// looked at.
-fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
+pub(super) fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
     masks
         .chunks(16)
         .enumerate()

@@ -13,9 +13,10 @@ use super::flat_descriptor::{
 use super::flat_frame::{Fit, FlatFrame, fit};
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
-use crate::Bias;
+use super::texture;
 use crate::error::ShadowMapError;
 use crate::mesh::Caster;
+use crate::{Bias, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
 /// over because rows of a texture count down, and z left as it is because WebGPU's clip space has
@@ -38,13 +39,14 @@ pub fn texture_from_clip() -> Mat4 {
 /// A depth map for one spot or directional light (Williams, "Casting Curved Shadows on Curved
 /// Surfaces", 1978).
 ///
-/// `Depth32Float`, reverse-Z: a texel holds `near / d` for a spot and `1 - d / range` for a
+/// Reverse-Z, `Depth32Float` by default: a texel holds `near / d` for a spot and `1 - d / range` for a
 /// directional light, `d` along the light's direction, and 0 where no caster is. What lies outside
 /// the map is lit, and so is what lies behind a spot; beyond a spot's range nothing is.
 #[derive(Debug)]
 pub struct ShadowMap {
     size: u32,
     bias: Bias,
+    reach: Radius,
     label: String,
     cache: bool,
     texture: wgpu::Texture,
@@ -92,7 +94,7 @@ impl ShadowMap {
             None => "shadows map".to_owned(),
         };
         let (size, bias) = (descriptor.size, descriptor.bias);
-        let texture = create_texture(device, &label, size);
+        let texture = texture::create(device, &label, size, descriptor.format, 1);
         let (face, layout, face_group) = resources::faces(device, &label, 1);
         let clip_control = device
             .features()
@@ -111,10 +113,12 @@ impl ShadowMap {
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
             unclipped_depth: descriptor.unclipped_depth && clip_control,
+            constants: &[],
         };
         Ok(Self {
             size,
             bias,
+            reach: descriptor.reach,
             cache: descriptor.cache,
             view: texture.create_view(&wgpu::TextureViewDescriptor {
                 label: Some(&label),
@@ -203,7 +207,7 @@ impl ShadowMap {
     }
 
     /// Begins a pass that clears the map, for a host that draws its own geometry (skinned,
-    /// alpha-tested) with [`clip_from_world`](Self::clip_from_world): `Depth32Float`, one sample,
+    /// alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format, one sample,
     /// depth compare `Greater`.
     ///
     /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew is cleared, so
@@ -232,7 +236,7 @@ impl ShadowMap {
         Some(texture_from_clip() * self.clip_from_world()?)
     }
 
-    /// The texture: `Depth32Float`.
+    /// The texture, of [`ShadowMapDescriptor::format`].
     pub fn texture(&self) -> &wgpu::Texture {
         &self.texture
     }
@@ -267,6 +271,7 @@ impl ShadowMap {
                         view: frame.view,
                         receivers: frame.receivers,
                         size: self.size,
+                        reach: self.reach,
                         unclipped_depth: self.kind.unclipped_depth,
                         last_width: self.width,
                     },
@@ -324,7 +329,7 @@ impl ShadowMap {
             let key = draw.key();
             self.pipelines
                 .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
         }
         let digests = members.iter().map(|member| member.3);
         Some(Content {
@@ -335,7 +340,8 @@ impl ShadowMap {
     }
 
     fn upload(&self, queue: &wgpu::Queue) {
-        let light = FlatLightUniform::new(self.frame.as_ref(), &self.bias, self.size);
+        let format = self.texture.format();
+        let light = FlatLightUniform::new(self.frame.as_ref(), &self.bias, self.size, format);
         queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
         if let Some(frame) = self.frame {
             let face = FaceUniform {
@@ -353,7 +359,7 @@ impl ShadowMap {
             rendered,
             casters_drawn: drawn,
             casters_outside: casters as u32 - drawn,
-            bytes: u64::from(self.size).pow(2) * 4
+            bytes: u64::from(self.size).pow(2) * texture::texel_bytes(self.texture.format())
                 + self.instances.size()
                 + self.face.size()
                 + self.light.size(),
@@ -386,23 +392,4 @@ impl ShadowMap {
             ..Default::default()
         })
     }
-}
-
-fn create_texture(device: &wgpu::Device, label: &str, size: u32) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d {
-            width: size,
-            height: size,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Depth32Float,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
 }

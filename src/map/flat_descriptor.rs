@@ -1,10 +1,10 @@
 //! What a flat map is made from and told each frame.
 
-use super::descriptor::CasterSides;
+use super::descriptor::{CasterSides, quantum};
 use super::flat_frame::FlatFrame;
 use crate::error::ShadowMapError;
 use crate::mesh::{Bounds, Caster};
-use crate::{Bias, DirectionalLight, SpotLight, View};
+use crate::{Bias, DirectionalLight, Radius, SpotLight, View};
 
 /// How to make a [`ShadowMap`](crate::ShadowMap).
 #[derive(Clone, Debug)]
@@ -12,8 +12,13 @@ pub struct ShadowMapDescriptor<'a> {
     /// Name of the map in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Texels along each side. Default 2048. 1 to the device's `max_texture_dimension_2d`. Memory:
-    /// 4 bytes a texel, `Depth32Float`.
+    /// 4 bytes a texel, 2 as `Depth16Unorm`.
     pub size: u32,
+    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`. The last two round depths to one
+    /// part in 2^24 and 2^16, and receivers are given one such step as bias: for a spot
+    /// `d * d / (near * 65536)` at distance `d` in world units, for a directional light 1 / 65536 of
+    /// the depth that its map covers.
+    pub format: wgpu::TextureFormat,
     /// Bias for receivers, in texels. Default [`Bias::default`], which needs no tuning. Its
     /// `slope_scale` is the rasteriser's.
     pub bias: Bias,
@@ -25,6 +30,11 @@ pub struct ShadowMapDescriptor<'a> {
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
     /// than its `near`.
     pub unclipped_depth: bool,
+    /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
+    /// that reads the map. A directional light's map is fitted that much wider than what is seen and
+    /// receives, so that no tap there falls beside it, where all is lit. Default 8 texels. Greater
+    /// than 0, at most 64 texels; of texels, no more than a quarter of the map on either side.
+    pub reach: Radius,
     /// Whether a map whose content has not changed is left alone. Default true; false draws every
     /// frame, for measuring what that is worth.
     pub cache: bool,
@@ -36,6 +46,12 @@ impl ShadowMapDescriptor<'_> {
         if size == 0 || size > limit {
             return Err(ShadowMapError::Size { size, limit });
         }
+        if quantum(self.format).is_none() {
+            return Err(ShadowMapError::Format(self.format));
+        }
+        if !self.reach.is_in_range() {
+            return Err(ShadowMapError::Reach(self.reach));
+        }
         Ok(self.bias.validate()?)
     }
 }
@@ -45,9 +61,11 @@ impl Default for ShadowMapDescriptor<'_> {
         Self {
             label: None,
             size: 2048,
+            format: wgpu::TextureFormat::Depth32Float,
             bias: Bias::default(),
             sides: CasterSides::default(),
             unclipped_depth: true,
+            reach: Radius::Texels(8.0),
             cache: true,
         }
     }
@@ -142,14 +160,23 @@ pub(crate) struct FlatLightUniform {
     pub normal_offset: f32,
     pub depth_bias: f32,
     pub perspective: f32,
-    pub filled: f32,
+    /// Negative where nothing casts.
+    pub quantum: f32,
 }
 
 impl FlatLightUniform {
     /// `frame` is `None` where nothing casts.
-    pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32) -> Self {
+    pub(super) fn new(
+        frame: Option<&FlatFrame>,
+        bias: &Bias,
+        size: u32,
+        format: wgpu::TextureFormat,
+    ) -> Self {
         let Some(frame) = frame else {
-            return Self::default();
+            return Self {
+                quantum: -1.0,
+                ..Self::default()
+            };
         };
         // In the world, at distance 1 of a spot.
         let texel = 2.0 / (frame.scale * size as f32);
@@ -168,7 +195,7 @@ impl FlatLightUniform {
                 false => bias.constant * texel / frame.range,
             },
             perspective: f32::from(u8::from(frame.perspective)),
-            filled: 1.0,
+            quantum: quantum(format).unwrap_or(0.0),
         }
     }
 }
@@ -196,7 +223,7 @@ mod tests {
             normal_offset,
             depth_bias,
             perspective,
-            filled
+            quantum
         );
     }
 }

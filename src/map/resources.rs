@@ -1,5 +1,7 @@
 //! The GPU objects of a cube map that stay, whatever its lights do.
 
+use std::num::NonZeroU32;
+
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
 
@@ -66,6 +68,17 @@ pub(super) fn faces(
         wgpu::BufferUsages::UNIFORM,
     );
     let size = wgpu::BufferSize::new(size_of::<FaceUniform>() as u64);
+    let (layout, group) = face_group(device, label, &faces, size);
+    (faces, layout, group)
+}
+
+/// A binding of some bytes of the faces' matrices, picked by dynamic offset.
+pub(super) fn face_group(
+    device: &wgpu::Device,
+    label: &str,
+    faces: &wgpu::Buffer,
+    size: Option<wgpu::BufferSize>,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
         entries: &[wgpu::BindGroupLayoutEntry {
@@ -85,13 +98,13 @@ pub(super) fn faces(
         entries: &[wgpu::BindGroupEntry {
             binding: 0,
             resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &faces,
+                buffer: faces,
                 offset: 0,
                 size,
             }),
         }],
     });
-    (faces, layout, group)
+    (layout, group)
 }
 
 /// All that two draws must share to use the same pipeline.
@@ -112,13 +125,17 @@ pub(super) struct PipelineKind {
     pub slope_scale: f32,
     /// Whether casters before the near plane are pulled onto it (`DEPTH_CLIP_CONTROL`).
     pub unclipped_depth: bool,
+    /// Constants of the vertex shader.
+    pub constants: &'static [(&'static str, f64)],
 }
 
+/// `views`: the faces that are drawn at once, by a shader that knows which it is on.
 pub(super) fn pipeline(
     device: &wgpu::Device,
     label: &str,
     kind: &PipelineKind,
     key: PipelineKey,
+    views: Option<NonZeroU32>,
 ) -> wgpu::RenderPipeline {
     let (vertex, fragment) = match kind.encoding {
         DepthEncoding::MajorAxis => ("vertex", None),
@@ -130,7 +147,10 @@ pub(super) fn pipeline(
         vertex: wgpu::VertexState {
             module: &kind.shader,
             entry_point: Some(vertex),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: kind.constants,
+                ..Default::default()
+            },
             buffers: &[
                 Some(wgpu::VertexBufferLayout {
                     array_stride: key.stride,
@@ -169,7 +189,7 @@ pub(super) fn pipeline(
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[],
         }),
-        multiview_mask: None,
+        multiview_mask: views,
         cache: None,
     })
 }

@@ -24,6 +24,7 @@ impl CubeShadowMap {
                 }
             }
         }
+        count += self.joint.as_ref().map_or(0, |joint| joint.room(count));
         let limit = device.limits().max_buffer_size;
         let size = count as u64 * INSTANCE_SIZE;
         if size > limit {
@@ -52,6 +53,7 @@ impl CubeShadowMap {
             if plan.drawn == 0 {
                 continue;
             }
+            self.choose_ways(device, index, plan.drawn);
             let slot = &self.slots[index];
             self.draws
                 .add(index, slot, plan.drawn, &self.scene, frame.casters);
@@ -63,8 +65,9 @@ impl CubeShadowMap {
             let key = draw.key();
             self.pipelines
                 .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
         }
+        self.make_joint_pipelines(device, plans);
         if !self.draws.instances.is_empty() {
             let bytes = bytemuck::cast_slice(&self.draws.instances);
             queue.write_buffer(&self.instances, 0, bytes);

@@ -4,7 +4,7 @@
 #[path = "../../examples/host/gpu.rs"]
 mod gpu;
 #[allow(dead_code)]
-#[path = "../../tests/volume/shapes.rs"]
+#[path = "../../examples/host/shapes.rs"]
 mod shapes;
 
 use glam::camera::rh::{proj::directx as proj, view};
@@ -13,7 +13,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::*;
 use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
-use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, View};
+use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, StartFrom, View};
 use gpu::Gpu;
 use shapes::Shape;
 
@@ -53,17 +53,23 @@ fn casters(gpu: &Gpu) -> Vec<Caster> {
     ]
 }
 
-fn renderer(gpu: &Gpu, silhouettes: Silhouettes) -> ShadowVolumeRenderer {
+fn renderer(gpu: &Gpu, silhouettes: Silhouettes, start_from: StartFrom) -> ShadowVolumeRenderer {
     let descriptor = ShadowVolumeDescriptor {
         silhouettes,
+        start_from,
         ..Default::default()
     };
     ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap()
 }
 
 /// What lies in the buffers after an extraction.
-fn extracted(gpu: &Gpu, way: Silhouettes, light: Vec3, casters: &[Caster]) -> Vec<Volume> {
-    let mut renderer = renderer(gpu, way);
+fn extracted(
+    gpu: &Gpu,
+    (way, start_from): (Silhouettes, StartFrom),
+    light: Vec3,
+    casters: &[Caster],
+) -> Vec<Volume> {
+    let mut renderer = renderer(gpu, way, start_from);
     let view = camera();
     let frame = frame(&view, light, casters);
     renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
@@ -132,8 +138,13 @@ fn count(@builtin(global_invocation_id) id: vec3u) {
 ";
 
 /// The sides that the vertex shader's own functions find, those of one edge added up.
-fn found_by_vertices(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> Vec<Vec<u32>> {
-    let mut renderer = renderer(gpu, Silhouettes::Vertex);
+fn found_by_vertices(
+    gpu: &Gpu,
+    start_from: StartFrom,
+    light: Vec3,
+    casters: &[Caster],
+) -> Vec<Vec<u32>> {
+    let mut renderer = renderer(gpu, Silhouettes::Vertex, start_from);
     let view = camera();
     let frame = frame(&view, light, casters);
     renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
@@ -219,21 +230,47 @@ const LIGHTS: [[f32; 3]; 4] = [
     [0.35, 1.05, -0.15],
 ];
 
+/// Starts from the light and from the far side.
+const STARTS: [StartFrom; 2] = [StartFrom::LightFacing, StartFrom::AwayFacing];
+
+fn sides(volumes: &[Volume]) -> Vec<Vec<u32>> {
+    volumes.iter().map(|volume| volume.sides.clone()).collect()
+}
+
 #[test]
 fn the_three_ways_find_the_same_sides_and_caps() {
     let Some(gpu) = Gpu::for_test() else { return };
     let casters = casters(&gpu);
     for light in LIGHTS.map(Vec3::from) {
-        let cpu = extracted(&gpu, Silhouettes::Cpu, light, &casters);
-        assert_eq!(cpu.len(), casters.len());
-        assert!(
-            cpu.iter()
-                .all(|v| !v.front.is_empty() && !v.sides.is_empty() || light.x == 0.35)
-        );
-        assert!(cpu == extracted(&gpu, Silhouettes::Compute, light, &casters));
-        let sides: Vec<_> = cpu.iter().map(|v| v.sides.clone()).collect();
-        assert!(sides == found_by_vertices(&gpu, light, &casters));
+        for start in STARTS {
+            let cpu = extracted(&gpu, (Silhouettes::Cpu, start), light, &casters);
+            assert_eq!(cpu.len(), casters.len());
+            let inside = light.x == 0.35;
+            let capped = |v: &Volume| !(v.front.is_empty() && v.back.is_empty());
+            assert!(
+                cpu.iter()
+                    .all(|v| capped(v) && !v.sides.is_empty() || inside)
+            );
+            assert!(cpu == extracted(&gpu, (Silhouettes::Compute, start), light, &casters));
+            assert!(sides(&cpu) == found_by_vertices(&gpu, start, light, &casters));
+        }
     }
+}
+
+#[test]
+fn a_closed_mesh_starts_from_one_side_or_the_other() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let casters = casters(&gpu);
+    let light = Vec3::from(LIGHTS[0]);
+    let [facing, away] =
+        STARTS.map(|start| extracted(&gpu, (Silhouettes::Cpu, start), light, &casters));
+    // The first is closed: the same silhouette, and caps that are all of it together.
+    assert_eq!(facing[0].sides, away[0].sides);
+    assert!(facing[0].back.is_empty() && away[0].front.is_empty());
+    let caps = facing[0].front.len() + away[0].back.len();
+    assert_eq!(caps as u32, casters[0].mesh.triangle_count());
+    // The others are not, and know no far side.
+    assert_eq!(facing[1..], away[1..]);
 }
 
 #[test]
@@ -241,8 +278,9 @@ fn another_light_has_another_volume() {
     let Some(gpu) = Gpu::for_test() else { return };
     let casters = casters(&gpu);
     let [here, there] = [Vec3::from(LIGHTS[0]), Vec3::from(LIGHTS[1])];
-    let cpu = extracted(&gpu, Silhouettes::Cpu, here, &casters);
-    assert!(cpu != extracted(&gpu, Silhouettes::Compute, there, &casters));
-    let sides: Vec<_> = cpu.iter().map(|v| v.sides.clone()).collect();
-    assert!(sides != found_by_vertices(&gpu, there, &casters));
+    for start in STARTS {
+        let cpu = extracted(&gpu, (Silhouettes::Cpu, start), here, &casters);
+        assert!(cpu != extracted(&gpu, (Silhouettes::Compute, start), there, &casters));
+        assert!(sides(&cpu) != found_by_vertices(&gpu, start, there, &casters));
+    }
 }

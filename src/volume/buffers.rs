@@ -215,7 +215,8 @@ pub(super) fn window<T>(limits: &wgpu::Limits) -> u64 {
     (size_of::<T>() as u64).next_multiple_of(u64::from(limits.min_uniform_buffer_offset_alignment))
 }
 
-fn spread<T: bytemuck::NoUninit>(items: &[T], device: &wgpu::Device) -> Vec<u8> {
+/// Items one window after another.
+pub(super) fn spread<T: bytemuck::NoUninit>(items: &[T], device: &wgpu::Device) -> Vec<u8> {
     let window = window::<T>(&device.limits()) as usize;
     let mut bytes = vec![0; window * items.len()];
     for (target, item) in bytes.chunks_exact_mut(window).zip(items) {

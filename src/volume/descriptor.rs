@@ -1,8 +1,9 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
-use super::method::{Caps, Count, Extrusion, Method, Skip};
-use super::{Silhouettes, limits};
+use super::method::{Caps, Extrusion, Method};
+use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
+use crate::mesh::Bounds;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
@@ -34,6 +35,8 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub caps: Caps,
     /// How far volumes reach. Default [`Extrusion::ToRange`].
     pub extrusion: Extrusion,
+    /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
+    pub start_from: StartFrom,
     /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
     /// and the draws clipped to what the range covers on screen. Default `true`.
     pub culling: bool,
@@ -43,6 +46,8 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub keep_between_frames: bool,
     /// How silhouettes are found. Default [`Silhouettes::Auto`].
     pub silhouettes: Silhouettes,
+    /// What holds the count. Default [`Counter::Stencil`].
+    pub counter: Counter,
 }
 
 impl Default for ShadowVolumeDescriptor<'_> {
@@ -57,9 +62,11 @@ impl Default for ShadowVolumeDescriptor<'_> {
             method: Method::Auto,
             caps: Caps::AsNeeded,
             extrusion: Extrusion::ToRange,
+            start_from: StartFrom::LightFacing,
             culling: true,
             keep_between_frames: true,
             silhouettes: Silhouettes::Auto,
+            counter: Counter::Stencil,
         }
     }
 }
@@ -94,11 +101,7 @@ impl ShadowVolumeDescriptor<'_> {
             return Err(ShadowVolumeError::SampleCount(self.sample_count));
         }
         check_feature(device, format.required_features(), || format!("{format:?}"))?;
-        if self.depth.clips_far() {
-            check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
-                format!("DepthConvention::{:?}", self.depth)
-            })?;
-        }
+        check_depth(device, self.depth)?;
         self.validate_colors(device)
     }
 
@@ -110,12 +113,30 @@ impl ShadowVolumeDescriptor<'_> {
             }
             check_feature(device, format.required_features(), || format!("{format:?}"))?;
         }
+        let mut targets = self.color_formats.len() as u64;
+        if self.counter == Counter::Exact {
+            check_feature(device, counter::FEATURE, || "Counter::Exact".to_owned())?;
+            targets += 1;
+        }
         limits::check_one(
             "max_color_attachments",
-            self.color_formats.len() as u64,
+            targets,
             u64::from(device.limits().max_color_attachments),
         )
     }
+}
+
+/// Whether the device keeps what lies beyond a far plane.
+pub(super) fn check_depth(
+    device: &wgpu::Device,
+    depth: DepthConvention,
+) -> Result<(), ShadowVolumeError> {
+    if !depth.clips_far() {
+        return Ok(());
+    }
+    check_feature(device, wgpu::Features::DEPTH_CLIP_CONTROL, || {
+        format!("DepthConvention::{depth:?}")
+    })
 }
 
 fn check_feature(
@@ -146,6 +167,15 @@ pub struct ShadowVolumeFrame<'a> {
     /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
     /// of it: the draws are then clipped to what `range` covers on screen. `None`: they are not.
     pub target_size: Option<[u32; 2]>,
+    /// Bounds in world space of everything that is to be shadowed: all surfaces in the pass's depth
+    /// buffer, those of casters included. Volumes then end just behind these bounds, and casters that
+    /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
+    /// default: anywhere.
+    ///
+    /// Worth giving: the whole of a frame's shadows then took 0.6 to 0.7 of the time on a scene of
+    /// 64 spheres around a point light, 0.4 under a directional light (software Vulkan, 1280x720;
+    /// `cargo bench --bench shadow_volume`). The closer the bounds, the better.
+    pub receivers: Option<Bounds>,
     /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
     /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound
     /// outward; z-pass relies on their being drawn.)
@@ -153,13 +183,14 @@ pub struct ShadowVolumeFrame<'a> {
 }
 
 impl<'a> ShadowVolumeFrame<'a> {
-    /// A frame with a light of no range, and no target size.
+    /// A frame with a light of no range, no target size and receivers anywhere.
     pub fn new(view: &'a View, light: HomogeneousLight, casters: &'a [Caster]) -> Self {
         Self {
             view,
             light,
             range: None,
             target_size: None,
+            receivers: None,
             casters,
         }
     }
@@ -175,13 +206,16 @@ pub struct VolumeStatistics {
     pub casters_z_pass: u32,
     /// Those of them that are counted behind the visible surfaces.
     pub casters_z_fail: u32,
+    /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
+    /// as [`StartFrom::AwayFacing`] asks; 0 where it is not asked for.
+    pub casters_away_facing: u32,
     /// Casters left out, for any of the next three reasons.
     pub casters_skipped: u32,
     /// Casters left out because their meshes have no triangles.
     pub skipped_empty: u32,
     /// Casters left out because they are beyond the light's range.
     pub skipped_out_of_range: u32,
-    /// Casters left out because nothing they could shadow is in view.
+    /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,
     /// Draw calls that `render` records.
     pub draws: u32,
@@ -194,21 +228,4 @@ pub struct VolumeStatistics {
     pub gpu_bytes: u64,
     /// Triangles of all casters drawn.
     pub triangles: u64,
-}
-
-impl VolumeStatistics {
-    pub(super) fn skip(&mut self, reason: Skip) {
-        *match reason {
-            Skip::Empty => &mut self.skipped_empty,
-            Skip::OutOfRange => &mut self.skipped_out_of_range,
-            Skip::OutOfView => &mut self.skipped_out_of_view,
-        } += 1;
-    }
-
-    pub(super) fn draw(&mut self, count: Count) {
-        *match count {
-            Count::Pass => &mut self.casters_z_pass,
-            Count::Fail => &mut self.casters_z_fail,
-        } += 1;
-    }
 }

@@ -1,12 +1,14 @@
 //! The pipelines that count a volume's faces in the stencil buffer.
 
-use super::ShadowVolumeDescriptor;
 use super::buffers::Buffers;
+use super::counter::{self, Counter, Counting};
 use super::layout::{storage, uniform};
 use super::method::Count;
 use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces, Plan};
+use super::rule::Counted;
 use super::silhouette::{LIGHT_SIDE, Way};
+use super::{ShadowVolumeDescriptor, StartFrom};
 use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
@@ -21,6 +23,12 @@ const VERTEX: &str = include_str!("../../shaders/volume_vertex.wgsl");
 /// that rounding it counts as behind the surface it belongs to: in z-fail, and not in z-pass. Both
 /// take the same, so that every face counts in exactly one of the two.
 const SIDE_BIAS_ULPS: i32 = 2;
+
+/// How far the dark caps of z-fail are set back, in the same units.
+///
+/// They lie behind everything that is to be shadowed, but perhaps by less than the depth format can
+/// tell or the rasteriser rounds. (In z-pass they are drawn where rays start beyond them.)
+const DARK_CAP_BIAS_ULPS: i32 = 16;
 
 /// What the vertex shaders work from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +56,21 @@ impl Feed {
         }
     }
 
-    fn vertex_buffers(self, faces: Faces) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    /// Binds caster and, where they are pulled, positions, edges, sides.
+    pub(super) fn layout(self, device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
+        let stage = wgpu::ShaderStages::VERTEX;
+        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
+        entries.extend((1..=self.storage_buffers()).map(|binding| storage(binding, stage, true)));
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        })
+    }
+
+    pub(super) fn vertex_buffers(
+        self,
+        faces: Faces,
+    ) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
         const CORNERS: [wgpu::VertexAttribute; 3] =
             wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
         const EDGE: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
@@ -67,28 +89,6 @@ impl Feed {
             }
             (Self::Records, _) => vec![Some(layout(&CORNERS, size_of::<[[f32; 3]; 3]>()))],
         }
-    }
-}
-
-/// z-fail: a back face behind the visible point counts +1, a front face -1; z-pass: a front face
-/// before it +1, a back face -1. Modulo 256, because the faces come in any order.
-fn counting(count: Count) -> wgpu::StencilState {
-    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
-    let face = |pass_op, depth_fail_op| wgpu::StencilFaceState {
-        compare: wgpu::CompareFunction::Always,
-        fail_op: Keep,
-        depth_fail_op,
-        pass_op,
-    };
-    let (front, back) = match count {
-        Count::Fail => (face(Keep, DecrementWrap), face(Keep, IncrementWrap)),
-        Count::Pass => (face(IncrementWrap, Keep), face(DecrementWrap, Keep)),
-    };
-    wgpu::StencilState {
-        front,
-        back,
-        read_mask: 0xff,
-        write_mask: 0xff,
     }
 }
 
@@ -123,7 +123,40 @@ pub(super) struct Style {
     pub faces: Faces,
     /// Whether faces that are clockwise on screen are the volume's front.
     pub clockwise: bool,
+    pub part: Part,
 }
+
+impl Style {
+    /// -1 for faces that are set toward the viewer, 1 for all others.
+    fn away(self) -> i32 {
+        match (self.part, self.faces) {
+            (Part::Front, Faces::Sides) | (Part::Back, Faces::LightCap) => -1,
+            _ => 1,
+        }
+    }
+}
+
+/// The faces of one draw that count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Whole,
+    /// Those seen from outside the volume, of one that starts at the far side of its mesh; see
+    /// `start.rs`.
+    Front,
+    /// The others.
+    Back,
+}
+
+/// What such volumes add.
+const PARTS: [(Count, Faces, Part); 7] = [
+    (Count::Fail, Faces::LightCap, Part::Front),
+    (Count::Fail, Faces::LightCap, Part::Back),
+    (Count::Fail, Faces::Sides, Part::Front),
+    (Count::Fail, Faces::Sides, Part::Back),
+    (Count::Pass, Faces::Sides, Part::Front),
+    (Count::Pass, Faces::Sides, Part::Back),
+    (Count::Pass, Faces::LightCap, Part::Back),
+];
 
 /// z-pass needs no caps, except the fan where rays may start beyond a finite volume.
 const KINDS: [(Count, Faces); 6] = [
@@ -142,33 +175,39 @@ impl DrawPipelines {
         feed: Feed,
         label: &str,
     ) -> Self {
-        let stage = wgpu::ShaderStages::VERTEX;
-        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
-        entries.extend((1..=feed.storage_buffers()).map(|binding| storage(binding, stage, true)));
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(label),
-            entries: &entries,
-        });
+        let layout = feed.layout(device, label);
+        let module = |source: String| {
+            device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            })
+        };
         let factory = Factory {
             device,
             descriptor,
             feed,
             label,
-            module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(feed.source().into()),
-            }),
+            module: module(feed.source()),
+            counting: (descriptor.counter == Counter::Exact)
+                .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(label),
                 bind_group_layouts: &[Some(&layout)],
                 immediate_size: 0,
             }),
         };
-        let styles = KINDS.into_iter().flat_map(|(count, faces)| {
+        let parts = match descriptor.start_from {
+            StartFrom::LightFacing => &[][..],
+            StartFrom::AwayFacing => &PARTS,
+        };
+        let kinds = KINDS.map(|(count, faces)| (count, faces, Part::Whole));
+        let kinds = kinds.iter().chain(parts);
+        let styles = kinds.flat_map(|&(count, faces, part)| {
             [false, true].map(|clockwise| Style {
                 count,
                 faces,
                 clockwise,
+                part,
             })
         });
         let pipelines = styles.map(|style| (style, factory.make(style))).collect();
@@ -249,7 +288,7 @@ fn issue_records(
     };
     // Two triangles that both count are extruded twice where they run through the edge alike.
     let copies = match (mesh.kind(), caster.both_sides) {
-        (MeshKind::Closed, 0) => 1,
+        (MeshKind::Closed, counted) if counted != Counted::All as u32 => 1,
         _ => 2,
     };
     pass.set_vertex_buffer(0, records.edges.slice(..));
@@ -262,6 +301,8 @@ struct Factory<'a> {
     feed: Feed,
     label: &'a str,
     module: wgpu::ShaderModule,
+    /// Holds the fragment shader, where that is what counts.
+    counting: Option<wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
 }
 
@@ -269,17 +310,17 @@ impl Factory<'_> {
     fn make(&self, style: Style) -> wgpu::RenderPipeline {
         let faces = style.faces;
         let label = format!("{} {style:?}", self.label);
-        let entry_point = match faces {
-            Faces::LightCap => "shadows_volume_light_cap",
-            Faces::DarkCap => "shadows_volume_dark_cap",
-            Faces::Sides => "shadows_volume_side",
-            Faces::Fan => "shadows_volume_fan",
+        let nearer = self.descriptor.depth.nearer();
+        let counting = self.descriptor.counter.counting(style.count, nearer);
+        let targets = self.targets(&counting);
+        let (module, fragment) = match &self.counting {
+            Some(counting) => (counting, "shadows_volume_count"),
+            None => (&self.module, "shadows_volume_nothing"),
         };
-        let targets = self.targets();
         // A pass without colour needs no fragment stage, and is faster without.
         let fragment = (!targets.is_empty()).then(|| wgpu::FragmentState {
-            module: &self.module,
-            entry_point: Some("shadows_volume_nothing"),
+            module,
+            entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         });
@@ -289,7 +330,7 @@ impl Factory<'_> {
                 layout: Some(&self.layout),
                 vertex: wgpu::VertexState {
                     module: &self.module,
-                    entry_point: Some(entry_point),
+                    entry_point: Some(faces.entry_point()),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
                     buffers: &self.feed.vertex_buffers(faces),
                 },
@@ -298,12 +339,16 @@ impl Factory<'_> {
                         false => wgpu::FrontFace::Ccw,
                         true => wgpu::FrontFace::Cw,
                     },
-                    cull_mode: None,
+                    cull_mode: match style.part {
+                        Part::Whole => None,
+                        Part::Front => Some(wgpu::Face::Back),
+                        Part::Back => Some(wgpu::Face::Front),
+                    },
                     // Faces beyond a finite far plane must count; clamped, they do.
                     unclipped_depth: self.descriptor.depth.clips_far(),
                     ..Default::default()
                 },
-                depth_stencil: Some(self.depth_stencil(style)),
+                depth_stencil: Some(self.depth_stencil(style, counting)),
                 multisample: wgpu::MultisampleState {
                     count: self.descriptor.sample_count,
                     ..Default::default()
@@ -314,30 +359,33 @@ impl Factory<'_> {
             })
     }
 
-    fn targets(&self) -> Vec<Option<wgpu::ColorTargetState>> {
+    fn targets(&self, counting: &Counting) -> Vec<Option<wgpu::ColorTargetState>> {
         let target = |format| wgpu::ColorTargetState {
             format,
             blend: None,
             write_mask: wgpu::ColorWrites::empty(),
         };
         let formats = self.descriptor.color_formats.iter();
-        formats.map(|format| format.map(target)).collect()
+        let formats = formats.map(|format| format.map(target));
+        formats.chain(counting.target.clone().map(Some)).collect()
     }
 
-    fn depth_stencil(&self, style: Style) -> wgpu::DepthStencilState {
+    fn depth_stencil(&self, style: Style, counting: Counting) -> wgpu::DepthStencilState {
         let depth = self.descriptor.depth;
         let bias = match style.faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
-            // At infinity, or beyond the light's range, they are behind everything as they are.
-            Faces::DarkCap | Faces::Fan => 0,
-        };
+            Faces::DarkCap | Faces::Fan => match style.count {
+                Count::Fail => DARK_CAP_BIAS_ULPS,
+                Count::Pass => 0,
+            },
+        } * style.away();
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),
             // A cap at the visible depth itself is behind it: strictly nearer passes.
-            depth_compare: Some(depth.nearer()),
-            stencil: counting(style.count),
+            depth_compare: Some(counting.depth_compare),
+            stencil: counting.stencil,
             bias: wgpu::DepthBiasState {
                 constant: bias * depth.away(),
                 ..Default::default()

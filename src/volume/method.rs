@@ -21,17 +21,17 @@
 //! so both chains, lie in one open hemisphere, and that number is 0. With the light inside it may
 //! not be, and the full cap is drawn.
 //!
-//! **Finite volumes** end in a plane across the axis from the light through the caster's middle, not
-//! on a sphere: the plane touches the sphere of the light's range from outside, so no chord cuts
-//! through lit space. There any two caps with one boundary are the same chain, and the fan serves.
+//! In a plane, where finite volumes end, any two caps with one boundary are the same chain, and the
+//! fan serves.
 
-use glam::{DVec3, DVec4, Vec4Swizzles as _};
+use glam::{DVec4, Vec4Swizzles as _};
 
-use super::ShadowVolumeFrame;
 use super::descriptor::ShadowVolumeDescriptor;
+use super::far_end::{Ends, FarEnd};
 use super::hull::Hull;
 use super::scissor::{self, Rect};
 use super::world_box::WorldBox;
+use super::{ShadowVolumeFrame, StartFrom};
 use crate::{HomogeneousLight, View};
 
 /// Which of a volume's faces are counted.
@@ -58,14 +58,15 @@ pub enum Caps {
     Full,
 }
 
-/// How far the volumes of a point light reach.
+/// How far volumes reach.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Extrusion {
     /// To infinity.
     Infinite,
-    /// Past the frame's `range`, for less to fill: every shadow is complete within the range, and
-    /// beyond it, where the light must have no effect, there may be none. Casters around the light,
-    /// and lights without a range, have infinite volumes all the same.
+    /// Past the frame's `range` or its `receivers`, for less to fill: every shadow is complete
+    /// within the range and on the receivers, and beyond them, where the light must have no effect
+    /// or nothing is, there may be none. Casters around the light, and lights without a range where
+    /// the receivers are not known, have infinite volumes all the same.
     #[default]
     ToRange,
 }
@@ -77,6 +78,7 @@ pub(super) struct Options {
     pub caps: Caps,
     pub extrusion: Extrusion,
     pub culling: bool,
+    pub start_from: StartFrom,
 }
 
 impl Options {
@@ -86,6 +88,7 @@ impl Options {
             caps: descriptor.caps,
             extrusion: descriptor.extrusion,
             culling: descriptor.culling,
+            start_from: descriptor.start_from,
         }
     }
 
@@ -132,37 +135,33 @@ pub(super) struct Form {
     pub far: FarEnd,
 }
 
-/// Where far vertices go: `direction + w light` with `w = plane . direction`, homogeneous.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FarEnd {
-    /// The axis over the distance of the plane; 0 for infinity.
-    pub plane: DVec3,
-    /// The fan's own point, homogeneous.
-    pub apex: DVec4,
-}
-
 /// What the choices of one frame depend on.
 #[derive(Debug)]
 pub(super) struct Rules {
     options: Options,
     light: HomogeneousLight,
-    range: Option<f64>,
     /// Where rays start.
     origins: Vec<DVec4>,
+    ends: Ends,
     /// From there to the light: what misses it casts no shadow on the near rectangle.
     near: Hull,
     /// From all that is visible to the light: what misses it casts no visible shadow.
     visible: Hull,
+    /// From the receivers to the light: what misses it shadows none of them.
+    receiving: Option<Hull>,
     light_reaches_view: bool,
 }
 
 impl Rules {
     pub fn new(frame: &ShadowVolumeFrame<'_>, options: Options) -> Self {
         let light = frame.light.0.as_dvec4();
-        let range = frame.range.filter(|_| !frame.light.is_directional());
-        let range = range.map(f64::from);
         let view = frame.view;
         let origins = origins(view);
+        let ends = Ends::new(frame, origins.clone());
+        let range = ends.range;
+        let receiving = ends
+            .receivers()
+            .map(|box_| Hull::new(&with(&box_, unit(light))));
         let mut frustum: Vec<DVec4> = view.near_corners().map(|c| c.extend(1.0)).to_vec();
         // Endless: a far plane hides little, and its corners are badly known in f32 matrices.
         frustum.extend(view.sight_lines().map(|d| d.normalize().extend(0.0)));
@@ -172,11 +171,12 @@ impl Rules {
         Self {
             options,
             light: frame.light,
-            range,
             near: Hull::new(&with(&origins, unit(light))),
             visible: Hull::new(&frustum),
+            receiving,
             light_reaches_view,
             origins,
+            ends,
         }
     }
 
@@ -186,10 +186,14 @@ impl Rules {
             return None;
         }
         let beyond = |range| world.distance(self.light.0.xyz().as_dvec3()) > range;
-        if self.range.is_some_and(beyond) {
+        if self.ends.range.is_some_and(beyond) {
             return Some(Skip::OutOfRange);
         }
-        if !self.light_reaches_view || self.visible.misses(world) {
+        let nowhere = self
+            .receiving
+            .as_ref()
+            .is_some_and(|hull| hull.misses(world));
+        if !self.light_reaches_view || self.visible.misses(world) || nowhere {
             return Some(Skip::OutOfView);
         }
         None
@@ -203,57 +207,55 @@ impl Rules {
             Method::Auto if self.near.misses(world) => Count::Pass,
             Method::Auto => Count::Fail,
         };
-        let far = self.far_end(world);
+        let far = self.far_end(world, count);
         let full = self.options.caps == Caps::Full;
         let directional = self.light.is_directional();
         let dark_cap = match count {
-            Count::Pass if self.starts_beyond(far.plane) => DarkCap::Fan,
+            Count::Pass if self.starts_beyond(&far) => DarkCap::Fan,
             Count::Pass => DarkCap::None,
             Count::Fail if full || !world.excludes(self.light) => DarkCap::Full,
-            Count::Fail if directional => DarkCap::None,
+            Count::Fail if directional && far.is_infinite() => DarkCap::None,
             Count::Fail => DarkCap::Fan,
         };
         Form {
             count,
             dark_cap,
-            side_vertices: if directional && !full { 3 } else { 6 },
+            side_vertices: if directional && !full && far.is_infinite() {
+                3
+            } else {
+                6
+            },
             far,
         }
     }
 
-    fn far_end(&self, world: &WorldBox) -> FarEnd {
-        let light = self.light.0.xyz().as_dvec3();
-        let axis = (world.centre() - light).normalize_or_zero();
-        let infinite = FarEnd {
-            plane: DVec3::ZERO,
-            apex: axis.extend(0.0),
-        };
-        let from_light = axis.dot(light);
-        let (nearest, farthest) = (world.nearest(axis), world.farthest(axis));
-        // Only what is wholly on one side of the light can be cast onto one plane; a thousandth
-        // keeps rounding from moving a vertex to the other side.
-        let one_sided = nearest - from_light > 1e-3 * (farthest - from_light);
-        match (self.range, self.options.extrusion) {
-            (Some(range), Extrusion::ToRange) if one_sided && world.excludes(self.light) => {
-                // Beyond the caster, too, or its far part would be turned inside out. The factor
-                // covers what f32 makes of the plane.
-                let distance = range.max(farthest - from_light) * 1.001;
-                FarEnd {
-                    plane: axis / distance,
-                    apex: (light + axis * distance).extend(1.0),
-                }
-            }
-            _ => infinite,
+    /// The nearest end that leaves every shadow whole.
+    fn far_end(&self, world: &WorldBox, count: Count) -> FarEnd {
+        let infinite = self.ends.infinite(world);
+        if self.options.extrusion == Extrusion::Infinite {
+            return infinite;
+        }
+        let end = self.ends.at_range(world).unwrap_or(infinite);
+        let end = self.ends.behind_receivers(world, end);
+        // Dark caps that z-fail counts are pushed away from the viewer: none may be before a receiver.
+        match count {
+            Count::Fail if self.starts_beyond(&end) => infinite,
+            _ => end,
         }
     }
 
     /// Whether a ray may start beyond the plane that ends the volume, and so pass its dark cap on
     /// the way to a point within the range.
-    fn starts_beyond(&self, plane: DVec3) -> bool {
+    fn starts_beyond(&self, far: &FarEnd) -> bool {
+        // Ends behind receivers are only chosen where none does.
+        if far.is_infinite() || self.light.is_directional() {
+            return false;
+        }
+        let plane = far.plane.xyz();
         let light = self.light.0.xyz().as_dvec3();
         // Well before the plane, so that rounding cannot matter.
         let before = |p: &DVec4| plane.dot(p.xyz() - light * p.w) < 0.999 * p.w;
-        plane != DVec3::ZERO && !self.origins.iter().all(before)
+        !self.origins.iter().all(before)
     }
 }
 

@@ -12,11 +12,18 @@
 //! 2008, called it multiplicity). Closedness therefore does not depend on rounding.
 
 mod buffers;
+mod counter;
+mod debug;
+mod debug_colors;
+mod debug_pipelines;
 mod descriptor;
 mod draw;
+mod exact_count;
+mod far_end;
 mod groups;
 mod hull;
 mod kept;
+mod layers;
 mod layout;
 mod light_pass;
 mod limits;
@@ -29,13 +36,25 @@ mod renderer;
 mod rule;
 mod scissor;
 mod screen;
+mod screen_area;
 mod silhouette;
+mod skin;
+mod start;
+mod statistics;
 mod subject;
+mod survey;
 mod world_box;
 
+pub use counter::Counter;
+pub use debug::{VolumeDebug, VolumeDebugDescriptor};
+pub use debug_colors::DebugColors;
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+pub use exact_count::{ExactCount, ExactCountDescriptor};
 pub use light_pass::{LightJoin, LightJoinDescriptor};
 pub use mask::{ShadowMask, ShadowMaskDescriptor};
 pub use method::{Caps, Extrusion, Method};
 pub use renderer::ShadowVolumeRenderer;
 pub use silhouette::Silhouettes;
+pub use start::StartFrom;
+pub use statistics::CasterState;
+pub use survey::VolumeSurvey;

@@ -2,14 +2,15 @@
 
 use glam::Mat4;
 
-use super::draw::Style;
+use super::draw::{Part, Style};
 use super::kept::{Kept, Slot};
 use super::method::{Count, DarkCap, Form, Options};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::regions::{Overflow, Place, Regions, Words};
-use super::rule;
+use super::rule::{self, Counted};
 use super::scissor::Rect;
 use super::silhouette::{Counts, Way, Ways};
+use super::statistics::{CasterState, Tally};
 use super::subject::{Subject, subjects, validate};
 use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::error::ShadowVolumeError;
@@ -23,6 +24,26 @@ pub(super) enum Faces {
     Sides,
     /// The dark cap as a fan over the silhouette.
     Fan,
+}
+
+impl Draw {
+    /// Whether another draw has the same faces, this one being for those that it leaves out.
+    pub fn is_repeat(&self) -> bool {
+        let alone = (self.style.count, self.style.faces) == (Count::Pass, Faces::LightCap);
+        self.style.part == Part::Back && !alone
+    }
+}
+
+impl Faces {
+    /// The vertex shader that places them.
+    pub fn entry_point(self) -> &'static str {
+        match self {
+            Self::LightCap => "shadows_volume_light_cap",
+            Self::DarkCap => "shadows_volume_dark_cap",
+            Self::Sides => "shadows_volume_side",
+            Self::Fan => "shadows_volume_fan",
+        }
+    }
 }
 
 /// One draw. Ordered so that draws of one pipeline follow each other.
@@ -67,6 +88,8 @@ pub(super) struct Plan {
     /// For each instance, what its volume follows from.
     pub slots: Vec<Slot>,
     pub statistics: VolumeStatistics,
+    /// For each caster of the frame, what became of it.
+    pub states: Vec<CasterState>,
     /// What of the target is drawn to, and the target's size.
     pub scissor: Option<(Rect, [u32; 2])>,
 }
@@ -101,8 +124,8 @@ impl Plan {
         means: &Means<'_>,
     ) -> Result<Self, ShadowVolumeError> {
         validate(frame, device)?;
-        let mut statistics = VolumeStatistics::default();
-        let subjects = subjects(frame, means, limits, &mut statistics)?;
+        let mut tally = Tally::default();
+        let subjects = subjects(frame, means, limits, &mut tally)?;
         let count = subjects.len();
         if count > limits.casters {
             return Err(ShadowVolumeError::TooManyCasters {
@@ -122,8 +145,9 @@ impl Plan {
             casters_skipped: (frame.casters.len() - plan.casters.len()) as u32,
             draws: plan.draws.len() as u32,
             triangles: plan.triangles(),
-            ..statistics
+            ..tally.statistics
         };
+        plan.states = tally.states;
         plan.scissor = means.options.scissor(frame);
         plan.count_extraction();
         Ok(plan)
@@ -196,11 +220,13 @@ impl Plan {
             instance: instance_params(subject, &place),
             way: subject.way,
             counts: Counts::default(),
+            layers: None,
             ready: false,
             drawn: subject.form.is_some(),
         };
         if let Some(kept) = kept.get(instance as usize, &slot) {
             slot.counts = kept.counts;
+            slot.layers = kept.layers;
             slot.ready = true;
         }
         let batch = self.batch(&slot, limits.workgroups);
@@ -219,7 +245,7 @@ impl Plan {
             clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
             world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
             light: rule::world_light(frame.light),
-            far_plane: form.far.plane.as_vec3().extend(0.0).to_array(),
+            far_plane: form.far.plane.as_vec4().to_array(),
             apex: form.far.apex.as_vec4().to_array(),
             position_stride: params.position_stride,
             position_offset: params.position_offset,
@@ -227,7 +253,7 @@ impl Plan {
             side_vertices: form.side_vertices,
             object_light: subject.light.light,
             object_light_rest: subject.light.rest,
-            both_sides: u32::from(subject.both_sides),
+            both_sides: subject.counted as u32,
         });
         self.draw(subject, &form, frame, [instance, params_place]);
         Ok(())
@@ -266,33 +292,38 @@ impl Plan {
     ) {
         // A cap that counts +1 is counter-clockwise seen from the light, in the mesh's own space.
         let clockwise = subject.mirrored != rule::is_left_handed(frame.view);
-        let mut push = |faces, clockwise, back| {
-            self.draws.push(Draw {
+        let mut push = |faces, clockwise, back, parts: &[Part]| {
+            self.draws.extend(parts.iter().map(|&part| Draw {
                 style: Style {
                     count: form.count,
                     faces,
                     clockwise,
+                    part,
                 },
                 instance,
                 caster,
                 back,
-            });
+            }));
         };
-        push(Faces::Sides, clockwise, false);
+        let parts = match subject.counted {
+            Counted::AwayFacing => &[Part::Front, Part::Back][..],
+            Counted::LightFacing | Counted::All => &[Part::Whole],
+        };
+        push(Faces::Sides, clockwise, false, parts);
         if form.dark_cap == DarkCap::Fan {
-            push(Faces::Fan, clockwise, false);
+            push(Faces::Fan, clockwise, false, &[Part::Whole]);
         }
-        if form.count == Count::Pass {
-            return;
-        }
-        for back in [false, true] {
-            // Where vertex shaders decide, they turn the caps that count -1 over.
-            if back && (!subject.both_sides || subject.way == Way::Vertex) {
-                continue;
+        for &back in subject.cap_lists() {
+            match (form.count, subject.counted) {
+                (Count::Fail, _) => push(Faces::LightCap, clockwise != back, back, parts),
+                // Where the mesh's far side is what is seen, its cap lies before it.
+                (Count::Pass, Counted::AwayFacing) => {
+                    push(Faces::LightCap, clockwise != back, back, &[Part::Back]);
+                }
+                (Count::Pass, _) => {}
             }
-            push(Faces::LightCap, clockwise != back, back);
             if form.dark_cap == DarkCap::Full {
-                push(Faces::DarkCap, clockwise == back, back);
+                push(Faces::DarkCap, clockwise == back, back, &[Part::Whole]);
             }
         }
     }
@@ -323,7 +354,7 @@ fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
     InstanceParams {
         light: subject.light.light,
         light_rest: subject.light.rest,
-        both_sides: u32::from(subject.both_sides),
+        both_sides: subject.counted as u32,
         facing_base: place.facing,
         cap_base: place.cap,
         side_base: place.side,

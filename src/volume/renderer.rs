@@ -6,11 +6,13 @@ use super::buffers::{Buffers, window};
 use super::draw::{self, DrawPipelines, Feed, issue};
 use super::groups::{Groups, Parts};
 use super::kept::Kept;
+use super::layers;
 use super::method::Options;
 use super::params::{Arguments, BatchParams, CasterParams};
-use super::plan::{Batch, Means, Plan, PlanLimits};
+use super::plan::{Batch, Draw, Means, Plan, PlanLimits};
 use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
-use super::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+use super::statistics::CasterState;
+use super::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
 
@@ -27,10 +29,16 @@ use crate::error::ShadowVolumeError;
 ///    [`light_pass_stencil`](Self::light_pass_stencil).
 ///
 /// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
-/// and is lit: casters that stack that deep along a light ray want fewer, closed meshes.
+/// and is lit: casters that stack that deep along a light ray want
+/// [`Counter::Exact`](crate::Counter::Exact) or fewer, closed meshes.
+/// [`may_wrap`](Self::may_wrap) says whether that can happen.
 ///
-/// A light nearer to a triangle than about 3e-5 of the triangle's size leaves wrong pixels along
-/// the horizon of that triangle: its corners' points at infinity then cancel in f32 clip space.
+/// A light may be as near to a caster as a millionth of its size, if it is outside of the box around
+/// the mesh. Within the box, nearer to a large triangle than about 1e-5 of its size, or to an edge
+/// than 3e-6 of its length, up to 1 % of the pixels come out wrong along the light's horizon: the
+/// corners' points at infinity then lie almost in one line of clip space. And where shaders find the
+/// silhouettes, a triangle that the light is nearer to than about 1e-6 of its size may count as seen
+/// edge-on and cast nothing; the CPU decides in f64 there.
 #[derive(Debug)]
 pub struct ShadowVolumeRenderer {
     device: wgpu::Device,
@@ -49,8 +57,16 @@ pub struct ShadowVolumeRenderer {
     plan: Plan,
     keep: bool,
     options: Options,
+    counter: Counter,
     /// Whether `encode` was called since the last `prepare`.
     encoded: AtomicBool,
+}
+
+/// What the last frame draws, and where it lies.
+pub(super) struct Drawn<'a> {
+    pub plan: &'a Plan,
+    pub buffers: &'a Buffers,
+    pub depth: DepthConvention,
 }
 
 impl ShadowVolumeRenderer {
@@ -86,13 +102,16 @@ impl ShadowVolumeRenderer {
             groups: Groups::default(),
             plan: Plan::default(),
             options: Options::of(descriptor),
+            counter: descriptor.counter,
             keep: descriptor.keep_between_frames,
             encoded: AtomicBool::new(false),
             label,
         })
     }
 
-    /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster.
+    /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster. A
+    /// caster that is skipped because it is out of view takes about 0.12 microseconds of CPU time
+    /// (10,000 of them, 2.6 GHz; `cargo bench --bench shadow_volume`).
     ///
     /// GPU memory, kept between frames and grown as needed: about 28 bytes a triangle and instance,
     /// and 720 a caster; up to twice that, because buffers grow to powers of two. Casters out of
@@ -174,7 +193,8 @@ impl ShadowVolumeRenderer {
     }
 
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
-    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only).
+    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only). With
+    /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
     /// gave a target size and a range, also the scissor rectangle, which is then the whole target.
@@ -194,7 +214,7 @@ impl ShadowVolumeRenderer {
                 Way::Vertex => self.fed.as_ref(),
                 Way::Compute | Way::Cpu => self.pulled.as_ref(),
             };
-            let (Some(pipelines), Some(group)) = (pipelines, self.groups.get(batch)) else {
+            let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw)) else {
                 continue;
             };
             let state = (draw.style, way == Way::Vertex);
@@ -205,8 +225,6 @@ impl ShadowVolumeRenderer {
                 pass.set_pipeline(pipeline);
                 current = Some(state);
             }
-            let step = window::<CasterParams>(&self.device.limits()) as u32;
-            pass.set_bind_group(0, &group.draw, &[draw.caster * step]);
             issue(pass, draw, &self.plan, &self.buffers);
         }
         if let Some((_, [width, height])) = self.plan.scissor {
@@ -234,6 +252,56 @@ impl ShadowVolumeRenderer {
         self.plan.statistics
     }
 
+    /// What was decided for each caster of the last frame that was prepared, in the frame's order.
+    pub fn caster_states(&self) -> &[CasterState] {
+        &self.plan.states
+    }
+
+    /// What the debug views draw from.
+    pub(super) fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            plan: &self.plan,
+            buffers: &self.buffers,
+            depth: self.depth,
+        }
+    }
+
+    /// Sets the bind group that a draw reads, if it is there.
+    pub(super) fn bind_volume(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
+        let batch = self.plan.batch_of[draw.instance as usize] as usize;
+        let Some(group) = self.groups.get(batch) else {
+            return false;
+        };
+        let step = window::<CasterParams>(&self.device.limits()) as u32;
+        pass.set_bind_group(0, &group.draw, &[draw.caster * step]);
+        true
+    }
+
+    /// No visible point is in more volumes than this, of those that the last
+    /// [`prepare`](Self::prepare) draws.
+    ///
+    /// The bound is 1 for a convex caster and grows with the number of silhouette edges that one
+    /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
+    /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
+    ///
+    /// Takes the CPU once or twice as long as extracting the volumes drawn
+    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)); what a caster comes to is kept with its
+    /// volume, and what is left to do where nothing moved is to sort the casters: on the example's
+    /// scenes 3 for `spheres`, 17 for `teapot` and 62 for `courtyard`, there in 32 ms the first time
+    /// and 0.05 ms each time after.
+    pub fn count_bound(&mut self) -> u64 {
+        layers::bound(&mut self.plan, &mut self.on_cpu)
+    }
+
+    /// Whether the counter could wrap in the frame prepared last, so that a point in shadow would
+    /// be lit: [`count_bound`](Self::count_bound) is at least 256, or with
+    /// [`Counter::Exact`](crate::Counter::Exact) 2^24.
+    ///
+    /// `false` is certain. `true` may be a false alarm, for the bound is not the count.
+    pub fn may_wrap(&mut self) -> bool {
+        self.count_bound() >= self.counter.end()
+    }
+
     /// Extracts on the CPU what is extracted there.
     fn extract(&mut self, queue: &wgpu::Queue, plan: &mut Plan) {
         for slot in plan.stale_on_cpu() {
@@ -243,15 +311,17 @@ impl ShadowVolumeRenderer {
                 continue;
             };
             let volume = &mut self.on_cpu;
-            volume.extract(mesh, slot.mesh.kind(), &slot.instance);
-            slot.counts = volume.counts();
-            let write = |buffer, words: &[u32], place: u32| {
-                queue.write_buffer(buffer, u64::from(place) * 4, bytemuck::cast_slice(words));
-            };
-            write(caps, &volume.front, slot.instance.cap_base);
-            let after = slot.instance.cap_base + slot.counts.front;
-            write(caps, &volume.back, after);
-            write(sides, &volume.sides, slot.instance.side_base);
+            slot.counts = volume.extract(mesh, slot.mesh.kind(), &slot.instance);
+            let at = |place: u32| u64::from(place) * 4;
+            // Caps are most of it, and go where the queue takes them from.
+            let caps_size = at(slot.counts.front) + at(slot.counts.back);
+            let staging = wgpu::BufferSize::new(caps_size)
+                .and_then(|size| queue.write_buffer_with(caps, at(slot.instance.cap_base), size));
+            if let Some(mut staging) = staging {
+                volume.write_caps(mesh, staging.slice(..));
+            }
+            let words = bytemuck::cast_slice(&volume.sides);
+            queue.write_buffer(sides, at(slot.instance.side_base), words);
         }
     }
 

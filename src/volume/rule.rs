@@ -3,20 +3,52 @@
 use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4Swizzles as _};
 
 use super::world_box::WorldBox;
+use super::{ShadowVolumeFrame, StartFrom};
 use crate::error::CasterError;
 use crate::mesh::MeshKind;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
+/// Which triangles of a mesh count; as the shaders have it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Counted {
+    /// Those facing the light.
+    LightFacing = 0,
+    /// All, turned toward the light.
+    All = 1,
+    /// Those turned away from the light, turned over.
+    AwayFacing = 2,
+}
+
+impl Counted {
+    pub fn of(
+        caster: &Caster,
+        world: &WorldBox,
+        frame: &ShadowVolumeFrame<'_>,
+        start: StartFrom,
+    ) -> Self {
+        match start {
+            _ if counts_both_sides(caster, world, frame.light, frame.view) => Self::All,
+            // Inside out, the triangles turned away would be those that the light reaches. Where only
+            // the GPU knows the positions, the host is believed.
+            StartFrom::AwayFacing if caster.mesh.is_solid() || caster.mesh.data().is_none() => {
+                Self::AwayFacing
+            }
+            StartFrom::LightFacing | StartFrom::AwayFacing => Self::LightFacing,
+        }
+    }
+}
+
 /// Whether every triangle has to count, turned toward the light, or the light-facing ones suffice.
 ///
-/// They suffice for a closed, consistently wound mesh if the light and the near rectangle are both
+/// They, or those turned away alone, suffice for a closed, consistently wound mesh if the light and the near rectangle are both
 /// outside it. Proof: along the segment from a visible point P to the light L, let f triangles be
 /// crossed that face the light and b that do not. A crossing changes the mesh's winding number by
 /// one, in opposite directions for the two kinds, so w(P) - w(L) = ±(f - b). L is outside: w(L) = 0.
 /// The sight line from the near rectangle to P crosses no surface (P is what is visible), so w(P)
-/// is that of the near rectangle, 0. Hence f = b, and f > 0 exactly if anything is crossed at all.
+/// is that of the near rectangle, 0. Hence f = b, and both are above 0 exactly if
+/// anything is crossed at all.
 /// With L or the eye inside, f and b differ, and f = 0 may go with b > 0.
-pub(super) fn counts_both_sides(
+fn counts_both_sides(
     caster: &Caster,
     world: &WorldBox,
     light: HomogeneousLight,
@@ -58,6 +90,12 @@ impl ObjectLight {
             light: rounded.extend(light.0.w).to_array(),
             rest: rest.to_array(),
         })
+    }
+
+    /// The sum of the two.
+    pub fn exact(&self) -> DVec3 {
+        let [x, y, z, _] = self.light;
+        Vec3::new(x, y, z).as_dvec3() + Vec3::from(self.rest).as_dvec3()
     }
 }
 

@@ -2,29 +2,41 @@
 
 use std::collections::HashMap;
 
-use super::method::{Form, Rules, Skip};
+use super::ShadowVolumeFrame;
+use super::method::{Caps, Form, Rules, Skip};
 use super::plan::{Means, PlanLimits};
 use super::regions::Words;
-use super::rule::{self, ObjectLight};
+use super::rule::{Counted, ObjectLight};
 use super::silhouette::Way;
+use super::skin;
+use super::statistics::Tally;
 use super::world_box::WorldBox;
-use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::Caster;
 use crate::error::{LightError, ShadowVolumeError};
-use crate::mesh::{CasterMesh, MeshKind};
+use crate::mesh::{Bounds, CasterMesh, MeshKind};
 
 /// A caster that has a place in the buffers.
 pub(super) struct Subject {
     pub light: ObjectLight,
     /// What is drawn of it; `None` if it only keeps its place until it comes into view again.
     pub form: Option<Form>,
-    pub both_sides: bool,
+    pub counted: Counted,
     pub mirrored: bool,
     pub way: Way,
     pub index: usize,
 }
 
 impl Subject {
+    /// The lists of caps that are drawn: those that count +1 (`false`), those that count -1.
+    pub fn cap_lists(&self) -> &'static [bool] {
+        match (self.way, self.counted) {
+            // Where vertex shaders decide, they turn the caps that count -1 over.
+            (Way::Vertex, _) | (_, Counted::LightFacing) => &[false],
+            (_, Counted::All) => &[false, true],
+            (_, Counted::AwayFacing) => &[true],
+        }
+    }
+
     /// Words for facings, caps and sides, the worst case: they cannot overflow.
     ///
     /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its
@@ -59,6 +71,12 @@ pub(super) fn validate(
     if let Some(size) = frame.target_size.filter(|size| size.contains(&0)) {
         return Err(ShadowVolumeError::TargetSize(size));
     }
+    if let Some(Bounds { min, max }) = frame.receivers
+        && !(min.is_finite() && max.is_finite() && min.cmple(max).all())
+    {
+        let [min, max] = [min, max].map(|corner| corner.to_array());
+        return Err(ShadowVolumeError::Receivers { min, max });
+    }
     for (index, caster) in frame.casters.iter().enumerate() {
         caster.validate(index, device)?;
     }
@@ -74,14 +92,14 @@ pub(super) fn subjects(
     frame: &ShadowVolumeFrame<'_>,
     means: &Means<'_>,
     limits: &PlanLimits,
-    statistics: &mut VolumeStatistics,
+    tally: &mut Tally,
 ) -> Result<Vec<Subject>, ShadowVolumeError> {
     let rules = Rules::new(frame, means.options);
     let mut groups: Vec<Vec<Subject>> = Vec::new();
     let mut group_of = HashMap::new();
     let mut total = [0_u64; 3];
     for (index, caster) in frame.casters.iter().enumerate() {
-        let Some(subject) = subject(frame, means, &rules, (index, caster), statistics)? else {
+        let Some(subject) = subject(frame, means, &rules, (index, caster), tally)? else {
             continue;
         };
         for (total, words) in total.iter_mut().zip(subject.words(&caster.mesh)) {
@@ -109,7 +127,7 @@ fn subject(
     means: &Means<'_>,
     rules: &Rules,
     (index, caster): (usize, &Caster),
-    statistics: &mut VolumeStatistics,
+    tally: &mut Tally,
 ) -> Result<Option<Subject>, ShadowVolumeError> {
     let map = caster.transform();
     let light = ObjectLight::new(frame.light, &map, index)?;
@@ -117,7 +135,7 @@ fn subject(
     let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
     let skip = empty.or_else(|| rules.skips(&world));
     if let Some(skip) = skip {
-        statistics.skip(skip);
+        tally.note(skip.into());
         if !(skip == Skip::OutOfView && means.keep) {
             return Ok(None);
         }
@@ -126,14 +144,24 @@ fn subject(
         .ways
         .of(&caster.mesh)
         .ok_or(ShadowVolumeError::HostPositions { index })?;
-    let form = skip.is_none().then(|| rules.form(&world));
+    let form = skip.is_none().then(|| {
+        let mut form = rules.form(&world);
+        if means.options.caps == Caps::AsNeeded {
+            let own = (caster.mesh.bounds(), &map);
+            skin::settle(&mut form, own, frame.light, light.exact(), &world);
+        }
+        form
+    });
+    let counted = Counted::of(caster, &world, frame, means.options.start_from);
     if let Some(form) = &form {
-        statistics.draw(form.count);
+        let away = counted == Counted::AwayFacing;
+        tally.statistics.casters_away_facing += u32::from(away);
+        tally.note(form.count.into());
     }
     Ok(Some(Subject {
         light,
         form,
-        both_sides: rule::counts_both_sides(caster, &world, frame.light, frame.view),
+        counted,
         mirrored: map.matrix3.determinant() < 0.0,
         way,
         index,

@@ -62,6 +62,11 @@ impl WorldBox {
         outside.max(DVec3::ZERO).length()
     }
 
+    /// The greatest distance from a point.
+    pub fn reach(&self, point: DVec3) -> f64 {
+        self.centre.distance(point) + self.radius + self.slack.length()
+    }
+
     /// The least of `normal . p` over the points p of the box.
     pub fn nearest(&self, normal: DVec3) -> f64 {
         normal.dot(self.centre) - self.extent(normal)

@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use shadows::glam::camera::{lh, rh};
 use shadows::glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadows::reference::{Class, Interior, ReferenceImage, ReferenceScene};
-use shadows::{DepthConvention, HomogeneousLight, View};
+use shadows::{DepthConvention, HomogeneousLight, SpotLight, View};
 
 use crate::scene::{
     EYE, SIDE, crosses, disagreements, downward, from_above, furnished, ground, ground_under,
@@ -43,6 +43,73 @@ fn a_rectangle_casts_its_projection() {
         let moved = HomogeneousLight(light.0 + Vec4::new(0.1, 0.0, 0.0, 0.0));
         assert!(disagreements(&image, |x, y| expected(x, y, moved)).0 > 0);
     }
+}
+
+#[test]
+fn a_spot_lights_a_disk_of_the_ground_below() {
+    let (ground, roof) = (ground(), rectangle(Vec2::NEG_ONE, Vec2::ONE, 2.0));
+    let spot = SpotLight {
+        position: Vec3::new(0.3, 3.0, -0.2),
+        direction: Vec3::NEG_Y * 7.0,
+        half_angle: 0.6,
+        near: 0.1,
+        range: 30.0,
+    };
+    let scene = ReferenceScene::new(&[ground.object(false), roof.object(false)]).unwrap();
+    let view = downward(EYE, 0.1);
+    let image = scene.render_spot(&view, SIDE, SIDE, &spot).unwrap();
+    let expected = |half_angle: f64| {
+        move |x, y| {
+            let point = ground_under(x, y, EYE);
+            let eye = EYE.as_dvec3();
+            let on_roof = point + (eye - point) * (2.0 / eye.y);
+            // What a pixel sees is the roof where that is in the way.
+            let at = match on_roof.x.abs() <= 1.0 && on_roof.z.abs() <= 1.0 {
+                true => on_roof,
+                false => point,
+            };
+            let along = at - spot.position.as_dvec3();
+            let inside = along.angle_between(DVec3::NEG_Y) <= half_angle;
+            Some(if inside {
+                Class::Lit
+            } else {
+                Class::OutOfRange
+            })
+        }
+    };
+    let exact = f64::from(spot.half_angle);
+    assert_eq!(disagreements(&image, expected(exact)).0, 0);
+    assert!(image.count(Class::OutOfRange) > 100 && image.lit_facing() > 100);
+    // The twin: a wider cone.
+    assert!(disagreements(&image, expected(exact + 0.05)).0 > 0);
+}
+
+#[test]
+fn the_penumbra_of_a_straight_edge_is_a_segment_of_the_disk() {
+    // An edge half-way up to the light, along z.
+    let roof = rectangle(Vec2::new(0.0, -20.0), Vec2::new(20.0, 20.0), 2.0);
+    let ground = ground();
+    let scene = ReferenceScene::new(&[ground.object(false), roof.object(true)]).unwrap();
+    let light = HomogeneousLight::point(Vec3::new(0.0, 4.0, 0.0));
+    let eye = Vec3::new(0.0, 1.0, 0.0);
+    let image = scene
+        .render(&downward(eye, 0.1), SIDE, SIDE, light, None)
+        .unwrap();
+    let pixels: Vec<[u32; 2]> = (0..SIDE).map(|x| [x, SIDE / 2]).collect();
+    let worst = |radius: f64, expected_radius: f64| {
+        let seen = image.area_visibility(&pixels, radius, 1024);
+        let errors = pixels.iter().zip(seen).map(|(&[x, y], seen)| {
+            // The places of the disk on the other side of the edge.
+            let t = (-ground_under(x, y, eye).x / expected_radius).clamp(-1.0, 1.0);
+            let beyond = (t.acos() - t * (1.0 - t * t).sqrt()) / f64::from(PI);
+            (seen.unwrap() - (1.0 - beyond)).abs()
+        });
+        errors.fold(0.0, f64::max)
+    };
+    assert!(worst(0.4, 0.4) < 0.02, "{}", worst(0.4, 0.4));
+    // The twin: a smaller light.
+    assert!(worst(0.3, 0.4) > 0.05);
+    assert_eq!(image.area_visibility(&[[0, SIDE]], 0.4, 16), [None]);
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
-    Caps, Caster, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, VolumeStatistics, wgpu,
+    Caps, Caster, Counter, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
+    ShadowVolumeRenderer, Silhouettes, StartFrom, VolumeStatistics, wgpu,
 };
 
 use crate::host::gpu::Gpu;
@@ -17,6 +17,8 @@ pub const TEXTBOOK: Savings = Savings {
     extrusion: Extrusion::Infinite,
     unculled: true,
     silhouettes: Silhouettes::Auto,
+    start_from: StartFrom::LightFacing,
+    counter: Counter::Stencil,
 };
 
 /// Every convention that the device can draw.

@@ -3,7 +3,7 @@
 use shadows::error::{CasterError, LightError, ShadowVolumeError as Error};
 use shadows::glam::camera::rh::proj::directx as proj;
 use shadows::glam::{Affine3A, Vec3, Vec4};
-use shadows::mesh::Adjacency;
+use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
@@ -11,7 +11,7 @@ use shadows::{
 
 use crate::shapes;
 
-fn noop(features: wgpu::Features, limits: wgpu::Limits) -> (wgpu::Device, wgpu::Queue) {
+pub fn noop(features: wgpu::Features, limits: wgpu::Limits) -> (wgpu::Device, wgpu::Queue) {
     wgpu::Device::noop(&wgpu::DeviceDescriptor {
         required_features: features,
         required_limits: limits,
@@ -19,12 +19,12 @@ fn noop(features: wgpu::Features, limits: wgpu::Limits) -> (wgpu::Device, wgpu::
     })
 }
 
-fn bare() -> (wgpu::Device, wgpu::Queue) {
+pub fn bare() -> (wgpu::Device, wgpu::Queue) {
     noop(wgpu::Features::empty(), wgpu::Limits::defaults())
 }
 
 /// Devices are told apart within one instance only.
-fn two_devices() -> [(wgpu::Device, wgpu::Queue); 2] {
+pub fn two_devices() -> [(wgpu::Device, wgpu::Queue); 2] {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wgpu::Backends::NOOP,
         backend_options: wgpu::BackendOptions {
@@ -51,7 +51,7 @@ fn by_compute() -> ShadowVolumeDescriptor<'static> {
     }
 }
 
-fn view(depth: DepthConvention) -> View {
+pub fn view(depth: DepthConvention) -> View {
     let projection = match depth {
         DepthConvention::InfiniteReverse => proj::perspective_infinite_reverse(0.9, 1.0, 0.1),
         DepthConvention::FiniteReverse => proj::perspective(0.9, 1.0, 100.0, 0.1),
@@ -66,7 +66,7 @@ fn cube(device: &wgpu::Device) -> CasterMesh {
     CasterMesh::new(device, &cube.positions, &adjacency).unwrap()
 }
 
-fn cubes(device: &wgpu::Device, count: usize) -> Vec<Caster> {
+pub fn cubes(device: &wgpu::Device, count: usize) -> Vec<Caster> {
     let mesh = cube(device);
     let place = |i| Affine3A::from_translation(Vec3::new(0.0, 0.0, -5.0 - 3.0 * i as f32));
     (0..count)
@@ -74,7 +74,7 @@ fn cubes(device: &wgpu::Device, count: usize) -> Vec<Caster> {
         .collect()
 }
 
-const LIGHT: HomogeneousLight = HomogeneousLight(Vec4::new(0.0, 9.0, 0.0, 1.0));
+pub const LIGHT: HomogeneousLight = HomogeneousLight(Vec4::new(0.0, 9.0, 0.0, 1.0));
 
 #[test]
 fn a_descriptor_that_does_not_fit_is_refused() {
@@ -246,6 +246,19 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
                 ..good
             },
             LightError::Range(inf).into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                receivers: Some(Bounds {
+                    min: Vec3::ONE,
+                    max: Vec3::ZERO,
+                }),
+                ..good
+            },
+            Error::Receivers {
+                min: [1.0; 3],
+                max: [0.0; 3],
+            },
         ),
         (
             ShadowVolumeFrame {

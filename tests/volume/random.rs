@@ -2,10 +2,11 @@
 //! fields of view from 20 to 150 degrees, every depth convention and format, 1x and 4x.
 
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, wgpu};
+use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, StartFrom, wgpu};
 
 use crate::choices::{TEXTBOOK, depths};
 use crate::host::gpu::Gpu;
+use crate::host::random::Random;
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Savings, Stage};
 use crate::truth::Errors;
@@ -13,31 +14,7 @@ use crate::truth::Errors;
 const SCENES: u64 = 500;
 const SIDE: u32 = 64;
 
-/// A small generator, so that a seed is a scene for ever (Steele et al., "Fast Splittable
-/// Pseudorandom Number Generators", 2014).
-struct Random(u64);
-
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn within(&mut self, from: f32, to: f32) -> f32 {
-        from + (to - from) * ((self.next() >> 40) as f32 / (1 << 24) as f32)
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
-    }
-
-    fn point(&mut self, half: f32) -> Vec3 {
-        Vec3::from_array([0; 3].map(|_| self.within(-half, half)))
-    }
-
     fn shape(&mut self) -> Shape {
         let rings = 3 + self.below(6) as u32;
         match self.below(8) {
@@ -82,7 +59,7 @@ impl Random {
     }
 }
 
-fn scene(seed: u64, gpu: &Gpu) -> Stage {
+pub fn scene(seed: u64, gpu: &Gpu) -> Stage {
     let random = &mut Random(seed);
     let bodies: Vec<Body> = (0..1 + random.below(4))
         .map(|_| Body::caster(random.shape(), random.transform()))
@@ -114,6 +91,9 @@ fn scene(seed: u64, gpu: &Gpu) -> Stage {
     stage.side = SIDE;
     if !light.is_directional() && random.below(3) == 0 {
         stage.range = Some(random.within(5.0, 12.0));
+    }
+    if (seed / 4).is_multiple_of(2) {
+        stage.receivers = Some(Stage::bounds(&stage.bodies));
     }
     stage
 }
@@ -161,8 +141,13 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
     let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
     for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
         let silhouettes = ways[(seed / 4 + turn) as usize % 3];
+        let start_from = match (seed / 3 + turn) % 2 {
+            0 => StartFrom::LightFacing,
+            _ => StartFrom::AwayFacing,
+        };
         let savings = Savings {
             silhouettes,
+            start_from,
             ..savings
         };
         let picture = Stage {
@@ -173,8 +158,8 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
         let found = truth.errors(&picture);
         assert_eq!(
             found.wrong, 0,
-            "seed {seed}, {savings:?}: {found:?}; {:?}, {:?}, {}x, range {:?}",
-            stage.depth, stage.format, stage.samples, stage.range
+            "seed {seed}, {savings:?}: {found:?}; {:?}, {:?}, {}x, range {:?}, receivers {:?}",
+            stage.depth, stage.format, stage.samples, stage.range, stage.receivers
         );
         total.interior += found.interior;
         total.lit += found.lit;

@@ -5,8 +5,9 @@ use shadows::glam::{Affine3A, DAffine3, DMat4, Mat4, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
-    Caps, Caster, CasterMesh, DepthConvention, Extrusion, HomogeneousLight, HostPositions, Method,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    Caps, Caster, CasterMesh, Counter, DepthConvention, ExactCount, ExactCountDescriptor,
+    Extrusion, HomogeneousLight, HostPositions, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, Silhouettes, StartFrom, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -73,6 +74,8 @@ pub struct Stage {
     /// Pixels along an edge of the picture.
     pub side: u32,
     pub range: Option<f32>,
+    /// Bounds of what receives, where the renderer is told.
+    pub receivers: Option<Bounds>,
     pub savings: Savings,
     /// The camera, where it is not the one that the fields above describe.
     pub placed_view: Option<View>,
@@ -87,6 +90,8 @@ pub struct Savings {
     /// Whether nothing is skipped or clipped.
     pub unculled: bool,
     pub silhouettes: Silhouettes,
+    pub start_from: StartFrom,
+    pub counter: Counter,
 }
 
 impl Stage {
@@ -110,9 +115,19 @@ impl Stage {
             lens: Lens::Perspective,
             side: SIDE,
             range: None,
+            receivers: None,
             savings: Savings::default(),
             placed_view: None,
         }
+    }
+
+    /// The box around all bodies, world space.
+    pub fn bounds(bodies: &[Body]) -> Bounds {
+        let points = bodies.iter().flat_map(|body| {
+            let positions = body.shape.positions.iter();
+            positions.map(|&p| body.transform.transform_point3(p.into()))
+        });
+        Bounds::of_points(points).unwrap()
     }
 
     pub fn view(&self) -> View {
@@ -203,6 +218,8 @@ impl Stage {
             extrusion: self.savings.extrusion,
             culling: !self.savings.unculled,
             silhouettes: self.savings.silhouettes,
+            start_from: self.savings.start_from,
+            counter: self.savings.counter,
             ..Default::default()
         }
     }
@@ -255,6 +272,7 @@ impl Stage {
         let frame = ShadowVolumeFrame {
             range: self.range,
             target_size: Some([self.side; 2]),
+            receivers: self.receivers,
             ..ShadowVolumeFrame::new(&view, self.light, casters)
         };
         renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
@@ -321,12 +339,16 @@ impl Stage {
         let resolved = view_of(&picture);
         let host = HostPipelines::new(gpu, self);
         let surfaces = self.surfaces(gpu);
+        let counts = (self.savings.counter == Counter::Exact).then(|| self.exact_count(gpu));
         gpu.run(|encoder| {
             if let Some(renderer) = renderer {
                 renderer.encode(encoder);
             }
             self.prepass(encoder, &depth_view, &host, &surfaces);
-            if let Some(renderer) = renderer {
+            if let (Some(renderer), Some(counts)) = (renderer, &counts) {
+                renderer.render(&mut counts.begin(encoder, &depth_view).unwrap());
+                counts.encode(encoder, &depth_view).unwrap();
+            } else if let Some(renderer) = renderer {
                 let colors = extra.map(|view| vec![Some(clear(view, wgpu::Color::RED, None))]);
                 let colors = colors.unwrap_or_default();
                 let mut pass = begin(encoder, "stencil", &colors, attach(&depth_view, None));
@@ -343,7 +365,18 @@ impl Stage {
         gpu.read_texture(&picture, 0, wgpu::TextureAspect::All)
     }
 
-    fn prepass(
+    /// What fits the stage's passes.
+    pub fn exact_count(&self, gpu: &Gpu) -> ExactCount {
+        let descriptor = ExactCountDescriptor {
+            size: [self.side; 2],
+            depth_stencil_format: self.format,
+            sample_count: self.samples,
+            ..Default::default()
+        };
+        ExactCount::new(&gpu.device, &descriptor).unwrap()
+    }
+
+    pub fn prepass(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,

@@ -3,6 +3,7 @@
 //! Metres, right-handed, Y up, triangles counter-clockwise seen from outside. Nothing in here needs
 //! a GPU.
 
+use shadows::DepthConvention;
 use shadows::glam::camera::rh::{proj::directx, view::look_at_mat4};
 use shadows::glam::{Affine3A, DAffine3, DMat3, DVec3, Mat4, Vec3, Vec4};
 
@@ -99,8 +100,20 @@ impl Camera {
     /// Clip from world space, infinite reverse Z (1 at the near plane, 0 at infinity).
     /// `aspect` is width over height.
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
-        directx::perspective_infinite_reverse(self.fovy, aspect, self.near)
-            * look_at_mat4(self.eye, self.target, Vec3::Y)
+        self.clip_from_world_as(aspect, DepthConvention::InfiniteReverse)
+    }
+
+    /// The same in any convention; where there is a far plane, it is at a thousand times `near`.
+    pub fn clip_from_world_as(&self, aspect: f32, depth: DepthConvention) -> Mat4 {
+        let (fovy, near, far) = (self.fovy, self.near, 1e3 * self.near);
+        let projection = match depth {
+            DepthConvention::InfiniteReverse => {
+                directx::perspective_infinite_reverse(fovy, aspect, near)
+            }
+            DepthConvention::FiniteReverse => directx::perspective(fovy, aspect, far, near),
+            DepthConvention::Standard => directx::perspective(fovy, aspect, near, far),
+        };
+        projection * look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 }
 
@@ -139,6 +152,26 @@ impl Bounds {
     }
 }
 
+/// The kinds of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightKind {
+    /// In all directions from one place.
+    Point,
+    /// From one place into a cone.
+    Spot,
+    /// Parallel.
+    Directional,
+}
+
+/// Where a spot shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Of any length but 0, world space.
+    pub direction: Vec3,
+    /// From the direction to the cone's side, in radians.
+    pub half_angle: f32,
+}
+
 /// Everything a picture needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -150,6 +183,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Homogeneous light, world space: a point (w = 1) or the direction to the light (w = 0).
     pub light: Vec4,
+    /// Into which the light shines, if it is a spot.
+    pub cone: Option<Cone>,
     /// Distance in metres at which a point light ends.
     pub range: f32,
     /// Near plane of the light's shadow map in metres.
@@ -205,6 +240,63 @@ impl Scene {
             self.camera.eye = eye;
             self.camera.target = target;
             self.camera.fovy = fovy.unwrap_or(self.camera.fovy);
+        }
+    }
+
+    /// Which kind of light it has.
+    pub fn light_kind(&self) -> LightKind {
+        match (self.light.w == 0.0, self.cone) {
+            (true, _) => LightKind::Directional,
+            (false, Some(_)) => LightKind::Spot,
+            (false, None) => LightKind::Point,
+        }
+    }
+
+    /// Makes the light one of another kind: a spot shines from its place at the camera's target, as
+    /// wide as a face of a cube map (45 degrees to each side); a directional light shines from
+    /// there, too.
+    ///
+    /// # Errors
+    /// If a directional light is to have a place, or the light is at the camera's target.
+    pub fn shine_as(&mut self, kind: LightKind) -> anyhow::Result<()> {
+        if kind == self.light_kind() {
+            return Ok(());
+        }
+        anyhow::ensure!(
+            self.light.w != 0.0,
+            "a directional light has no place to shine from; give one with --light X,Y,Z"
+        );
+        let toward_light = self.light.truncate() - self.camera.target;
+        anyhow::ensure!(
+            kind == LightKind::Point || toward_light != Vec3::ZERO,
+            "the light is at the camera's target, so it has no direction; move one of them"
+        );
+        self.cone = (kind == LightKind::Spot).then_some(Cone {
+            direction: -toward_light,
+            half_angle: std::f32::consts::FRAC_PI_4,
+        });
+        if kind == LightKind::Directional {
+            self.light = toward_light.extend(0.0);
+        }
+        Ok(())
+    }
+
+    /// Nothing to see, under a light from above.
+    pub fn empty(name: &str) -> Self {
+        Self {
+            name: name.into(),
+            meshes: Vec::new(),
+            objects: Vec::new(),
+            light: Vec4::Y,
+            cone: None,
+            range: 100.0,
+            shadow_near: 0.1,
+            camera: Camera {
+                eye: Vec3::new(0.0, 5.0, 10.0),
+                target: Vec3::ZERO,
+                fovy: std::f32::consts::FRAC_PI_4,
+                near: 0.1,
+            },
         }
     }
 

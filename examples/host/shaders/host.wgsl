@@ -5,10 +5,11 @@ struct HostFrame {
     clip_from_world: mat4x4f,
     eye: vec4f,
     light: vec4f, // homogeneous
+    cone: vec4f, // unit direction, cosine of the half angle
     range: f32,
     intensity: f32,
     ambient: f32,
-    padding: f32,
+    premultiplied: u32,
 }
 
 struct HostObject {
@@ -34,6 +35,10 @@ fn host_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Host
         host_object.world_from_object,
         position,
     );
+    if host_frame.premultiplied != 0u {
+        let clip_from_object = host_frame.clip_from_world * host_object.world_from_object;
+        out.clip = clip_from_object * vec4f(position, 1.0);
+    }
     out.world = (host_object.world_from_object * vec4f(position, 1.0)).xyz;
     out.normal = host_object.normal_from_object * normal;
     return out;
@@ -54,6 +59,9 @@ fn host_ambient(in: HostVaryings) -> @location(0) vec4f {
     return vec4f(host_object.albedo.rgb * host_frame.ambient * sky, 1.0);
 }
 
+// Whether light ends where the smoothed normal turns away, not already where the triangle does.
+override host_smooth: bool = false;
+
 struct HostLit {
     @location(0) shaded: vec4f,
     @location(1) visibility: f32,
@@ -70,10 +78,11 @@ fn host_light(in: HostVaryings, visibility: f32) -> HostLit {
     if host_frame.light.w != 0.0 {
         let ratio = squared / (host_frame.range * host_frame.range);
         let window = saturate(1.0 - ratio * ratio);
-        falloff = window * window / squared;
+        let along = -dot(host_frame.cone.xyz, toward_light) * inverseSqrt(squared);
+        falloff = select(0.0, window * window / squared, along >= host_frame.cone.w);
     }
     let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
-    let facing = select(0.0, 1.0, dot(flat_normal, toward_light) > 0.0);
+    let facing = select(0.0, 1.0, host_smooth || dot(flat_normal, toward_light) > 0.0);
     let light = 1.0 - exp(-host_frame.intensity * falloff * cosine * facing);
     let diffuse = host_object.albedo.rgb * (1.0 - host_frame.ambient) * light;
     return HostLit(vec4f(diffuse * visibility, 0.0), visibility);

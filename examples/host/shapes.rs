@@ -152,3 +152,25 @@ pub fn fins(count: u32) -> Shape {
     }
     shape
 }
+
+/// A closed ring around the y axis: `radius` to the middle of its section, which has that many
+/// corners and is repeated twice as often.
+pub fn ring(radius: f32, section: f32, corners: u32) -> Shape {
+    let count = 2 * corners;
+    let mut shape = Shape::new(&[], &[]);
+    let angle = |i: u32, n: u32| std::f32::consts::TAU * i as f32 / n as f32;
+    for i in 0..count {
+        for j in 0..corners {
+            let (y, out) = angle(j, corners).sin_cos();
+            let (z, x) = angle(i, count).sin_cos();
+            let r = radius + section * out;
+            shape.positions.push([r * x, section * y, r * z]);
+            let at = |i: u32, j: u32| i % count * corners + j % corners;
+            let quad = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            shape
+                .indices
+                .extend([0, 1, 2, 0, 2, 3].map(|k: usize| quad[k]));
+        }
+    }
+    shape
+}

@@ -1,0 +1,37 @@
+//! Errors of the debug views of shadow volumes.
+
+use thiserror::Error;
+
+use super::{ScreenPassError, ShadowVolumeError};
+
+/// What can be wrong when a [`VolumeDebug`](crate::VolumeDebug) is made or prepared.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum VolumeDebugError {
+    /// A format or the sample count of the pass.
+    #[error(transparent)]
+    Target(#[from] ScreenPassError),
+    /// The device lacks a feature or a limit, or a caster is not sound.
+    #[error(transparent)]
+    Volume(#[from] ShadowVolumeError),
+    /// The renderer has another depth convention.
+    #[error(
+        "the renderer's depth is {renderer:?}, these debug views were made for {debug:?}; pass its convention in VolumeDebugDescriptor::depth"
+    )]
+    Depth {
+        /// The convention of the debug views.
+        debug: crate::DepthConvention,
+        /// The renderer's.
+        renderer: crate::DepthConvention,
+    },
+    /// The frame is not the one that the renderer was prepared with.
+    #[error(
+        "the frame has {frame} casters, the renderer was prepared with {renderer}; prepare the renderer with this frame first"
+    )]
+    Casters {
+        /// Casters of the frame.
+        frame: usize,
+        /// Casters that the renderer decided about.
+        renderer: usize,
+    },
+}

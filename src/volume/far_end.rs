@@ -1,0 +1,297 @@
+//! Where a volume ends.
+//!
+//! **At infinity**, unless something nearer is known to do.
+//!
+//! **At the light's range**: in a plane across the axis from the light through the caster's middle,
+//! not on a sphere. The plane touches the sphere of the range from outside, so no chord cuts through
+//! lit space.
+//!
+//! **Behind the receivers**: in the plane of that side of their box which the caster's shadow
+//! reaches first. Where rays start before that plane, they reach every receiver before it, and cross
+//! the volume cut off there as they cross the endless one: up to the receiver, which is what z-pass
+//! counts, and with a cap in the plane on the whole, which is what z-fail needs. (The depth format
+//! may not tell the cap from a receiver; it is set back, and "behind" is right wherever it is seen.)
+//!
+//! All of it in f64, with room for what a vertex shader's f32 makes of it.
+
+use glam::{DVec3, DVec4, Vec4Swizzles as _};
+
+use super::ShadowVolumeFrame;
+use super::world_box::{WorldBox, rounding};
+use crate::HomogeneousLight;
+
+/// Where far vertices go: see `far_point` in volume_extrude.wgsl.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FarEnd {
+    /// Its normal, 0 for infinity. For a point light over its distance from the light; for a
+    /// directional light with its distance from the origin.
+    pub plane: DVec4,
+    /// The fan's own point, homogeneous.
+    pub apex: DVec4,
+}
+
+impl FarEnd {
+    pub fn is_infinite(&self) -> bool {
+        self.plane.xyz() == DVec3::ZERO
+    }
+}
+
+/// What ends volumes in one frame.
+#[derive(Debug)]
+pub(super) struct Ends {
+    light: HomogeneousLight,
+    /// Of a point light.
+    pub range: Option<f64>,
+    /// Least and greatest corner, rounding included.
+    receivers: Option<[DVec3; 2]>,
+    /// Where rays start.
+    origins: Vec<DVec4>,
+}
+
+/// How much farther planes are than they need to be, relative to their distance.
+const ROOM: f64 = 1e-3;
+
+impl Ends {
+    pub fn new(frame: &ShadowVolumeFrame<'_>, origins: Vec<DVec4>) -> Self {
+        let range = frame.range.filter(|_| !frame.light.is_directional());
+        let receivers = frame.receivers.map(|bounds| {
+            let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+            let slack = rounding(min.abs().max(max.abs()));
+            [min - slack, max + slack]
+        });
+        Self {
+            light: frame.light,
+            range: range.map(f64::from),
+            receivers,
+            origins,
+        }
+    }
+
+    /// The corners of the receivers' box.
+    pub fn receivers(&self) -> Option<[DVec4; 8]> {
+        let [min, max] = self.receivers?;
+        Some(std::array::from_fn(|corner| {
+            let pick = |axis: usize| {
+                if corner >> axis & 1 == 0 {
+                    min[axis]
+                } else {
+                    max[axis]
+                }
+            };
+            DVec4::new(pick(0), pick(1), pick(2), 1.0)
+        }))
+    }
+
+    /// The end of all volumes that may have none nearer.
+    pub fn infinite(&self, world: &WorldBox) -> FarEnd {
+        let light = self.light.0.xyz().as_dvec3();
+        FarEnd {
+            plane: DVec4::ZERO,
+            apex: (world.centre() - light).normalize_or_zero().extend(0.0),
+        }
+    }
+
+    /// The end at the range, where there is one and the caster lies on one side of the light.
+    pub fn at_range(&self, world: &WorldBox) -> Option<FarEnd> {
+        let range = self.range?;
+        let light = self.light.0.xyz().as_dvec3();
+        let axis = (world.centre() - light).normalize_or_zero();
+        let from_light = axis.dot(light);
+        let (nearest, farthest) = (world.nearest(axis), world.farthest(axis));
+        // Only what is wholly on one side of the light can be cast onto one plane; a thousandth
+        // keeps rounding from moving a vertex to the other side.
+        let one_sided = nearest - from_light > 1e-3 * (farthest - from_light);
+        if !(one_sided && world.excludes(self.light)) {
+            return None;
+        }
+        // Beyond the caster, too, or its far part would be turned inside out.
+        let distance = range.max(farthest - from_light) * (1.0 + ROOM);
+        Some(FarEnd {
+            plane: (axis / distance).extend(0.0),
+            apex: (light + axis * distance).extend(1.0),
+        })
+    }
+
+    /// The nearest of the end given and those behind the receivers.
+    pub fn behind_receivers(&self, world: &WorldBox, other: FarEnd) -> FarEnd {
+        let Some([min, max]) = self.receivers else {
+            return other;
+        };
+        let sides = [DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .flat_map(|axis| [(-axis, -axis.dot(min)), (axis, axis.dot(max))]);
+        let length = |end: &FarEnd| match end.is_infinite() {
+            true => f64::INFINITY,
+            false => world.centre().distance(end.apex.xyz()),
+        };
+        sides
+            .filter_map(|(normal, place)| match self.light.is_directional() {
+                true => self.across_direction(world, normal, place),
+                false => self.across_point(world, normal, place),
+            })
+            .fold(other, |best, end| match length(&end) < length(&best) {
+                true => end,
+                false => best,
+            })
+    }
+
+    /// The end of a point light's volume in the plane `normal . p = place`, or a little beyond.
+    fn across_point(&self, world: &WorldBox, normal: DVec3, place: f64) -> Option<FarEnd> {
+        let light = self.light.0.xyz().as_dvec3();
+        let from_light = normal.dot(light);
+        let nearest = world.nearest(normal) - from_light;
+        let farthest = world.farthest(normal) - from_light;
+        // A vertex is cast as far as the plane is over what lies between it and the light along
+        // the normal. Rounding must not change that by more than there is room for.
+        let reach = world.reach(light);
+        let error = rounding(DVec3::splat(light.abs().max_element() + reach)).x;
+        if !(nearest > 1e-2 * reach && nearest * ROOM > error) {
+            return None;
+        }
+        let distance = (place - from_light).max(farthest) * (1.0 + ROOM);
+        let plane = normal / distance;
+        let before = |p: &DVec4| plane.dot(p.xyz() - light * p.w) < (1.0 - ROOM) * p.w;
+        let toward = world.centre() - light;
+        self.origins.iter().all(before).then(|| FarEnd {
+            plane: plane.extend(0.0),
+            apex: (light + toward / plane.dot(toward)).extend(1.0),
+        })
+    }
+
+    /// The same for a directional light.
+    fn across_direction(&self, world: &WorldBox, normal: DVec3, place: f64) -> Option<FarEnd> {
+        let direction = -self.light.0.xyz().as_dvec3().normalize();
+        let along = normal.dot(direction);
+        if along < 1e-2 {
+            return None;
+        }
+        let farthest = world.farthest(normal);
+        let thickness = place.max(farthest) - world.nearest(normal);
+        let error = rounding(world.centre().abs() + DVec3::splat(place.abs() + thickness));
+        let place = place.max(farthest) + ROOM * thickness + error.max_element() / along;
+        let before = |p: &DVec4| normal.dot(p.xyz()) < place * p.w;
+        let to_plane = (place - normal.dot(world.centre())) / along;
+        self.origins.iter().all(before).then(|| FarEnd {
+            plane: normal.extend(place),
+            apex: (world.centre() + direction * to_plane).extend(1.0),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec3, camera::rh};
+
+    use super::*;
+    use crate::mesh::Bounds;
+    use crate::{DepthConvention, View};
+
+    const BOX: Bounds = Bounds {
+        min: Vec3::new(-10.0, 0.0, -8.0),
+        max: Vec3::new(12.0, 5.0, 9.0),
+    };
+
+    fn ends(light: HomogeneousLight, eye: Vec3) -> Ends {
+        let camera = rh::view::look_at_mat4(eye, Vec3::ZERO, Vec3::Y);
+        let projection = rh::proj::directx::perspective_infinite_reverse(0.9, 1.0, 0.1);
+        let view = View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap();
+        let origins = view.near_corners().map(|corner| corner.extend(1.0));
+        let frame = ShadowVolumeFrame {
+            range: Some(200.0),
+            receivers: Some(BOX),
+            ..ShadowVolumeFrame::new(&view, light, &[])
+        };
+        Ends::new(&frame, origins.to_vec())
+    }
+
+    /// How far beyond the plane a point is: 0 on it, 1 as far as the light is before it.
+    fn beyond(end: &FarEnd, light: HomogeneousLight, point: DVec3) -> f64 {
+        let normal = end.plane.xyz();
+        match light.is_directional() {
+            true => normal.dot(point) - end.plane.w,
+            false => normal.dot(point - light.0.xyz().as_dvec3()) - 1.0,
+        }
+    }
+
+    fn lights() -> Vec<HomogeneousLight> {
+        vec![
+            HomogeneousLight::point(Vec3::new(0.0, 4.0, 0.0)),
+            HomogeneousLight::point(Vec3::new(-9.0, 3.0, 7.0)),
+            HomogeneousLight::point(Vec3::new(300.0, 400.0, 100.0)),
+            HomogeneousLight::directional(Vec3::new(0.3, 1.0, 0.2)),
+            HomogeneousLight::directional(Vec3::new(3.0, -0.5, 0.2)),
+        ]
+    }
+
+    #[test]
+    fn receivers_and_the_caster_are_before_the_end_and_no_nearer_one_was_taken() {
+        let mut found = 0;
+        for light in lights() {
+            let ends = ends(light, Vec3::new(5.0, 4.0, 6.0));
+            for x in -3..=3 {
+                let centre = DVec3::new(3.0 * f64::from(x), 1.5, f64::from(x * x) - 3.0);
+                let world = WorldBox::new(centre, DVec3::new(0.5, 0.3, 0.7));
+                let infinite = ends.infinite(&world);
+                let end = ends.behind_receivers(&world, infinite);
+                if end.is_infinite() {
+                    continue;
+                }
+                found += 1;
+                let before = |point: DVec3| beyond(&end, light, point) < 0.0;
+                let corners = ends.receivers().unwrap();
+                assert!(
+                    corners.iter().all(|c| before(c.xyz())),
+                    "{light:?}, {centre}"
+                );
+                assert!(beyond(&end, light, end.apex.xyz()).abs() < 1e-9);
+                // On the ray through the middle, at the box's surface and a little more.
+                let light = light.0.as_dvec4();
+                let direction = (centre * light.w - light.xyz()).normalize();
+                let run = (end.apex.xyz() - centre).dot(direction);
+                let inside = |t: f64| {
+                    let p = centre + direction * t;
+                    p.cmpge(BOX.min.as_dvec3() - 1e-9).all()
+                        && p.cmple(BOX.max.as_dvec3() + 1e-9).all()
+                };
+                assert!(run > 0.0 && !inside(run), "{centre}: {run}");
+                let exit = (0..)
+                    .map(|i| 0.01 * f64::from(i))
+                    .find(|t| !inside(*t))
+                    .unwrap();
+                assert!(
+                    run < exit + 0.02 + 2e-3 * (exit + 600.0),
+                    "{centre}: {run}, {exit}"
+                );
+            }
+        }
+        assert!(found > 15, "{found}");
+    }
+
+    #[test]
+    fn no_ray_starts_beyond_the_end() {
+        let light = HomogeneousLight::directional(Vec3::new(0.2, 1.0, 0.1));
+        let world = WorldBox::new(DVec3::new(1.0, 1.0, 1.0), DVec3::splat(0.5));
+        let end = |eye| {
+            let ends = ends(light, eye);
+            ends.behind_receivers(&world, ends.infinite(&world)).plane
+        };
+        let above = end(Vec3::new(5.0, 4.0, 6.0));
+        assert_eq!(above.xyz(), DVec3::NEG_Y);
+        assert_ne!(end(Vec3::new(5.0, -1.0, 6.0)).xyz(), DVec3::NEG_Y);
+    }
+
+    #[test]
+    fn what_is_too_near_a_plane_through_the_light_is_not_cast_onto_it() {
+        let light = HomogeneousLight::point(Vec3::new(0.0, 2.0, 0.0));
+        let ends = ends(light, Vec3::new(0.0, 4.0, 6.0));
+        let level = WorldBox::new(DVec3::new(4.0, 2.0, 0.0), DVec3::splat(0.3));
+        let end = ends.behind_receivers(&level, ends.infinite(&level));
+        assert_eq!(end.plane.xyz().normalize(), DVec3::X);
+        let around = WorldBox::new(DVec3::new(0.0, 2.0, 0.0), DVec3::splat(0.3));
+        assert!(
+            ends.behind_receivers(&around, ends.infinite(&around))
+                .is_infinite()
+        );
+        assert!(ends.at_range(&around).is_none());
+    }
+}
