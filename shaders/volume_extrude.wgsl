@@ -28,17 +28,28 @@ fn near_point(position: vec3f) -> vec4f {
     return shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
 }
 
+// From the light to a vertex, in world space. The difference is taken in the mesh's own space, where
+// both are known beyond f32: of a light at the caster's skin, little would be left of it in world
+// space, and nothing of its sign.
+fn from_light(position: vec3f) -> vec3f {
+    if caster.light.w == 0.0 {
+        return -caster.light.xyz;
+    }
+    let object = (position - caster.object_light.xyz) - caster.object_light_rest;
+    return (caster.world_from_object * vec4f(object, 0.0)).xyz;
+}
+
 // The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the
 // very place of the light has no such direction: it stays where it is, the same for every face that
 // meets there, so that the surface is still closed and no vertex is (0, 0, 0, 0).
 fn far_point(position: vec3f) -> vec4f {
-    let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
-    let direction = caster.light.w * world - caster.light.xyz;
+    let direction = from_light(position);
     if all(direction == vec3f(0.0)) {
         return near_point(position);
     }
     let w = dot(caster.far_plane.xyz, direction);
     if caster.light.w == 0.0 && w != 0.0 {
+        let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
         let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
         return caster.clip_from_world * vec4f(to_plane * direction + w * world, w);
     }

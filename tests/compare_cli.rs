@@ -1,5 +1,6 @@
 //! The example `compare` as a user meets it: what it says, what it writes, how it exits.
 
+#[allow(dead_code)]
 #[path = "../examples/compare/date.rs"]
 mod date;
 #[path = "../examples/host/mod.rs"]
@@ -12,7 +13,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const TECHNIQUES: [&str; 4] = ["cube-hard", "cube-2x2", "cube-16", "volume"];
+const TECHNIQUES: [&str; 5] = ["cube-hard", "cube-2x2", "cube-16", "cube-pcss", "volume"];
 
 /// The example's binary: cargo puts it beside the folder of this test's own.
 fn binary() -> PathBuf {
@@ -282,11 +283,27 @@ fn check_technique(technique: &Value, facing: u64) {
     for cost in ["bytes", "draws", "triangles_drawn"] {
         assert!(technique[cost].as_u64().unwrap() > 0, "{cost}");
     }
+    check_soft(technique);
     assert!(
         technique["settings"]
             .as_object()
             .is_some_and(|s| !s.is_empty())
     );
+}
+
+/// Only kernels with soft edges are compared with an area light.
+fn check_soft(technique: &Value) {
+    let soft = &technique["soft"];
+    assert_eq!(soft.is_object(), technique["name"] == "cube-pcss");
+    if soft.is_object() {
+        assert!(soft["pixels"].as_u64().unwrap() > 100, "{soft}");
+        assert!(soft["levels"].as_u64().unwrap() > 10, "{soft}");
+        for figure in ["area_rmse", "area_largest", "largest_step", "noise"] {
+            let value = soft[figure].as_f64().unwrap();
+            assert!(value > 0.0 && value <= 1.0, "{figure}: {soft}");
+        }
+        assert!(soft["flips_percent"].as_f64().unwrap() < 20.0, "{soft}");
+    }
 }
 
 fn floats(list: &Value) -> Vec<f32> {

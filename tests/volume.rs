@@ -18,6 +18,8 @@ mod hard;
 mod host;
 #[path = "volume/light_pass.rs"]
 mod light_pass;
+#[path = "volume/near_light.rs"]
+mod near_light;
 #[path = "volume/passes.rs"]
 mod passes;
 #[path = "volume/pictures.rs"]
@@ -28,11 +30,11 @@ mod random;
 mod receivers;
 #[path = "volume/screen.rs"]
 mod screen;
-#[path = "volume/shapes.rs"]
-mod shapes;
 #[path = "volume/stage.rs"]
 mod stage;
 #[path = "volume/truth.rs"]
 mod truth;
 #[path = "volume/ways.rs"]
 mod ways;
+
+use host::shapes;

@@ -88,6 +88,16 @@ pub struct Args {
     #[arg(long)]
     pub export: bool,
 
+    /// Instead of a scene, try every technique on the cases where shadows usually break, and write
+    /// a table of which pass. Exits with 1 if one fails that should not.
+    #[arg(long)]
+    pub hard_cases: bool,
+
+    /// Rounds of the hard cases, each with other lights and cameras.
+    #[arg(long, value_name = "N", default_value_t = 4,
+          value_parser = clap::value_parser!(u32).range(1..=1_000))]
+    pub rounds: u32,
+
     /// Directory for all that is written; made where it is missing.
     #[arg(long, value_name = "DIR", default_value = "target/compare")]
     pub out: PathBuf,

@@ -1,5 +1,13 @@
 //! The day of a Unix time.
 
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Seconds since 1970, UTC.
+pub fn now() -> u64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| since.as_secs())
+}
+
 /// Year, month and day, UTC (Richards, "Mapping Time", 1998, the Gregorian algorithm).
 pub fn date(unix_time: u64) -> String {
     let julian_day = unix_time / 86_400 + 2_440_588;

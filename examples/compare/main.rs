@@ -7,13 +7,16 @@
 
 mod args;
 mod date;
+mod hard;
 #[path = "../host/mod.rs"]
 mod host;
 mod measure;
 mod output;
 mod plot;
+mod progress;
 mod report;
 mod shadow;
+mod soft;
 mod stage;
 mod table;
 mod technique;
@@ -22,13 +25,13 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Args;
 use crate::host::gpu::{Gpu, describe};
 use crate::host::scene::{self, Scene};
 use crate::measure::Plan;
 use crate::output::{File, Results};
+use crate::progress::progress;
 use crate::report::LeftOut;
 use crate::stage::Stage;
 use crate::technique::{Config, Technique};
@@ -36,7 +39,7 @@ use crate::technique::{Config, Technique};
 fn main() -> ExitCode {
     let args = args::parse();
     match run(&args) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             let message = format!("{error:#}").replace(['\n', '\r'], " ");
             eprintln!("error: {message}");
@@ -53,7 +56,10 @@ struct Job {
     left_out: Vec<LeftOut>,
 }
 
-fn run(args: &Args) -> Result<()> {
+fn run(args: &Args) -> Result<ExitCode> {
+    if args.hard_cases {
+        return hard_cases(args);
+    }
     // Everything that can be wrong with what was asked comes before the first picture.
     let jobs: Vec<Job> = args
         .scene_dirs()
@@ -78,7 +84,16 @@ fn run(args: &Args) -> Result<()> {
         println!("{}", result.summary);
         println!("{}", result.dir.join("report.md").display());
     }
-    Ok(())
+    Ok(ExitCode::SUCCESS)
+}
+
+fn hard_cases(args: &Args) -> Result<ExitCode> {
+    let gpu = Gpu::new(args.adapter.as_deref())?;
+    eprintln!("{}", describe(&gpu.info));
+    Ok(match hard::run(&gpu, &args.out, args.rounds)? {
+        0 => ExitCode::SUCCESS,
+        _ => ExitCode::FAILURE,
+    })
 }
 
 fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
@@ -136,8 +151,9 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
     };
     let steps = u64::from(plan.frames) * plan.techniques.len() as u64;
     let bar = progress(steps, &format!("{name}: frames"));
-    let measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
+    let mut measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
+    soft::judge(gpu, &stage, &reference, &mut measured)?;
 
     let report = report::Report::new(gpu, &stage, &reference, &measured, &job.left_out);
     let mut files = vec![
@@ -155,12 +171,4 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
         summary: report.summary(),
         export: args.export.then_some(stage.scene),
     })
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(length: u64, what: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta}");
-    ProgressBar::new(length)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-        .with_message(what.to_owned())
 }

@@ -8,6 +8,7 @@ use shadows::reference::{Comparison, ReferenceImage};
 use crate::host::gpu::Gpu;
 use crate::host::timer::{Clock, Timer};
 use crate::shadow::{Cost, Shadow};
+use crate::soft::Soft;
 use crate::stage::{Picture, Stage};
 use crate::technique::Technique;
 
@@ -66,6 +67,8 @@ pub struct Measured {
     pub cost: Cost,
     pub error: Comparison,
     pub picture: Picture,
+    /// Of kernels that make soft edges, once they are judged by them.
+    pub soft: Option<Soft>,
 }
 
 impl Measured {
@@ -173,6 +176,7 @@ impl Contestant {
             cost: self.shadow.cost(),
             error: reference.compare(&self.picture.visibility, interior)?,
             picture: self.picture,
+            soft: None,
             prepare: self.prepare,
             generate: self.generate,
             shade: self.shade,

@@ -107,6 +107,19 @@ pub fn write_all(results: &[Results]) -> Result<()> {
     staged?.iter().try_for_each(Staged::publish)
 }
 
+/// Writes files of one run, all of them or none.
+///
+/// # Errors
+/// The file or directory that could not be written.
+pub fn write(dir: &Path, files: Vec<File>) -> Result<()> {
+    write_all(&[Results {
+        dir: dir.into(),
+        files,
+        summary: String::new(),
+        export: None,
+    }])
+}
+
 /// Results in a directory of their own inside the one where they belong; gone when dropped.
 struct Staged<'a> {
     stage: PathBuf,

@@ -1,7 +1,6 @@
 //! What was found, as JSON for programs and as Markdown for people.
 
 use std::fmt::Write as _;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 use serde_json::Value;
@@ -9,9 +8,10 @@ use shadows::mesh::MeshKind;
 use shadows::reference::ReferenceImage;
 use shadows::wgpu;
 
-use crate::date::date;
+use crate::date::{date, now};
 use crate::host::gpu::{Gpu, describe};
 use crate::measure::{self, Measured};
+use crate::soft::{self, Soft};
 use crate::stage::Stage;
 
 /// report.json. Numbers that were `f32` are written so that they read back as the same `f32`.
@@ -106,6 +106,8 @@ pub struct Technique {
     pub false_lit_interior: usize,
     pub false_shadow_interior: usize,
     pub rmse: f64,
+    /// Null for kernels that make no soft edges.
+    pub soft: Option<Soft>,
     pub bytes: u64,
     pub draws: u64,
     pub triangles_drawn: u64,
@@ -130,9 +132,7 @@ impl Report {
         let size = stage.renderer.size();
         Self {
             adapter: adapter(&gpu.info),
-            unix_time: SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .map_or(0, |since| since.as_secs()),
+            unix_time: now(),
             size,
             camera: camera(stage),
             light: stage.scene.light.to_array(),
@@ -187,6 +187,9 @@ impl Report {
         writeln!(out, "{adapter}, {}.\n", date(self.unix_time))?;
         self.write_scene(out)?;
         self.write_table(out)?;
+        let rows = self.techniques.iter();
+        let soft = rows.filter_map(|t| Some((t.name.as_str(), t.soft?)));
+        soft::write_table(out, &soft.collect::<Vec<_>>())?;
         for left in &self.left_out {
             writeln!(out, "`{}` is left out: {}.\n", left.name, left.reason)?;
         }
@@ -333,6 +336,7 @@ impl Technique {
             false_lit_interior: error.false_lit_interior,
             false_shadow_interior: error.false_shadow_interior,
             rmse: error.rmse,
+            soft: measured.soft,
             bytes: measured.cost.bytes,
             draws: measured.cost.draws,
             triangles_drawn: measured.cost.triangles,

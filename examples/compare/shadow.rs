@@ -5,15 +5,15 @@ use serde_json::{Value, json};
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
-    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight, FlatLight,
-    HomogeneousLight, Kernel, PcfDescriptor, PcfSampler, PointLight, Radius, ShadowFrame,
-    ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame,
-    ShadowVolumeRenderer, SpotLight, View, wgpu,
+    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
+    ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
+    PcfSampler, PointLight, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
 use crate::host::gpu::Gpu;
 use crate::host::pipelines::visibility_module;
-use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
+use crate::host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene::Cone;
 use crate::host::scene_gpu::SceneGpu;
 use crate::technique::{Config, Technique};
@@ -91,7 +91,11 @@ enum Means {
         map: Box<ShadowMap>,
         group: wgpu::BindGroup,
     },
-    Volume(Box<ShadowVolumeRenderer>),
+    Volume {
+        volumes: Box<ShadowVolumeRenderer>,
+        /// Where they are counted, if not in the stencil.
+        counts: Option<ExactCount>,
+    },
 }
 
 impl Shadow {
@@ -136,7 +140,8 @@ impl Shadow {
                 let descriptor = ShadowVolumeDescriptor {
                     label,
                     depth_stencil_format: renderer.depth_stencil_format(),
-                    depth: DEPTH,
+                    depth: renderer.look().depth,
+                    sample_count: renderer.look().samples,
                     ..*descriptor
                 };
                 let volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
@@ -145,7 +150,12 @@ impl Shadow {
                     ..Default::default()
                 };
                 let lit = renderer.lit_pipeline(gpu, &access);
-                (Means::Volume(Box::new(volumes)), lit)
+                let counts = match descriptor.counter {
+                    Counter::Stencil => None,
+                    Counter::Exact => Some(exact_count(gpu, label, renderer)?),
+                };
+                let volumes = Box::new(volumes);
+                (Means::Volume { volumes, counts }, lit)
             }
         };
         Ok(Self {
@@ -191,7 +201,7 @@ impl Shadow {
                 };
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
-            Means::Volume(volumes) => {
+            Means::Volume { volumes, .. } => {
                 let frame = ShadowVolumeFrame {
                     range: inputs.light_range(),
                     receivers: Some(inputs.receivers),
@@ -208,9 +218,15 @@ impl Shadow {
         match &self.means {
             Means::Cube { map, .. } => map.encode(encoder),
             Means::Flat { map, .. } => map.encode(encoder),
-            Means::Volume(volumes) => {
+            Means::Volume { volumes, counts } => {
                 volumes.encode(encoder);
-                volumes.render(&mut host.begin_stencil_pass(encoder));
+                let Some(counts) = counts else {
+                    return volumes.render(&mut host.begin_stencil_pass(encoder));
+                };
+                let fits = "made for the renderer's buffer";
+                let buffer = host.depth_stencil();
+                volumes.render(&mut counts.begin(encoder, buffer).expect(fits));
+                counts.encode(encoder, buffer).expect(fits);
             }
         }
     }
@@ -220,9 +236,17 @@ impl Shadow {
         let group = match &self.means {
             Means::Cube { group, .. } => Some(&group.1),
             Means::Flat { group, .. } => Some(group),
-            Means::Volume(_) => None,
+            Means::Volume { .. } => None,
         };
         host.draw_lit(encoder, scene, &self.lit, group);
+    }
+
+    /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
+    pub fn may_wrap(&mut self) -> bool {
+        match &mut self.means {
+            Means::Volume(volumes) => volumes.may_wrap(),
+            Means::Cube { .. } | Means::Flat { .. } => false,
+        }
     }
 
     /// What the last prepared frame takes.
@@ -236,9 +260,13 @@ impl Shadow {
                 let taken = map.statistics();
                 (taken.bytes, taken.draws, taken.triangles)
             }
-            Means::Volume(volumes) => {
+            Means::Volume { volumes, counts } => {
                 let taken = volumes.statistics();
-                (taken.gpu_bytes, taken.draws, taken.triangles)
+                let counts = counts.as_ref().map_or(0, |counts| {
+                    let target = counts.texture();
+                    4 * u64::from(target.width()) * u64::from(target.height())
+                });
+                (taken.gpu_bytes + counts, taken.draws, taken.triangles)
             }
         };
         let draws = draws.into();
@@ -266,7 +294,7 @@ impl Shadow {
                 // Nothing casts.
                 None => Interior::Screen,
             },
-            Means::Volume(_) => Interior::Screen,
+            Means::Volume { .. } => Interior::Screen,
         }
     }
 }
@@ -292,6 +320,7 @@ impl Technique {
                 return json!({
                     "method": format!("{:?}", volume.method),
                     "silhouettes": format!("{:?}", volume.silhouettes),
+                    "counter": format!("{:?}", volume.counter),
                     "caps": format!("{:?}", volume.caps),
                     "extrusion": format!("{:?}", volume.extrusion),
                     "culling": volume.culling,
@@ -332,6 +361,17 @@ fn make_sampler(
         ..sampler.clone()
     };
     Ok(PcfSampler::new(&gpu.device, &gpu.queue, &descriptor)?)
+}
+
+/// A count that fits the renderer's depth-stencil buffer.
+fn exact_count(gpu: &Gpu, label: Option<&str>, renderer: &Renderer) -> Result<ExactCount> {
+    let descriptor = ExactCountDescriptor {
+        label,
+        size: renderer.size(),
+        depth_stencil_format: renderer.depth_stencil_format(),
+        ..Default::default()
+    };
+    Ok(ExactCount::new(&gpu.device, &descriptor)?)
 }
 
 /// The lit pass that asks a map.

@@ -7,7 +7,7 @@ use shadows::mesh::Bounds;
 use shadows::reference::{ReferenceImage, ReferenceObject, ReferenceScene};
 
 use crate::host::gpu::Gpu;
-use crate::host::renderer::{self, Renderer};
+use crate::host::renderer::{self, Look, Renderer};
 use crate::host::scene::{Object, Scene};
 use crate::host::scene_gpu::SceneGpu;
 use crate::shadow::{Shadow, ShadowInputs};
@@ -33,9 +33,17 @@ impl Stage {
     /// # Errors
     /// If something of it does not fit the device, or the camera makes no view.
     pub fn new(gpu: &Gpu, scene: Scene, size: [u32; 2]) -> Result<Self> {
-        let view = renderer::view(&scene, size)?;
+        Self::with_look(gpu, scene, size, Look::default())
+    }
+
+    /// The same, drawn in another way.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_look(gpu: &Gpu, scene: Scene, size: [u32; 2], look: Look) -> Result<Self> {
+        let view = renderer::view_as(&scene, size, look)?;
         let scene_gpu = SceneGpu::new(gpu, &scene)?;
-        let renderer = Renderer::new(gpu, size, &scene, &scene_gpu)?;
+        let renderer = Renderer::with_look(gpu, size, &scene, &scene_gpu, look)?;
         let inputs = ShadowInputs {
             view,
             light: HomogeneousLight(scene.light),

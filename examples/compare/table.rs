@@ -1,8 +1,8 @@
 //! The techniques that have a name. A new one is one more row.
 
 use shadows::{
-    ContactHardening, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor, RandomDisk,
-    ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
+    ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
+    RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
 use crate::technique::{Config, Technique};
@@ -91,6 +91,12 @@ pub static ROWS: &[Row] = &[
     row("volume-cpu", |_| volume_by(Silhouettes::Cpu)),
     row("volume-compute", |_| volume_by(Silhouettes::Compute)),
     row("volume-vertex", |_| volume_by(Silhouettes::Vertex)),
+    row("volume-exact-count", |_| {
+        Config::Volume(ShadowVolumeDescriptor {
+            counter: Counter::Exact,
+            ..volume()
+        })
+    }),
 ];
 
 /// A cube map read through a kernel, every face drawn every frame.

@@ -2,8 +2,29 @@
 
 use shadows::{DepthConvention, MapKind, PcfSampler, wgpu};
 
-/// The convention of the host's depth buffer.
+/// The convention of the host's depth buffer, where nothing else is asked for.
 pub const DEPTH: DepthConvention = DepthConvention::InfiniteReverse;
+
+/// How the host draws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    pub depth: DepthConvention,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// Whether the host multiplies its matrices before the positions: other last bits than the
+    /// library's.
+    pub premultiplied: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            depth: DEPTH,
+            samples: 1,
+            premultiplied: false,
+        }
+    }
+}
 
 // sRGB, so that the hardware blends light linearly.
 pub(super) const SHADED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -49,12 +70,13 @@ pub(super) fn ambient_pipeline(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
+    look: Look,
 ) -> wgpu::RenderPipeline {
     let module = shader(device, "ambient", &[]);
     let depth = wgpu::DepthStencilState {
         format,
         depth_write_enabled: Some(true),
-        depth_compare: Some(DEPTH.nearer_or_equal()),
+        depth_compare: Some(look.depth.nearer_or_equal()),
         stencil: wgpu::StencilState::default(),
         bias: wgpu::DepthBiasState::default(),
     };
@@ -64,7 +86,7 @@ pub(super) fn ambient_pipeline(
         "host_ambient",
         &module,
         &[Some(layout)],
-        depth,
+        (depth, look.samples),
         &targets,
     )
 }
@@ -74,6 +96,7 @@ pub(super) fn lit_pipeline(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
+    look: Look,
     access: &ShadowAccess<'_>,
 ) -> LitPipeline {
     let module = match access.module {
@@ -110,7 +133,14 @@ pub(super) fn lit_pipeline(
     let mut layouts = vec![Some(layout)];
     layouts.extend(access.layout.map(Some));
     LitPipeline {
-        pipeline: pipeline(device, "host_lit", &module, &layouts, depth, &targets),
+        pipeline: pipeline(
+            device,
+            "host_lit",
+            &module,
+            &layouts,
+            (depth, look.samples),
+            &targets,
+        ),
         uses_stencil: access.stencil.is_some(),
     }
 }
@@ -129,7 +159,7 @@ fn pipeline(
     fragment: &str,
     module: &wgpu::ShaderModule,
     layouts: &[Option<&wgpu::BindGroupLayout>],
-    depth: wgpu::DepthStencilState,
+    (depth, samples): (wgpu::DepthStencilState, u32),
     targets: &[Option<wgpu::ColorTargetState>],
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -160,7 +190,10 @@ fn pipeline(
         // Nothing is culled: meshes may be open, and the side one sees receives light too.
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(depth),
-        multisample: wgpu::MultisampleState::default(),
+        multisample: wgpu::MultisampleState {
+            count: samples,
+            ..Default::default()
+        },
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),

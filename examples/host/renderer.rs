@@ -7,7 +7,7 @@ use shadows::{View, wgpu};
 
 use super::gpu::Gpu;
 use super::image;
-pub use super::pipelines::{DEPTH, LitPipeline, ShadowAccess};
+pub use super::pipelines::{DEPTH, LitPipeline, Look, ShadowAccess};
 use super::pipelines::{SHADED, VISIBILITY, ambient_pipeline, lit_pipeline};
 use super::scene::Scene;
 use super::scene_gpu::SceneGpu;
@@ -33,20 +33,45 @@ struct FrameUniform {
     range: f32,
     intensity: f32,
     ambient: f32,
-    padding: f32,
+    premultiplied: u32,
 }
 
 /// Targets and pipelines for one scene seen by one camera.
 pub struct Renderer {
     size: [u32; 2],
+    look: Look,
     depth_stencil_format: wgpu::TextureFormat,
     depth_stencil: wgpu::TextureView,
-    shaded: wgpu::Texture,
-    visibility: wgpu::Texture,
+    shaded: Target,
+    visibility: Target,
     host_layout: wgpu::BindGroupLayout,
     host_group: wgpu::BindGroup,
     ambient: wgpu::RenderPipeline,
     unshadowed: LitPipeline,
+}
+
+/// What is drawn into: the texture that is read, resolved from the samples where there are several.
+struct Target {
+    texture: wgpu::Texture,
+    samples: Option<wgpu::Texture>,
+}
+
+impl Target {
+    fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) -> Self {
+        Self {
+            texture: gpu.target(size, format, 1),
+            samples: (samples > 1).then(|| gpu.target(size, format, samples)),
+        }
+    }
+
+    /// Where a pass draws, and where it resolves to.
+    fn views(&self) -> (wgpu::TextureView, Option<wgpu::TextureView>) {
+        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+        match &self.samples {
+            None => (view(&self.texture), None),
+            Some(samples) => (view(samples), Some(view(&self.texture))),
+        }
+    }
 }
 
 impl Renderer {
@@ -55,6 +80,20 @@ impl Renderer {
     /// # Errors
     /// If the device cannot make targets of this size.
     pub fn new(gpu: &Gpu, size: [u32; 2], scene: &Scene, scene_gpu: &SceneGpu) -> Result<Self> {
+        Self::with_look(gpu, size, scene, scene_gpu, Look::default())
+    }
+
+    /// The same, drawn in another way.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_look(
+        gpu: &Gpu,
+        size: [u32; 2],
+        scene: &Scene,
+        scene_gpu: &SceneGpu,
+        look: Look,
+    ) -> Result<Self> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         ensure!(
             size.iter().all(|&side| side <= limit),
@@ -63,21 +102,23 @@ impl Renderer {
             size[1]
         );
         let depth_stencil_format = depth_stencil_format(gpu);
-        let depth_stencil = gpu.target(size, depth_stencil_format, 1);
-        let frame = frame_uniform(scene, size);
+        let depth_stencil = gpu.target(size, depth_stencil_format, look.samples);
+        let frame = frame_uniform(scene, size, look);
         let host_layout = host_layout(&gpu.device);
         let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
         Ok(Self {
             size,
+            look,
             depth_stencil_format,
             depth_stencil: depth_stencil.create_view(&Default::default()),
-            shaded: gpu.target(size, SHADED, 1),
-            visibility: gpu.target(size, VISIBILITY, 1),
-            ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format),
+            shaded: Target::new(gpu, size, SHADED, look.samples),
+            visibility: Target::new(gpu, size, VISIBILITY, look.samples),
+            ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format, look),
             unshadowed: lit_pipeline(
                 &gpu.device,
                 &host_layout,
                 depth_stencil_format,
+                look,
                 &ShadowAccess::default(),
             ),
             host_layout,
@@ -90,9 +131,19 @@ impl Renderer {
         self.size
     }
 
+    /// How it draws.
+    pub fn look(&self) -> Look {
+        self.look
+    }
+
     /// The format of the depth-stencil buffer.
     pub fn depth_stencil_format(&self) -> wgpu::TextureFormat {
         self.depth_stencil_format
+    }
+
+    /// The depth-stencil buffer.
+    pub fn depth_stencil(&self) -> &wgpu::TextureView {
+        &self.depth_stencil
     }
 
     /// The lit pass's pipeline for one way to find shadows.
@@ -101,6 +152,7 @@ impl Renderer {
             &gpu.device,
             &self.host_layout,
             self.depth_stencil_format,
+            self.look,
             access,
         )
     }
@@ -112,14 +164,14 @@ impl Renderer {
 
     /// Clears, then draws depth and ambient light.
     pub fn draw_ambient(&self, encoder: &mut wgpu::CommandEncoder, scene: &SceneGpu) {
-        let shaded = self.shaded.create_view(&Default::default());
+        let (shaded, _) = self.shaded.views();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("ambient"),
-            color_attachments: &[Some(color(&shaded, wgpu::LoadOp::Clear(SKY)))],
+            color_attachments: &[Some(color(&shaded, None, wgpu::LoadOp::Clear(SKY)))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth_stencil,
                 depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(DEPTH.clear_depth()),
+                    load: wgpu::LoadOp::Clear(self.look.depth.clear_depth()),
                     store: wgpu::StoreOp::Store,
                 }),
                 stencil_ops: Some(wgpu::Operations {
@@ -153,8 +205,8 @@ impl Renderer {
         lit: &LitPipeline,
         shadow_group: Option<&wgpu::BindGroup>,
     ) {
-        let shaded = self.shaded.create_view(&Default::default());
-        let visibility = self.visibility.create_view(&Default::default());
+        let (shaded, resolved) = self.shaded.views();
+        let (visibility, resolved_visibility) = self.visibility.views();
         let mut depth_stencil = self.stencil_attachment(wgpu::LoadOp::Load);
         if !lit.uses_stencil {
             depth_stencil.stencil_ops = None;
@@ -162,9 +214,10 @@ impl Renderer {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("lit"),
             color_attachments: &[
-                Some(color(&shaded, wgpu::LoadOp::Load)),
+                Some(color(&shaded, resolved.as_ref(), wgpu::LoadOp::Load)),
                 Some(color(
                     &visibility,
+                    resolved_visibility.as_ref(),
                     wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                 )),
             ],
@@ -181,12 +234,12 @@ impl Renderer {
 
     /// The shaded picture, sRGB.
     pub fn read_shaded(&self, gpu: &Gpu) -> Vec<[u8; 3]> {
-        image::without_alpha(&gpu.read_texture(&self.shaded, 0, wgpu::TextureAspect::All))
+        image::without_alpha(&gpu.read_texture(&self.shaded.texture, 0, wgpu::TextureAspect::All))
     }
 
     /// Visibility of the light at each pixel, 255 lit; 0 also where there is no surface.
     pub fn read_visibility(&self, gpu: &Gpu) -> Vec<u8> {
-        gpu.read_texture(&self.visibility, 0, wgpu::TextureAspect::All)
+        gpu.read_texture(&self.visibility.texture, 0, wgpu::TextureAspect::All)
     }
 
     fn stencil_attachment(
@@ -224,8 +277,17 @@ impl Renderer {
 /// # Errors
 /// If the camera's numbers make no view, e.g. because it looks straight up or down.
 pub fn view(scene: &Scene, size: [u32; 2]) -> Result<View> {
+    view_as(scene, size, Look::default())
+}
+
+/// The same, drawn in another way.
+///
+/// # Errors
+/// As [`view`].
+pub fn view_as(scene: &Scene, size: [u32; 2], look: Look) -> Result<View> {
     let aspect = size[0] as f32 / size[1] as f32;
-    Ok(View::new(scene.camera.clip_from_world(aspect), DEPTH)?)
+    let matrix = scene.camera.clip_from_world_as(aspect, look.depth);
+    Ok(View::new(matrix, look.depth)?)
 }
 
 fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
@@ -240,7 +302,7 @@ fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     }
 }
 
-fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
+fn frame_uniform(scene: &Scene, size: [u32; 2], look: Look) -> FrameUniform {
     let camera = &scene.camera;
     let aspect = size[0] as f32 / size[1] as f32;
     // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
@@ -253,7 +315,9 @@ fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
             reach * reach
         };
     FrameUniform {
-        clip_from_world: camera.clip_from_world(aspect).to_cols_array_2d(),
+        clip_from_world: camera
+            .clip_from_world_as(aspect, look.depth)
+            .to_cols_array_2d(),
         eye: camera.eye.extend(1.0).to_array(),
         light: scene.light.to_array(),
         // Direction and cosine; without a cone every angle's cosine is above the -1.
@@ -264,7 +328,7 @@ fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
         range: scene.range,
         intensity,
         ambient: AMBIENT,
-        padding: 0.0,
+        premultiplied: u32::from(look.premultiplied),
     }
 }
 
@@ -321,12 +385,13 @@ fn host_group(
 
 fn color<'v>(
     view: &'v wgpu::TextureView,
+    resolve_target: Option<&'v wgpu::TextureView>,
     load: wgpu::LoadOp<wgpu::Color>,
 ) -> wgpu::RenderPassColorAttachment<'v> {
     wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
-        resolve_target: None,
+        resolve_target,
         ops: wgpu::Operations {
             load,
             store: wgpu::StoreOp::Store,

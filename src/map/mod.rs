@@ -19,6 +19,8 @@ mod scene;
 mod schedule;
 mod slot;
 mod statistics;
+mod still;
+mod still_layer;
 mod texture;
 mod upload;
 mod visible;
@@ -34,3 +36,4 @@ pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor, ShadowMap
 pub use joint::FacePasses;
 pub(crate) use light::LightUniform;
 pub use statistics::{CubeStatistics, FaceState, FaceStatistics};
+pub use still_layer::StillLayers;

@@ -76,6 +76,15 @@ impl Lighting {
         }
     }
 
+    /// The light elsewhere, for points that it reaches: without its range and its cone.
+    pub(super) fn moved_to(light: DVec4) -> Self {
+        Self {
+            light,
+            range: f64::INFINITY,
+            cone: None,
+        }
+    }
+
     /// Whether there is any of the light at a place, shadows aside.
     fn reaches(&self, position: DVec3) -> bool {
         let along = position - self.light.xyz();

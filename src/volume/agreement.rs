@@ -4,7 +4,7 @@
 #[path = "../../examples/host/gpu.rs"]
 mod gpu;
 #[allow(dead_code)]
-#[path = "../../tests/volume/shapes.rs"]
+#[path = "../../examples/host/shapes.rs"]
 mod shapes;
 
 use glam::camera::rh::{proj::directx as proj, view};

@@ -105,7 +105,7 @@ fn of_caster(slot: &Slot, scratch: &mut CpuVolume) -> u64 {
         return u64::from(slot.mesh.triangle_count());
     };
     let counts = scratch.extract(mesh, slot.mesh.kind(), &slot.instance);
-    let caps = (u64::from(counts.front) + u64::from(counts.back)) / 3;
+    let caps = u64::from(counts.front / 3 + counts.back / 3);
     let [x, y, z, w] = slot.instance.light;
     let light = Vec3::new(x, y, z).as_dvec3() + Vec3::from(slot.instance.light_rest).as_dvec3();
     let seen = Seen {
@@ -180,10 +180,9 @@ impl Seen<'_> {
     /// Caps that the axis of the poles runs through, or nearly.
     fn caps_at_poles(&self, frame: &DMat3) -> u64 {
         let to_frame = frame.transpose();
-        let hit = |cap: &[u32; 3]| {
+        let hit = |cap: &&[u32; 3]| {
             // The determinants of two corners and the pole have one sign, but for rounding.
-            let corner = |i: usize| (to_frame * self.direction(cap[i])).truncate();
-            let corners = [corner(0), corner(1), corner(2)];
+            let corners = cap.map(|vertex| (to_frame * self.direction(vertex)).truncate());
             let turns = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| {
                 let (a, b) = (corners[i], corners[j]);
                 (a.perp_dot(b), 1e-12 * a.length() * b.length())

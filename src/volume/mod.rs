@@ -34,6 +34,7 @@ mod rule;
 mod scissor;
 mod screen;
 mod silhouette;
+mod skin;
 mod subject;
 mod world_box;
 

@@ -32,8 +32,12 @@ use crate::error::ShadowVolumeError;
 /// [`Counter::Exact`](crate::Counter::Exact) or fewer, closed meshes.
 /// [`may_wrap`](Self::may_wrap) says whether that can happen.
 ///
-/// A light nearer to a triangle than about 3e-5 of the triangle's size leaves wrong pixels along
-/// the horizon of that triangle: its corners' points at infinity then cancel in f32 clip space.
+/// A light may be as near to a caster as a millionth of its size, if it is outside of the box around
+/// the mesh. Within the box, nearer to a large triangle than about 1e-5 of its size, or to an edge
+/// than 3e-6 of its length, up to 1 % of the pixels come out wrong along the light's horizon: the
+/// corners' points at infinity then lie almost in one line of clip space. And where shaders find the
+/// silhouettes, a triangle that the light is nearer to than about 1e-6 of its size may count as seen
+/// edge-on and cast nothing; the CPU decides in f64 there.
 #[derive(Debug)]
 pub struct ShadowVolumeRenderer {
     device: wgpu::Device,
@@ -249,9 +253,11 @@ impl ShadowVolumeRenderer {
     /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
     /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
     ///
-    /// Takes the CPU about as long as one extraction of the volumes drawn
+    /// Takes the CPU once or twice as long as extracting the volumes drawn
     /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)); what a caster comes to is kept with its
-    /// volume, and what is left to do where nothing moved is to sort the casters.
+    /// volume, and what is left to do where nothing moved is to sort the casters: on the example's
+    /// scenes 3 for `spheres`, 17 for `teapot` and 62 for `courtyard`, there in 32 ms the first time
+    /// and 0.05 ms each time after.
     pub fn count_bound(&mut self) -> u64 {
         layers::bound(&mut self.plan, &mut self.on_cpu)
     }

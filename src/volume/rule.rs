@@ -59,6 +59,12 @@ impl ObjectLight {
             rest: rest.to_array(),
         })
     }
+
+    /// The sum of the two.
+    pub fn exact(&self) -> DVec3 {
+        let [x, y, z, _] = self.light;
+        Vec3::new(x, y, z).as_dvec3() + Vec3::from(self.rest).as_dvec3()
+    }
 }
 
 /// A direction scaled by a power of two (so exactly) to a largest component between 1 and 2.

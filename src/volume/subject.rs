@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::method::{Form, Rules, Skip};
+use super::method::{Caps, Form, Rules, Skip};
 use super::plan::{Means, PlanLimits};
 use super::regions::Words;
 use super::rule::{self, ObjectLight};
 use super::silhouette::Way;
+use super::skin;
 use super::world_box::WorldBox;
 use super::{ShadowVolumeFrame, VolumeStatistics};
 use crate::Caster;
@@ -132,7 +133,14 @@ fn subject(
         .ways
         .of(&caster.mesh)
         .ok_or(ShadowVolumeError::HostPositions { index })?;
-    let form = skip.is_none().then(|| rules.form(&world));
+    let form = skip.is_none().then(|| {
+        let mut form = rules.form(&world);
+        if means.options.caps == Caps::AsNeeded {
+            let own = (caster.mesh.bounds(), &map);
+            skin::settle(&mut form, own, frame.light, light.exact(), &world);
+        }
+        form
+    });
     if let Some(form) = &form {
         statistics.draw(form.count);
     }

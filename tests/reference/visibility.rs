@@ -85,6 +85,34 @@ fn a_spot_lights_a_disk_of_the_ground_below() {
 }
 
 #[test]
+fn the_penumbra_of_a_straight_edge_is_a_segment_of_the_disk() {
+    // An edge half-way up to the light, along z.
+    let roof = rectangle(Vec2::new(0.0, -20.0), Vec2::new(20.0, 20.0), 2.0);
+    let ground = ground();
+    let scene = ReferenceScene::new(&[ground.object(false), roof.object(true)]).unwrap();
+    let light = HomogeneousLight::point(Vec3::new(0.0, 4.0, 0.0));
+    let eye = Vec3::new(0.0, 1.0, 0.0);
+    let image = scene
+        .render(&downward(eye, 0.1), SIDE, SIDE, light, None)
+        .unwrap();
+    let pixels: Vec<[u32; 2]> = (0..SIDE).map(|x| [x, SIDE / 2]).collect();
+    let worst = |radius: f64, expected_radius: f64| {
+        let seen = image.area_visibility(&pixels, radius, 1024);
+        let errors = pixels.iter().zip(seen).map(|(&[x, y], seen)| {
+            // The places of the disk on the other side of the edge.
+            let t = (-ground_under(x, y, eye).x / expected_radius).clamp(-1.0, 1.0);
+            let beyond = (t.acos() - t * (1.0 - t * t).sqrt()) / f64::from(PI);
+            (seen.unwrap() - (1.0 - beyond)).abs()
+        });
+        errors.fold(0.0, f64::max)
+    };
+    assert!(worst(0.4, 0.4) < 0.02, "{}", worst(0.4, 0.4));
+    // The twin: a smaller light.
+    assert!(worst(0.3, 0.4) > 0.05);
+    assert_eq!(image.area_visibility(&[[0, SIDE]], 0.4, 16), [None]);
+}
+
+#[test]
 fn only_casters_cast() {
     let (ground, roof) = (ground(), rectangle(Vec2::NEG_ONE, Vec2::ONE, 2.0));
     let light = HomogeneousLight::point(Vec3::new(2.0, 5.0, 0.0));

@@ -1,12 +1,25 @@
 //! Where shadow volumes usually break.
 
+use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, wgpu};
+use shadows::{
+    DepthConvention, HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes,
+    View, wgpu,
+};
 
 use crate::host::gpu::Gpu;
 use crate::pictures::{assert_exact, at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Stage};
+
+const WAYS: [Silhouettes; 3] = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+
+/// The stage with its silhouettes found in this way.
+fn by(stage: &Stage, silhouettes: Silhouettes) -> Stage {
+    let mut stage = stage.clone();
+    stage.savings.silhouettes = silhouettes;
+    stage
+}
 
 #[test]
 fn a_light_inside_a_closed_caster_is_seen_through_its_hole_only() {
@@ -87,8 +100,6 @@ fn a_light_on_a_vertex_or_an_edge_leaves_the_rest_right() {
 #[test]
 fn a_light_just_above_a_caster_casts_the_whole_shadow() {
     let Some(gpu) = Gpu::for_test() else { return };
-    // Nearer still, the points at infinity of one cap cancel in f32: 1e-5 of the caster's size
-    // leaves wrong pixels along the horizon of the light.
     for height in [1e-1, 1e-3, 1e-4] {
         let light = HomogeneousLight::point(Vec3::new(0.1, 1.0 + height, 0.2));
         let small = Affine3A::from_scale(Vec3::splat(0.7));
@@ -149,7 +160,7 @@ fn the_near_plane_may_cut_a_volume() {
     // The edge of the square's shadow runs down at z = 0.6; the near rectangle slides through it.
     let light = HomogeneousLight::directional(Vec3::new(0.0, 1.0, 0.0));
     for step in 0..5 {
-        for degrees in [30.0f32, 90.0, 150.0] {
+        for degrees in [30.0f32, 60.0, 90.0, 120.0, 150.0] {
             let eye = Vec3::new(0.0, 1.2, 1.3 + 0.05 * step as f32);
             let stage = Stage {
                 eye,
@@ -162,9 +173,12 @@ fn the_near_plane_may_cut_a_volume() {
                 )
             };
             let truth = stage.truth();
-            let found = truth.errors(&stage.draw(&gpu));
-            assert!(found.interior > 1_000, "{step}, {degrees}: {found:?}");
-            assert_eq!(found.wrong, 0, "{step}, {degrees}: {found:?}");
+            for silhouettes in WAYS {
+                let found = truth.errors(&by(&stage, silhouettes).draw(&gpu));
+                let what = format!("{step}, {degrees}, {silhouettes:?}: {found:?}");
+                assert!(found.interior > 1_000, "{what}");
+                assert_eq!(found.wrong, 0, "{what}");
+            }
         }
     }
 }
@@ -184,7 +198,44 @@ fn scale_does_not_matter() {
             }
             body.transform.translation *= scale;
         }
-        assert_exact(&gpu, &stage, &format!("scale {scale}"));
+        for silhouettes in WAYS {
+            let stage = by(&stage, silhouettes);
+            assert_exact(&gpu, &stage, &format!("scale {scale}, {silhouettes:?}"));
+        }
+    }
+}
+
+#[test]
+fn a_receiver_may_be_a_million_times_as_far_as_the_near_plane() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let format = wgpu::TextureFormat::Depth32FloatStencil8;
+    if !gpu.device.features().contains(format.required_features()) {
+        return;
+    }
+    // The scene is some 10 units away. Depths of 1e-6 want floats: 24 bits leave 16 steps up to there.
+    for light in [lamp(), sun()] {
+        let stage = Stage {
+            near: 1e-5,
+            format,
+            ..mixed(light)
+        };
+        for silhouettes in WAYS {
+            let stage = by(&stage, silhouettes);
+            assert_exact(&gpu, &stage, &format!("{light:?}, {silhouettes:?}"));
+        }
+        // The usual projection has no depths left there.
+        if crate::choices::depths(&gpu).contains(&DepthConvention::Standard) {
+            let projection = proj::perspective(stage.field_of_view, 1.0, stage.near, 1e4);
+            let camera = view::look_at_mat4(stage.eye, stage.target, Vec3::Y);
+            let depth = DepthConvention::Standard;
+            let standard = Stage {
+                depth,
+                placed_view: View::new(projection * camera, depth).ok(),
+                ..stage
+            };
+            let wrong = standard.truth().errors(&standard.draw(&gpu)).wrong;
+            assert!(wrong > 500, "{wrong}");
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 //! Metres, right-handed, Y up, triangles counter-clockwise seen from outside. Nothing in here needs
 //! a GPU.
 
+use shadows::DepthConvention;
 use shadows::glam::camera::rh::{proj::directx, view::look_at_mat4};
 use shadows::glam::{Affine3A, DAffine3, DMat3, DVec3, Mat4, Vec3, Vec4};
 
@@ -99,8 +100,20 @@ impl Camera {
     /// Clip from world space, infinite reverse Z (1 at the near plane, 0 at infinity).
     /// `aspect` is width over height.
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
-        directx::perspective_infinite_reverse(self.fovy, aspect, self.near)
-            * look_at_mat4(self.eye, self.target, Vec3::Y)
+        self.clip_from_world_as(aspect, DepthConvention::InfiniteReverse)
+    }
+
+    /// The same in any convention; where there is a far plane, it is at a thousand times `near`.
+    pub fn clip_from_world_as(&self, aspect: f32, depth: DepthConvention) -> Mat4 {
+        let (fovy, near, far) = (self.fovy, self.near, 1e3 * self.near);
+        let projection = match depth {
+            DepthConvention::InfiniteReverse => {
+                directx::perspective_infinite_reverse(fovy, aspect, near)
+            }
+            DepthConvention::FiniteReverse => directx::perspective(fovy, aspect, far, near),
+            DepthConvention::Standard => directx::perspective(fovy, aspect, near, far),
+        };
+        projection * look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 }
 
@@ -266,6 +279,25 @@ impl Scene {
             self.light = toward_light.extend(0.0);
         }
         Ok(())
+    }
+
+    /// Nothing to see, under a light from above.
+    pub fn empty(name: &str) -> Self {
+        Self {
+            name: name.into(),
+            meshes: Vec::new(),
+            objects: Vec::new(),
+            light: Vec4::Y,
+            cone: None,
+            range: 100.0,
+            shadow_near: 0.1,
+            camera: Camera {
+                eye: Vec3::new(0.0, 5.0, 10.0),
+                target: Vec3::ZERO,
+                fovy: std::f32::consts::FRAC_PI_4,
+                near: 0.1,
+            },
+        }
     }
 
     /// Adds a mesh and says where it is.

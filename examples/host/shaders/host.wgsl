@@ -9,7 +9,7 @@ struct HostFrame {
     range: f32,
     intensity: f32,
     ambient: f32,
-    padding: f32,
+    premultiplied: u32,
 }
 
 struct HostObject {
@@ -35,6 +35,10 @@ fn host_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Host
         host_object.world_from_object,
         position,
     );
+    if host_frame.premultiplied != 0u {
+        let clip_from_object = host_frame.clip_from_world * host_object.world_from_object;
+        out.clip = clip_from_object * vec4f(position, 1.0);
+    }
     out.world = (host_object.world_from_object * vec4f(position, 1.0)).xyz;
     out.normal = host_object.normal_from_object * normal;
     return out;

@@ -63,17 +63,12 @@ impl CpuVolume {
         }
     }
 
-    /// The corners of the caps' triangles: those that face the light, then those that face away
-    /// from it where they count.
-    pub fn caps<'m>(&'m self, mesh: &'m MeshData) -> impl Iterator<Item = [u32; 3]> + 'm {
-        [|word: &Facings| word.front, |word: &Facings| word.back]
-            .into_iter()
-            .flat_map(move |side| {
-                let words = self.facings.iter().zip(mesh.triangles.chunks(LANES));
-                words.flat_map(move |(word, triangles)| {
-                    ones(side(word)).map(|place| triangles[place])
-                })
-            })
+    /// The triangles that are caps.
+    pub fn caps<'a>(&'a self, mesh: &'a MeshData) -> impl Iterator<Item = &'a [u32; 3]> {
+        let words = self.facings.iter().zip(mesh.triangles.chunks(LANES));
+        words.flat_map(|(word, triangles)| {
+            ones(word.front | word.back).filter_map(|place| triangles.get(place))
+        })
     }
 
     fn find_facings(&mut self, mesh: &MeshData, instance: &InstanceParams) {

@@ -1,18 +1,34 @@
 //! On which side of a triangle the light lies, as `volume_light_side.wgsl` decides it.
 
-use glam::{Vec3, Vec4, Vec4Swizzles as _};
+use glam::{DVec3, Vec3, Vec4, Vec4Swizzles as _};
 
-/// sign(det(b - a, c - a, light - w a)), and 0 where rounding could have changed the sign; every
-/// operation as in the shader, which says where the bound comes from.
+/// sign(det(b - a, c - a, light - w a)), as in the shader, which says where the bound of its rounding
+/// comes from; where that could have changed the sign, the same once more in f64.
 ///
-/// A GPU may fuse a product and a sum into one rounding. Both answers then keep to the bound, but a
-/// triangle within the bound of being seen edge-on may be 0 in one and have its sign in the other:
-/// two different volumes, both closed, with one picture.
+/// The shader, which has no f64, answers 0 there, as if the triangle were seen edge-on. So may a GPU
+/// that fuses a product and a sum into one rounding. These are two different volumes, both closed,
+/// and with one picture unless the light is at the very skin of the triangle.
 pub(in super::super) fn light_side(a: Vec3, b: Vec3, c: Vec3, light: Vec4, rest: Vec3) -> i8 {
     match clear_side(a, b, c, light, rest) {
-        0 => scaled_side(a, b, c, light, rest),
+        0 => exact_side([a, b, c].map(Vec3::as_dvec3), light, rest),
         side => side,
     }
+}
+
+/// In f64, and 0 where even that could round to another sign. Numbers of f32 neither over- nor
+/// underflow in products of three.
+#[cold]
+fn exact_side([a, b, c]: [DVec3; 3], light: Vec4, rest: Vec3) -> i8 {
+    let (u, v) = (b - a, c - a);
+    let light = light.as_dvec4();
+    let rest = rest.as_dvec3();
+    let toward = light.xyz() - light.w * a;
+    let r = toward + rest;
+    let p = DVec3::new(u.y * v.z, u.z * v.x, u.x * v.y);
+    let q = DVec3::new(u.z * v.y, u.x * v.z, u.y * v.x);
+    let det = (p - q).dot(r);
+    let bound = (p.abs() + q.abs()).dot(toward.abs() + rest.abs()) * (5.0 * f64::EPSILON);
+    i8::from(det > bound) - i8::from(det < -bound)
 }
 
 /// The same without scaling: 0 unless the sign is beyond doubt.
@@ -33,30 +49,6 @@ fn clear_side(a: Vec3, b: Vec3, c: Vec3, light: Vec4, rest: Vec3) -> i8 {
     let bound = sum((p.abs() + q.abs()) * r_bound) * (20.0 / 16_777_216.0);
     let clear = (bound > SMALLEST) & (sum(r_bound) < FARTHEST) & (det.abs() > bound);
     i8::from(clear & (det > 0.0)) - i8::from(clear & (det < 0.0))
-}
-
-#[cold]
-fn scaled_side(a: Vec3, b: Vec3, c: Vec3, light: Vec4, rest: Vec3) -> i8 {
-    let (mut u, mut v) = (b - a, c - a);
-    let toward = light.xyz() - light.w * a;
-    let mut r = toward + rest;
-    u *= exact_scale(u);
-    v *= exact_scale(v);
-    let scale = exact_scale(r);
-    let r_bound = (toward.abs() + rest.abs()) * scale;
-    r *= scale;
-    let p = yzx(u) * zxy(v);
-    let q = zxy(u) * yzx(v);
-    let det = sum((p - q) * r);
-    let bound = sum((p.abs() + q.abs()) * r_bound) * (10.0 / 16_777_216.0);
-    i8::from(det > bound) - i8::from(det < -bound)
-}
-
-/// A power of two that brings the largest component into 1 .. 2.
-fn exact_scale(v: Vec3) -> f32 {
-    let v = v.abs();
-    let exponent = v.x.max(v.y.max(v.z)).to_bits() & 0x7f80_0000;
-    f32::from_bits(0x7f00_0000 - exponent.min(0x7e80_0000))
 }
 
 fn sum(v: Vec3) -> f32 {
@@ -95,13 +87,32 @@ mod tests {
                     let (b, c) = (a + Vec3::new(size, 0.0, 0.1 * size), a + size * Vec3::Y);
                     let rest = Vec3::splat(height * 1e-9);
                     let short = clear_side(a, b, c, light.into(), rest);
-                    let whole = scaled_side(a, b, c, light.into(), rest);
+                    let corners = [a, b, c].map(Vec3::as_dvec3);
+                    let whole = exact_side(corners, light.into(), rest);
                     assert!(short == 0 || short == whole, "{size} {height}");
                     clear += i32::from(short != 0);
                 }
             }
         }
         assert!(clear > 1000, "{clear}");
+    }
+
+    #[test]
+    fn a_light_at_the_skin_has_a_side() {
+        // Tilted, so that every product rounds; the light a billionth of its size above its middle.
+        let [a, b, c] = [[0.3, 0.9, -0.4], [-0.7, 0.1, 0.6], [0.5, -0.8, 0.2]].map(Vec3::from);
+        let normal = (b - a).cross(c - a).normalize().as_dvec3();
+        let middle = (a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0;
+        for (height, side) in [(1e-9, 1), (-1e-9, -1), (1e-3, 1)] {
+            let light = middle + normal * height;
+            let rounded = light.as_vec3();
+            let rest = (light - rounded.as_dvec3()).as_vec3();
+            let found = |rest| light_side(a, b, c, rounded.extend(1.0), rest);
+            assert_eq!(found(rest), side, "{height}");
+            // In f32 it would have none.
+            let short = clear_side(a, b, c, rounded.extend(1.0), rest);
+            assert_eq!(short, if height == 1e-3 { side } else { 0 });
+        }
     }
 
     #[test]

@@ -4,7 +4,8 @@ use super::super::limits;
 use crate::error::ShadowVolumeError;
 use crate::mesh::CasterMesh;
 
-/// How the silhouettes of casters are found. All ways count the same volumes.
+/// How the silhouettes of casters are found. All ways count the same volumes, but for a light at the
+/// very skin of a triangle: see [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Silhouettes {

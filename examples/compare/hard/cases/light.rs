@@ -1,0 +1,166 @@
+//! Cases of the light.
+
+use shadows::glam::{Affine3A, Vec3, Vec4};
+
+use super::camera::name;
+use super::{Case, Expect};
+use crate::hard::situation::{Situation, at, lamp};
+use crate::host::random::Random;
+use crate::host::shapes;
+
+pub const CASES: [Case; 7] = [
+    Case {
+        name: "Light very near a caster",
+        build: "light in view, 1e-2, 1e-4 and 1e-6 above a square",
+        answer: "finite, equals the reference",
+        situations: near_a_caster,
+        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
+        ..Case::EXACT
+    },
+    Case {
+        name: "Light inside a closed caster",
+        build: "a box around the light, whole and without its floor",
+        answer: "finite, equals the reference",
+        situations: inside_a_caster,
+        ..Case::EXACT
+    },
+    Case {
+        name: "Light in a triangle's plane",
+        build: "a sheet in the plane z = 0, the light on z = 0",
+        answer: "facing 0; the volume stays closed",
+        situations: in_a_plane,
+        ..Case::EXACT
+    },
+    Case {
+        name: "Light on a vertex, on an edge's midpoint",
+        build: "light = v, light = (a + b) / 2, of a box and of a square",
+        answer: "no NaN, equals the reference elsewhere",
+        situations: on_a_vertex,
+        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
+        ..Case::EXACT
+    },
+    Case {
+        name: "Beyond the light's range",
+        build: "a range that ends on the ground in view",
+        answer: "outside is not lit by this light; no wrap",
+        situations: range,
+        ..Case::EXACT
+    },
+    Case {
+        name: "Caster inside the near sphere",
+        build: "a box at half the map's near distance",
+        answer: "volumes shadow; maps do not, reported",
+        situations: inside_near,
+        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
+        ..Case::EXACT
+    },
+    Case {
+        name: "Light inside the view",
+        build: "the lamp among the casters, in the middle of the picture",
+        answer: "equals the reference",
+        situations: in_view,
+        ..Case::EXACT
+    },
+];
+
+fn near_a_caster(random: &mut Random) -> Vec<Situation> {
+    [1e-2f32, 1e-4, 1e-6]
+        .into_iter()
+        .map(|height| {
+            // Just above 1, where f32 still tells 1e-6 apart.
+            let spot = random.point(0.3);
+            let light = Vec4::new(0.1 + spot.x, 1.0 + height, 0.2 + spot.z, 1.0);
+            Situation::new(format!("{height:e} above"), light, random)
+                .caster(&shapes::square(1.0), at(0.0, 1.0, 0.0))
+                .caster(
+                    &shapes::sphere(10),
+                    at(-1.5, 2.5, -1.0) * Affine3A::from_scale(Vec3::splat(0.7)),
+                )
+        })
+        .collect()
+}
+
+fn inside_a_caster(random: &mut Random) -> Vec<Situation> {
+    let light = (Vec3::new(0.1, 2.0, 0.2) + random.point(0.2)).extend(1.0);
+    let whole = shapes::cube();
+    let floorless = shapes::cube().cut(|corners| corners.iter().any(|c| c.y > -0.5));
+    [("whole", whole), ("no floor", floorless)]
+        .into_iter()
+        .map(|(what, shape)| Situation::new(what, light, random).caster(&shape, at(0.0, 2.0, 0.0)))
+        .collect()
+}
+
+fn in_a_plane(random: &mut Random) -> Vec<Situation> {
+    let upright = Affine3A::from_rotation_x(std::f32::consts::FRAC_PI_2);
+    let height = random.within(5.0, 7.0);
+    [
+        Vec4::new(-2.0, height, 0.0, 1.0),
+        Vec4::new(-0.4, 1.0, 0.0, 0.0),
+    ]
+    .into_iter()
+    .map(|light| {
+        Situation::new(name(light), light, random)
+            .caster(&shapes::square(1.0), at(0.0, 1.5, 0.0) * upright)
+            .caster(&shapes::cube(), at(1.5, 1.5, -1.0))
+    })
+    .collect()
+}
+
+fn on_a_vertex(random: &mut Random) -> Vec<Situation> {
+    let mut situations = Vec::new();
+    for (what, shape, height) in [
+        ("box", shapes::cube(), 2.0),
+        ("square", shapes::square(1.0), 3.0),
+    ] {
+        for (where_to, light) in [
+            ("vertex", Vec4::new(-1.0, 3.0, 1.0, 1.0)),
+            ("edge", Vec4::new(0.0, 3.0, 1.0, 1.0)),
+        ] {
+            let situation = Situation::new(format!("{what}, {where_to}"), light, random)
+                .caster(&shape, at(0.0, height, 0.0))
+                .caster(&shapes::sphere(10), at(-2.5, 0.8, 1.5));
+            situations.push(situation);
+        }
+    }
+    situations
+}
+
+fn range(random: &mut Random) -> Vec<Situation> {
+    [6.5f32, 8.0]
+        .into_iter()
+        .map(|range| {
+            let light = lamp(random);
+            let mut situation = Situation::new(format!("range {range}"), light, random)
+                .caster(&shapes::cube().tilted(), at(-1.0, 1.9, 0.5))
+                .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
+            situation.scene.range = range;
+            situation
+        })
+        .collect()
+}
+
+fn inside_near(random: &mut Random) -> Vec<Situation> {
+    let light = lamp(random);
+    let below = light.truncate() - Vec3::Y * 0.5;
+    let mut situation = Situation::new("near 1, box at 0.5", light, random)
+        .caster(
+            &shapes::cube().tilted(),
+            Affine3A::from_translation(below) * Affine3A::from_scale(Vec3::splat(0.05)),
+        )
+        .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
+    situation.scene.shadow_near = 1.0;
+    vec![situation]
+}
+
+fn in_view(random: &mut Random) -> Vec<Situation> {
+    let light = (Vec3::new(0.0, 1.2, 0.0) + random.point(0.2)).extend(1.0);
+    let small = Affine3A::from_scale(Vec3::splat(0.5));
+    let around = (0..6).map(|i| {
+        let angle = std::f32::consts::TAU * i as f32 / 6.0 + 0.2;
+        at(2.0 * angle.cos(), 0.9, 2.0 * angle.sin()) * small
+    });
+    let situation = Situation::new("six around", light, random);
+    vec![around.fold(situation, |situation, place| {
+        situation.caster(&shapes::cube().tilted(), place)
+    })]
+}
