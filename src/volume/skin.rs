@@ -1,6 +1,6 @@
 //! The way into a caster from a light that may be very near to it.
 
-use glam::{DAffine3, DVec3, DVec4};
+use glam::{DAffine3, DVec3};
 
 use super::method::{DarkCap, Form};
 use super::world_box::WorldBox;
@@ -26,7 +26,7 @@ pub(super) fn settle(
     object_light: DVec3,
     world: &WorldBox,
 ) {
-    if light.is_directional() || form.far.plane != DVec4::ZERO || form.dark_cap == DarkCap::None {
+    if light.is_directional() || !form.far.is_infinite() || form.dark_cap == DarkCap::None {
         return;
     }
     let axis = form.far.apex.truncate();
