@@ -31,6 +31,8 @@ impl File {
 pub struct Results {
     pub dir: PathBuf,
     pub files: Vec<File>,
+    /// The file to read first.
+    pub report: &'static str,
     /// For the terminal.
     pub summary: String,
     /// Written as scene.ply.
