@@ -207,6 +207,7 @@ impl Yard {
                 buffers: &[],
             },
             primitive: Default::default(),
+            depth_stencil: None,
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &module,

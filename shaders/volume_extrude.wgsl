@@ -49,6 +49,7 @@ fn far_point(position: vec3f) -> vec4f {
     }
     let w = dot(caster.far_plane.xyz, direction);
     if caster.light.w == 0.0 && w != 0.0 {
+        let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
         let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
         return caster.clip_from_world * vec4f(to_plane * direction + w * world, w);
     }

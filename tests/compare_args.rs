@@ -125,6 +125,16 @@ fn techniques_are_kept_once_in_the_order_given() {
 }
 
 #[test]
+fn a_sweep_takes_limits() {
+    let args = read("--sweep --error-at-most 0.001 --time-at-most 2.5ms");
+    assert!(args.sweep && !read("").sweep);
+    assert_eq!(
+        (args.error_at_most, args.time_at_most),
+        (Some(0.001), Some(2.5))
+    );
+}
+
+#[test]
 fn techniques_may_be_named_by_how_they_begin() {
     let names = |line: &str| read(line).techniques.0.len();
     let cubes = names("--technique cube-*");
@@ -186,6 +196,10 @@ fn wrong_values_are_refused_with_the_reason() {
     assert_refused("--light 0,0,0,0", "direction");
     assert_refused("--light 1,NaN,3", "not finite");
     assert_refused("--light 1,x,3", "\"x\" is not a number");
+    assert_refused("--sweep --error-at-most 2", "from 0 to 1");
+    assert_refused("--sweep --time-at-most 2", "such as 2ms");
+    assert_refused("--sweep --time-at-most=-2ms", "--time-at-most");
+    assert_refused("--error-at-most 0.1", "--sweep");
     assert_refused("--light-kind sun", "point, spot or directional");
     assert_refused("--range 0", "above 0");
     assert_refused("--range -1", "above 0");

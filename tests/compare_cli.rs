@@ -342,6 +342,42 @@ fn check_visibility(dir: &Path) {
 }
 
 #[test]
+fn a_sweep_writes_its_table_its_front_and_its_advice() {
+    if host::gpu::Gpu::for_test().is_none() {
+        return;
+    }
+    let scratch = Scratch::new("sweep");
+    let out = scratch.path("out");
+    let line = "--sweep --technique volume* --size 96x54 --frames 2 --error-at-most 1 \
+                --time-at-most 1000000ms --out";
+    let args: Vec<&str> = line.split_whitespace().chain([out.as_str()]).collect();
+    let output = compare(&args);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let files: Vec<String> = scratch.files("out").into_iter().collect();
+    assert_eq!(files, ["speed-vs-error.svg", "sweep.json", "sweep.md"]);
+    let read = |name: &str| fs::read_to_string(Path::new(&out).join(name)).unwrap();
+    let rows: Value = serde_json::from_str(&read("sweep.json")).unwrap();
+    let rows = rows.as_array().unwrap();
+    let times: Vec<f64> = rows.iter().map(|row| row["ms"].as_f64().unwrap()).collect();
+    assert!(rows.len() > 8 && times.is_sorted(), "{times:?}");
+    // The front begins with the fastest, and advice under no limit but one is its ends.
+    assert_eq!(rows[0]["front"], true);
+    let (markdown, svg) = (read("sweep.md"), read("speed-vs-error.svg"));
+    let fastest = rows[0]["name"].as_str().unwrap();
+    assert!(
+        markdown.contains(&format!("100 % wrong pixels: `{fastest}`")),
+        "{markdown}"
+    );
+    assert!(markdown.contains("```rust\nlet volumes = ShadowVolumeDescriptor"));
+    assert!(markdown.contains("within 1000000 ms a frame: `volume"));
+    assert!(svg.contains(fastest));
+    for row in rows {
+        assert!(markdown.contains(&format!("| `{}` |", row["name"].as_str().unwrap())));
+    }
+}
+
+#[test]
 fn several_scenes_get_a_directory_each_and_other_files_stay() {
     if host::gpu::Gpu::for_test().is_none() {
         return;

@@ -84,6 +84,19 @@ pub struct Args {
     #[arg(long, value_name = "SUBSTRING")]
     pub adapter: Option<String>,
 
+    /// Instead of a few techniques, try them all over their settings (--technique leaves out the
+    /// others), and write which are both fastest and most exact.
+    #[arg(long)]
+    pub sweep: bool,
+
+    /// Advise the cheapest with at most this part of the pixels wrong, such as 0.001.
+    #[arg(long, value_name = "PART", value_parser = part, requires = "sweep")]
+    pub error_at_most: Option<f64>,
+
+    /// Advise the most exact within this time a frame, such as 2ms.
+    #[arg(long, value_name = "TIME", value_parser = milliseconds, requires = "sweep")]
+    pub time_at_most: Option<f64>,
+
     /// Also write the scene as PLY and the rendered masks, for other tools to measure.
     #[arg(long)]
     pub export: bool,
@@ -305,6 +318,21 @@ fn range(text: &str) -> Result<f32, String> {
     } else {
         Err("it must be above 0".into())
     }
+}
+
+fn part(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(part) if (0.0..=1.0).contains(&part) => Ok(part),
+        _ => Err("it must be a number from 0 to 1".into()),
+    }
+}
+
+fn milliseconds(text: &str) -> Result<f64, String> {
+    let number = text
+        .strip_suffix("ms")
+        .and_then(|number| number.parse().ok());
+    let time = number.filter(|time: &f64| time.is_finite() && *time > 0.0);
+    time.ok_or_else(|| "it must be milliseconds above 0, such as 2ms or 0.5ms".into())
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

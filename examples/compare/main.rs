@@ -16,8 +16,10 @@ mod plot;
 mod progress;
 mod report;
 mod shadow;
+mod snippet;
 mod soft;
 mod stage;
+mod sweep;
 mod table;
 mod technique;
 
@@ -25,6 +27,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, Result, bail};
+use shadows::reference::ReferenceImage;
 
 use crate::args::Args;
 use crate::host::gpu::{Gpu, describe};
@@ -34,6 +37,7 @@ use crate::output::{File, Results};
 use crate::progress::progress;
 use crate::report::LeftOut;
 use crate::stage::Stage;
+use crate::sweep::Wishes;
 use crate::technique::{Config, Technique};
 
 fn main() -> ExitCode {
@@ -82,7 +86,7 @@ fn run(args: &Args) -> Result<ExitCode> {
     output::write_all(&results)?;
     for result in &results {
         println!("{}", result.summary);
-        println!("{}", result.dir.join("report.md").display());
+        println!("{}", result.dir.join(result.report).display());
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -106,16 +110,25 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     }
     host::renderer::view(&scene, args.size).with_context(|| format!("scene {name}: camera"))?;
     let light = scene.light_kind();
-    let asked = args.techniques.0.iter().map(|row| row.at(args.face));
-    let (techniques, others): (Vec<_>, Vec<_>) =
-        asked.partition(|technique| technique.config.applies_to(light));
+    let asked: Vec<Technique> = match args.sweep {
+        true => sweep::techniques(&args.techniques),
+        false => args
+            .techniques
+            .0
+            .iter()
+            .map(|row| row.at(args.face))
+            .collect(),
+    };
+    let (techniques, others): (Vec<_>, Vec<_>) = asked
+        .into_iter()
+        .partition(|technique| technique.config.applies_to(light));
     if techniques.is_empty() {
         let reasons: Vec<&str> = others.iter().map(|other| other.config.limit()).collect();
         bail!("no technique is left: {}", reasons[0]);
     }
     // The usual flat maps are for lights that are no points; where nobody asked for them, that is
     // nothing to tell.
-    let unasked = args.techniques.are_usual();
+    let unasked = args.techniques.are_usual() || args.sweep;
     let left_out: Vec<LeftOut> = others
         .into_iter()
         .filter(|other| !(unasked && matches!(other.config, Config::Flat { .. })))
@@ -144,6 +157,11 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
     let reference = stage.reference(move |part| shared.set_position((part * 1000.0) as u64))?;
     bar.finish_and_clear();
 
+    if args.sweep {
+        let results = swept(args, gpu, &stage, &reference, job.techniques)?;
+        let dir = job.dir;
+        return Ok(Results { dir, ..results });
+    }
     let plan = Plan {
         techniques: &job.techniques,
         frames: args.frames,
@@ -168,7 +186,41 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
     Ok(Results {
         dir: job.dir,
         files,
+        report: "report.md",
         summary: report.summary(),
         export: args.export.then_some(stage.scene),
+    })
+}
+
+fn swept(
+    args: &Args,
+    gpu: &Gpu,
+    stage: &Stage,
+    reference: &ReferenceImage,
+    techniques: Vec<Technique>,
+) -> Result<Results> {
+    let name = &stage.scene.name;
+    let rounds = args.frames as usize;
+    let bar = progress(
+        (techniques.len() * rounds) as u64,
+        &format!("{name}: sweep"),
+    );
+    let survey = sweep::survey(gpu, stage, reference, techniques, rounds, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let wishes = Wishes {
+        error_at_most: args.error_at_most,
+        time_at_most: args.time_at_most,
+    };
+    let title = format!("{name}, {}", gpu.info.name);
+    Ok(Results {
+        dir: PathBuf::new(),
+        files: vec![
+            File::new("sweep.md", sweep::markdown(&survey, &title, &wishes)),
+            File::new("sweep.json", sweep::json(&survey)?),
+            File::new("speed-vs-error.svg", plot::fronts(&title, &survey)?),
+        ],
+        report: "sweep.md",
+        summary: sweep::summary(&survey, name, &wishes),
+        export: None,
     })
 }

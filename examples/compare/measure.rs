@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::{Context as _, Result};
-use shadows::reference::{Comparison, ReferenceImage};
+use shadows::reference::{Comparison, Interior, ReferenceImage};
 
 use crate::host::gpu::Gpu;
 use crate::host::timer::{Clock, Timer};
@@ -133,6 +133,40 @@ pub fn measure(
         .into_iter()
         .map(|contestant| contestant.judged(reference))
         .collect()
+}
+
+/// Milliseconds of one frame of a technique that is made for it, its first frame not counted.
+///
+/// # Errors
+/// If the device cannot do what the technique needs.
+pub fn once(gpu: &Gpu, stage: &Stage, technique: &Technique) -> Result<f64> {
+    let timer = Timer::new(gpu);
+    let mut contestant = Contestant::new(gpu, stage, technique, timer.clock())?;
+    contestant.time(gpu, stage, &timer)?;
+    let Contestant {
+        prepare,
+        generate,
+        shade,
+        ..
+    } = contestant;
+    Ok(prepare.median() + generate.median() + shade.median())
+}
+
+/// Wrong pixels of a technique, as a part of those that face the light.
+///
+/// # Errors
+/// As [`once`].
+pub fn error(
+    gpu: &Gpu,
+    stage: &Stage,
+    reference: &ReferenceImage,
+    technique: &Technique,
+) -> Result<f64> {
+    let mut shadow = Shadow::new(gpu, &stage.renderer, technique.clone())?;
+    let picture = stage.picture(gpu, &mut shadow, &stage.inputs)?;
+    // Which errors are in the interior is not asked, and would cost rays.
+    let error = reference.compare(&picture.visibility, Interior::Screen)?;
+    Ok((error.false_lit + error.false_shadow) as f64 / error.lit_facing.max(1) as f64)
 }
 
 impl Contestant {

@@ -31,6 +31,8 @@ impl File {
 pub struct Results {
     pub dir: PathBuf,
     pub files: Vec<File>,
+    /// The file to read first.
+    pub report: &'static str,
     /// For the terminal.
     pub summary: String,
     /// Written as scene.ply.
@@ -115,6 +117,7 @@ pub fn write(dir: &Path, files: Vec<File>) -> Result<()> {
     write_all(&[Results {
         dir: dir.into(),
         files,
+        report: "",
         summary: String::new(),
         export: None,
     }])

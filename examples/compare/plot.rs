@@ -5,7 +5,10 @@ use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use shadows::reference::{Candidate, Survey};
+
 use crate::measure::Measured;
+use crate::technique::Technique;
 
 const SIZE: (u32, u32) = (880, 560);
 const FONT: &str = "sans-serif";
@@ -29,6 +32,9 @@ const COLORS: [RGBColor; 6] = [
 
 struct Mark<'a> {
     name: &'a str,
+    /// Which shape and colour.
+    style: usize,
+    labelled: bool,
     /// Milliseconds.
     time: f64,
     /// Per cent, 0 included.
@@ -42,20 +48,75 @@ struct Mark<'a> {
 pub fn speed_vs_error(title: &str, measured: &[Measured]) -> Result<String> {
     let marks: Vec<Mark<'_>> = measured
         .iter()
-        .map(|measured| Mark {
+        .enumerate()
+        .map(|(style, measured)| Mark {
             name: &measured.technique.name,
+            style,
+            labelled: true,
             time: measured.total_ms(),
             error: measured.wrong_percent(),
         })
         .collect();
     let mut svg = String::new();
-    draw(&mut svg, title, &marks).map_err(|error| anyhow!("speed-vs-error.svg: {error}"))?;
+    draw(&mut svg, title, &marks, &[]).map_err(|error| anyhow!("speed-vs-error.svg: {error}"))?;
     Ok(svg)
 }
 
+/// The plot of a sweep: one mark a configuration, a shape and a colour for each kind, a line along
+/// each kind's front; the front of all is labelled.
+///
+/// # Errors
+/// If the plotting library cannot draw it.
+pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
+    let best = survey.front();
+    let mut marks = Vec::new();
+    let mut lines = Vec::new();
+    for (style, kind) in ["cube", "flat", "volume"].into_iter().enumerate() {
+        let of_kind = survey.candidates().iter();
+        let of_kind = of_kind.filter(|c| c.configuration.name.starts_with(kind));
+        let of_kind: Vec<Candidate<&Technique>> = of_kind
+            .map(|candidate| Candidate {
+                configuration: &candidate.configuration,
+                time: candidate.time,
+                error: candidate.error,
+            })
+            .collect();
+        marks.extend(of_kind.iter().map(|candidate| {
+            Mark {
+                name: &candidate.configuration.name,
+                style,
+                labelled: best
+                    .iter()
+                    .any(|best| best.configuration.name == candidate.configuration.name),
+                time: candidate.time,
+                error: 100.0 * candidate.error,
+            }
+        }));
+        let front = Survey::new(of_kind);
+        let front = front.front();
+        lines.push((
+            style,
+            front.iter().map(|c| (c.time, 100.0 * c.error)).collect(),
+        ));
+    }
+    let title = format!("{title}: cubes \u{25cf}, flat maps \u{25b2}, volumes \u{25a0}");
+    let mut svg = String::new();
+    draw(&mut svg, &title, &marks, &lines)
+        .map_err(|error| anyhow!("speed-vs-error.svg: {error}"))?;
+    Ok(svg)
+}
+
+/// A kind's front: its style, and times with errors.
+type Line = (usize, Vec<(f64, f64)>);
+
 type Failure = Box<dyn std::error::Error>;
 
-fn draw(svg: &mut String, title: &str, marks: &[Mark<'_>]) -> std::result::Result<(), Failure> {
+fn draw(
+    svg: &mut String,
+    title: &str,
+    marks: &[Mark<'_>],
+    lines: &[Line],
+) -> std::result::Result<(), Failure> {
     let (left, right) = decades(marks.iter().map(|mark| mark.time));
     let (floor, top) = decades(marks.iter().map(|mark| mark.error));
     // A place for what no logarithm shows, a decade below the smallest error there is.
@@ -88,6 +149,12 @@ fn draw(svg: &mut String, title: &str, marks: &[Mark<'_>]) -> std::result::Resul
             }
         })
         .draw()?;
+    for (style, line) in lines {
+        let points = line.iter();
+        let points = points.map(|&(time, error)| (time.clamp(left, right), error.max(bottom)));
+        let color = COLORS[style % COLORS.len()];
+        chart.draw_series(LineSeries::new(points, color.stroke_width(2)))?;
+    }
     draw_marks(&mut chart, marks, (left, right), bottom)?;
     root.present()?;
     Ok(())
@@ -110,7 +177,10 @@ fn draw_marks(
     let pixels: Vec<(i32, i32)> = points.iter().map(|p| area.map_coordinate(p)).collect();
     let mut taken: Vec<Box2> = pixels.iter().map(|&p| Box2::around(p, GAP, GAP)).collect();
     for (place, mark) in marks.iter().enumerate() {
-        draw_shape(chart, place, points[place])?;
+        draw_shape(chart, mark, points[place])?;
+        if !mark.labelled {
+            continue;
+        }
         let text = mark.label();
         let half = text.len() as i32 * CHARACTER_WIDTH / 2;
         let offset = free_offset(pixels[place], half, &xs, &taken);
@@ -189,15 +259,18 @@ fn free_offset(
 
 fn draw_shape(
     chart: &mut Plot<'_, '_>,
-    place: usize,
+    mark: &Mark<'_>,
     point: (f64, f64),
 ) -> std::result::Result<(), Failure> {
-    let style = COLORS[place % COLORS.len()].filled();
+    let style = COLORS[mark.style % COLORS.len()].filled();
     let at = EmptyElement::at(point);
-    match place % 4 {
-        0 => drop(chart.draw_series([Circle::new(point, 8, style)])?),
-        1 => drop(chart.draw_series([TriangleMarker::new(point, 11, style)])?),
-        2 => drop(chart.draw_series([at + Rectangle::new([(-7, -7), (7, 7)], style)])?),
+    // Many marks without labels are small.
+    let size = if mark.labelled { 7 } else { 4 };
+    let square = [(-size, -size), (size, size)];
+    match mark.style % 4 {
+        0 => drop(chart.draw_series([Circle::new(point, size + 1, style)])?),
+        1 => drop(chart.draw_series([TriangleMarker::new(point, size + 4, style)])?),
+        2 => drop(chart.draw_series([at + Rectangle::new(square, style)])?),
         _ => drop(chart.draw_series([at + Polygon::new(DIAMOND, style)])?),
     }
     Ok(())
@@ -205,7 +278,9 @@ fn draw_shape(
 
 impl Mark<'_> {
     fn label(&self) -> String {
-        let Self { name, time, error } = self;
+        let Self {
+            name, time, error, ..
+        } = self;
         if *error > 0.0 {
             format!("{name}: {} ms, {} %", rounded(*time), rounded(*error))
         } else {

@@ -56,6 +56,15 @@ impl Config {
         }
     }
 
+    /// Whether it keeps what did not move from frame to frame.
+    pub fn keeps(&self) -> bool {
+        match self {
+            Self::Cube { map, .. } => map.cache,
+            Self::Flat { map, .. } => map.cache,
+            Self::Volume(volume) => volume.keep_between_frames,
+        }
+    }
+
     /// The kernel by which the map is read, if there is a map.
     pub fn kernel(&self) -> Option<Kernel> {
         match self {

@@ -190,7 +190,7 @@ impl Renderer {
 
     /// The depth-stencil buffer.
     pub fn depth_stencil(&self) -> &wgpu::TextureView {
-        &self.depth_stencil
+        &self.targets.depth_stencil
     }
 
     /// The lit pass's pipeline for one way to find shadows.

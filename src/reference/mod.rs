@@ -47,6 +47,7 @@ mod image;
 mod interior;
 mod map_rays;
 mod ray;
+mod survey;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -58,6 +59,7 @@ use rayon::prelude::*;
 pub use self::compare::{Comparison, Verdict, Visibility};
 pub use self::image::{Class, Hit, ReferenceImage};
 pub use self::interior::Interior;
+pub use self::survey::{Candidate, Survey};
 
 use self::camera::Camera;
 use self::geometry::{Geometry, Triangle};

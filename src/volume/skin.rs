@@ -26,7 +26,7 @@ pub(super) fn settle(
     object_light: DVec3,
     world: &WorldBox,
 ) {
-    if light.is_directional() || form.far.plane != DVec3::ZERO || form.dark_cap == DarkCap::None {
+    if light.is_directional() || !form.far.is_infinite() || form.dark_cap == DarkCap::None {
         return;
     }
     let axis = form.far.apex.truncate();

@@ -318,7 +318,7 @@ fn sampled(gpu: &Gpu, renderer: &Renderer, sampler: &PcfSampler) -> LitPipeline 
         &ShadowAccess {
             module: Some(&visibility_module(sampler)),
             layout: Some(sampler.bind_group_layout()),
-            stencil: None,
+            ..Default::default()
         },
     )
 }

@@ -1,0 +1,179 @@
+//! The sweep of `compare`: which configurations it tries, and that the Rust it advises makes them.
+
+#[allow(dead_code)]
+#[path = "../examples/compare/args.rs"]
+mod args;
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[allow(dead_code)]
+#[path = "../examples/compare/measure.rs"]
+mod measure;
+#[allow(dead_code)]
+#[path = "../examples/compare/shadow.rs"]
+mod shadow;
+#[allow(dead_code)]
+#[path = "../examples/compare/snippet.rs"]
+mod snippet;
+#[allow(dead_code)]
+#[path = "../examples/compare/soft.rs"]
+mod soft;
+#[allow(dead_code)]
+#[path = "../examples/compare/stage.rs"]
+mod stage;
+#[allow(dead_code)]
+#[path = "../examples/compare/sweep.rs"]
+mod sweep;
+#[allow(dead_code)]
+#[path = "../examples/compare/table.rs"]
+mod table;
+#[allow(dead_code)]
+#[path = "../examples/compare/technique.rs"]
+mod technique;
+
+use std::collections::BTreeSet;
+
+use args::Techniques;
+use shadows::reference::{Candidate, Survey};
+use sweep::Wishes;
+use technique::{Config, Technique};
+
+fn techniques(list: &str) -> Vec<Technique> {
+    sweep::techniques(&list.parse::<Techniques>().unwrap())
+}
+
+/// Configurations by name, as the advice writes them: this file is what it wrote, compiled.
+fn written() -> Vec<(&'static str, Config)> {
+    use shadows::*;
+    include!("snippets/sweep.rs")
+}
+
+/// One of each kind of change.
+const NAMES: [&str; 12] = [
+    "cube-2x2 4096",
+    "cube-7x7 256",
+    "cube-disk 512",
+    "cube-vogel 1024",
+    "cube-pcss 2048",
+    "cube-textbook 512",
+    "cube-2x2 1024, linear 16 bits",
+    "cube-2x2 1024, fourfold bias",
+    "cube-2x2 1024, far sides",
+    "flat-disk-full 256",
+    "volume z-fail, vertex",
+    "volume-textbook",
+];
+
+/// What `snippets/sweep.rs` is to hold.
+fn generated(techniques: &[Technique]) -> String {
+    let mut text =
+        "// What the advice of `compare --sweep` says; see tests/compare_sweep.rs.\nvec![\n"
+            .to_owned();
+    for name in NAMES {
+        let technique = techniques.iter().find(|technique| technique.name == name);
+        let config = &technique.unwrap_or_else(|| panic!("no {name}")).config;
+        let result = match config {
+            Config::Cube { .. } => "Config::Cube { map, sampler }",
+            Config::Flat { .. } => "Config::Flat { map, sampler }",
+            Config::Volume(_) => "Config::Volume(volumes)",
+        };
+        let snippet = snippet::of(config);
+        text += &format!("(\"{name}\", {{\n{snippet}{result}\n}}),\n");
+    }
+    text + "]\n"
+}
+
+#[test]
+fn the_rust_that_is_advised_makes_exactly_the_configuration() {
+    let all = techniques("all");
+    let text = generated(&all);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snippets/sweep.rs");
+    if std::env::var_os("SHADOWS_WRITE_SNIPPETS").is_some() {
+        std::fs::write(path, &text).unwrap();
+    }
+    let committed = std::fs::read_to_string(path).unwrap();
+    assert_eq!(
+        committed, text,
+        "set SHADOWS_WRITE_SNIPPETS=1 and run again"
+    );
+    let written = written();
+    assert_eq!(written.len(), NAMES.len());
+    for (name, config) in &written {
+        let technique = all
+            .iter()
+            .find(|technique| technique.name == *name)
+            .unwrap();
+        assert_eq!(format!("{config:?}"), format!("{:?}", technique.config));
+    }
+    // The twin: a snippet says nothing of another configuration.
+    let [(_, first), (_, second), ..] = written.as_slice() else {
+        panic!("too few")
+    };
+    assert_ne!(snippet::of(first), snippet::of(second));
+}
+
+#[test]
+fn every_configuration_has_a_snippet_of_its_own() {
+    let all = techniques("all");
+    let snippets: BTreeSet<String> = all.iter().map(|t| snippet::of(&t.config)).collect();
+    let configurations: BTreeSet<String> = all.iter().map(|t| format!("{:?}", t.config)).collect();
+    let names: BTreeSet<&str> = all.iter().map(|t| t.name.as_ref()).collect();
+    assert_eq!(names.len(), all.len());
+    assert_eq!(snippets.len(), configurations.len());
+    assert!(configurations.len() >= 100, "{}", configurations.len());
+}
+
+#[test]
+fn techniques_that_were_asked_for_are_the_only_ones() {
+    let asked = techniques("cube-2x2,volume");
+    let rows = |technique: &Technique| technique.name.split(' ').next().unwrap().to_owned();
+    let rows: BTreeSet<String> = asked.iter().map(rows).collect();
+    assert_eq!(rows.into_iter().collect::<Vec<_>>(), ["cube-2x2", "volume"]);
+    // What is kept between frames only by name.
+    assert!(
+        techniques("usual")
+            .iter()
+            .all(|technique| !technique.config.keeps())
+    );
+    assert!(
+        techniques("cube-cached")
+            .iter()
+            .all(|technique| technique.config.keeps())
+    );
+}
+
+#[test]
+fn advice_names_the_configuration_and_its_figures() {
+    let candidates =
+        techniques("cube-2x2")
+            .into_iter()
+            .take(3)
+            .zip([(1.0, 0.01), (2.0, 0.001), (4.0, 0.0)]);
+    let survey = Survey::new(
+        candidates
+            .map(|(configuration, (time, error))| Candidate {
+                configuration,
+                time,
+                error,
+            })
+            .collect(),
+    );
+    let advice = |error_at_most, time_at_most| {
+        sweep::advice(
+            &survey,
+            &Wishes {
+                error_at_most,
+                time_at_most,
+            },
+        )
+    };
+    let told = advice(Some(0.005), Some(1.5));
+    assert!(
+        told[0].contains("`cube-2x2 512`, 2.00 ms, 0.1000 %"),
+        "{}",
+        told[0]
+    );
+    assert!(told[0].contains("size: 512,"), "{}", told[0]);
+    assert!(told[1].contains("`cube-2x2 256`, 1.00 ms"), "{}", told[1]);
+    assert!(advice(None, Some(0.5))[0].ends_with("none."));
+    assert!(advice(None, None).is_empty());
+}
