@@ -138,11 +138,11 @@ impl DrawLists {
         let light_from_world = DAffine3::from_translation(-light.position.as_dvec3());
         self.rows.clear();
         self.members.iter_mut().for_each(Vec::clear);
-        for at in touching(slot.masks(), mask) {
+        for at in slot.masks().touching(mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
             let on = match self.joint {
                 true => mask & mask.wrapping_neg(),
-                false => slot.masks()[at] & mask,
+                false => slot.masks().get(at) & mask,
             };
             let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
             let cull = Cull::of(scene.sides(), record, clear);
@@ -172,22 +172,6 @@ impl DrawLists {
             }
         }
     }
-}
-
-/// The casters that touch any face of a mask. Most casters touch none, so sixteen at a time are
-/// looked at.
-fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
-    masks
-        .chunks(16)
-        .enumerate()
-        .filter(move |(_, chunk)| chunk.iter().fold(0, |all, &one| all | one) & mask != 0)
-        .flat_map(move |(number, chunk)| {
-            let touches = chunk
-                .iter()
-                .enumerate()
-                .filter(move |&(_, on)| on & mask != 0);
-            touches.map(move |(at, _)| number * 16 + at)
-        })
 }
 
 pub(super) fn instance(light_from_object: &DAffine3) -> Instance {

@@ -2,9 +2,8 @@
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use glam::Vec4Swizzles as _;
-
 use super::face::{CubeFace, LightBounds};
+use super::masks::FaceMasks;
 use super::scene::{Record, Scene};
 use crate::PointLight;
 
@@ -72,7 +71,7 @@ pub(super) struct Slot {
     pub shown: Option<PointLight>,
     pub faces: [Face; 6],
     /// For each caster the faces it touches.
-    masks: Vec<u8>,
+    masks: FaceMasks,
     /// Casters that touch any face.
     pub casting: usize,
     pub cull: bool,
@@ -92,7 +91,7 @@ impl Slot {
         }
     }
 
-    pub fn masks(&self) -> &[u8] {
+    pub fn masks(&self) -> &FaceMasks {
         &self.masks
     }
 
@@ -115,11 +114,12 @@ impl Slot {
         self.shown = None;
     }
 
-    /// Takes another light (or none) and sorts all casters anew.
-    pub fn set_light(&mut self, light: Option<PointLight>, scene: &Scene) {
+    /// Takes another light (or none) and sorts all casters anew, of which `reached` are those that
+    /// it may reach.
+    pub fn set_light(&mut self, light: Option<PointLight>, scene: &Scene, reached: &[u32]) {
         self.light = light;
         self.casting = 0;
-        self.masks.clear();
+        self.masks.reset(scene.records().len());
         for face in &mut self.faces {
             face.content = Content::default();
             face.change = 1.0;
@@ -128,14 +128,11 @@ impl Slot {
             self.shown = None;
             return;
         };
-        let (centre, range) = (light.position.as_dvec3(), f64::from(light.range));
-        for (sphere, record) in scene.spheres().iter().zip(scene.records()) {
-            let reach = range + sphere.w;
-            if self.cull && sphere.xyz().distance_squared(centre) > reach * reach {
-                self.masks.push(0);
-            } else {
-                self.push(record);
-            }
+        for &index in reached {
+            let record = &scene.records()[index as usize];
+            let mask = self.touched_by(&light, record);
+            self.masks.set(index as usize, mask);
+            self.enter(mask, &light, record);
         }
     }
 
@@ -148,9 +145,9 @@ impl Slot {
 
     pub fn replace(&mut self, index: usize, old: &Record, new: &Record) {
         let Some(light) = self.light else { return };
-        self.leave(self.masks[index], &light, old);
+        self.leave(self.masks.get(index), &light, old);
         let mask = self.touched_by(&light, new);
-        self.masks[index] = mask;
+        self.masks.set(index, mask);
         self.enter(mask, &light, new);
     }
 
