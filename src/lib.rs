@@ -169,6 +169,7 @@ pub use pcf::{
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
 pub use volume::{
-    Caps, Extrusion, LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
+    Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, LightJoin, LightJoinDescriptor,
+    Method, ShadowMask, ShadowMaskDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, Silhouettes, VolumeStatistics,
 };

@@ -31,8 +31,8 @@ pub struct Support {
     /// Multiview with any mask of six views: the faces of a cube map in one pass
     /// ([`FacePasses::Multiview`](crate::FacePasses)).
     pub multiview: bool,
-    /// Blending in `R32Float`: counters that never wrap. Asked for likewise; shadow volumes count in
-    /// the 8-bit stencil so far, with it too.
+    /// Blending in `R32Float`: shadow volumes that count without wrapping
+    /// ([`Counter::Exact`](crate::Counter::Exact)).
     pub float32_blending: bool,
     /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
     pub vertex_storage: bool,
@@ -147,7 +147,7 @@ impl Support {
             (
                 self.float32_blending,
                 "FLOAT32_BLENDABLE",
-                "the 8-bit stencil counts volumes modulo 256",
+                "the 8-bit stencil counts volumes modulo 256; ShadowVolumeRenderer::may_wrap says when that could matter",
             ),
             (
                 self.vertex_storage,

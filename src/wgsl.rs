@@ -11,6 +11,15 @@ pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 /// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
+/// Reads an [`ExactCount`](crate::ExactCount) of one sample a pixel:
+/// `shadows_exact_visibility(counts, pixel)`, 1 lit, 0 in shadow.
+pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
+
+/// Reads an [`ExactCount`](crate::ExactCount) of several samples a pixel:
+/// `shadows_exact_lit_samples(counts, pixel)`, a bit for each sample, to be a fragment shader's
+/// `@builtin(sample_mask)`.
+pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
+
 /// Depth of casters on one face of a cube map, or on a flat map.
 pub(crate) const CUBE_CASTER: &str = concat!(
     include_str!("../shaders/cube_caster.wgsl"),

@@ -4,24 +4,31 @@
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[allow(dead_code)] // compare reports more than is promised here
+#[path = "../examples/compare/shadow.rs"]
+mod shadow;
+#[allow(dead_code)]
 #[path = "../examples/compare/stage.rs"]
 mod stage;
+#[allow(dead_code)]
+#[path = "../examples/compare/table.rs"]
+mod table;
 #[allow(dead_code)]
 #[path = "../examples/compare/technique.rs"]
 mod technique;
 
+use shadows::Bias;
 use shadows::glam::Vec4;
 use shadows::reference::{Comparison, ReferenceImage};
-use shadows::{Bias, Kernel};
 
 use host::gpu::Gpu;
-use host::scene::Scene;
+use host::scene::{LightKind, Scene};
+use shadow::{Shadow, ShadowInputs};
 use stage::Stage;
-use technique::{Shadow, ShadowInputs, Technique};
+use technique::{Config, Technique};
 
 const SIZE: [u32; 2] = [1280, 720];
 const FACE: u32 = 1024;
-const CUBE: Technique = Technique::Cube(Kernel::Bilinear);
+const CUBE: &str = "cube-2x2";
 
 /// A scene on the GPU with its exact answer.
 struct Studio {
@@ -46,7 +53,7 @@ impl Studio {
     /// The error of a technique that is told what `falsify` makes of the truth.
     fn error(
         &self,
-        technique: Technique,
+        technique: &str,
         bias: Bias,
         falsify: impl FnOnce(&mut ShadowInputs),
     ) -> Comparison {
@@ -57,27 +64,38 @@ impl Studio {
     fn error_at(
         &self,
         face: u32,
-        technique: Technique,
+        technique: &str,
         bias: Bias,
         falsify: impl FnOnce(&mut ShadowInputs),
     ) -> Comparison {
         let (gpu, stage) = (&self.gpu, &self.stage);
         let mut inputs = stage.inputs.clone();
         falsify(&mut inputs);
+        let row = table::ROWS.iter().find(|row| row.name == technique);
+        let technique = with_bias(row.unwrap().at(face), bias);
         let picture = gpu.checked(|| {
-            let mut shadow =
-                Shadow::with_bias(gpu, &stage.renderer, technique, face, bias).unwrap();
-            let interior = shadow.interior();
-            (stage.picture(gpu, &mut shadow, &inputs).unwrap(), interior)
+            let mut shadow = Shadow::new(gpu, &stage.renderer, technique.clone()).unwrap();
+            let picture = stage.picture(gpu, &mut shadow, &inputs).unwrap();
+            (picture, shadow.interior())
         });
         self.reference
             .compare(&picture.0.visibility, picture.1)
             .unwrap()
     }
 
-    fn true_error(&self, technique: Technique) -> Comparison {
+    fn true_error(&self, technique: &str) -> Comparison {
         self.error(technique, Bias::default(), |_| ())
     }
+}
+
+/// Techniques whose map has another default, such as the textbook's, keep it.
+fn with_bias(mut technique: Technique, bias: Bias) -> Technique {
+    match &mut technique.config {
+        Config::Cube { map, .. } if bias != Bias::default() => map.bias = bias,
+        Config::Flat { map, .. } => map.bias = bias,
+        _ => {}
+    }
+    technique
 }
 
 fn interior(error: &Comparison) -> usize {
@@ -104,7 +122,7 @@ fn forget_casters(inputs: &mut ShadowInputs) {
 
 /// No interior error, and each broken twin has some.
 fn volumes_are_exact(studio: &Studio) -> Comparison {
-    let error = studio.true_error(Technique::Volume);
+    let error = studio.true_error("volume");
     assert!(
         error.lit_facing > 100_000,
         "{} pixels count",
@@ -115,7 +133,7 @@ fn volumes_are_exact(studio: &Studio) -> Comparison {
         ("a moved light", move_light as fn(&mut ShadowInputs)),
         ("forgotten casters", forget_casters),
     ] {
-        let broken = studio.error(Technique::Volume, Bias::default(), falsify);
+        let broken = studio.error("volume", Bias::default(), falsify);
         assert!(interior(&broken) > 0, "{what} went unnoticed");
         assert!(wrong_percent(&broken) > wrong_percent(&error), "{what}");
     }
@@ -130,7 +148,7 @@ fn volumes_are_exact_to_the_pixel_on_the_spheres() {
     let error = volumes_are_exact(&studio);
     let wrong = wrong_percent(&error);
     assert!(wrong <= 0.011, "{wrong} % of pixels are wrong");
-    let moved = studio.error(Technique::Volume, Bias::default(), move_light);
+    let moved = studio.error("volume", Bias::default(), move_light);
     assert!(
         wrong_percent(&moved) > 0.011,
         "a moved light keeps the limit"
@@ -166,7 +184,7 @@ fn a_bilinear_cube_map_is_wrong_only_at_edges_on_the_spheres() {
         assert!(wrong <= limit, "{wrong} % of pixels are wrong at {face}");
     }
     // What textbooks do with the same texels.
-    let textbook = wrong_percent(&studio.true_error(Technique::CubeTextbook));
+    let textbook = wrong_percent(&studio.true_error("cube-textbook"));
     eprintln!("textbook: {textbook} %");
     assert!(
         textbook > wrong_percent(&studio.true_error(CUBE)),
@@ -185,4 +203,53 @@ fn a_bilinear_cube_map_is_wrong_only_at_edges_on_the_spheres() {
             "{what} went unnoticed: {wrong} %"
         );
     }
+}
+
+/// The same for a light far away, or seen by texels that are larger.
+fn move_light_far(inputs: &mut ShadowInputs) {
+    inputs.light.0 += Vec4::new(0.09, 0.0, 0.12, 0.0);
+}
+
+/// A 2x2 flat map on the spheres, lit by another kind of light; and each broken twin.
+fn a_flat_map_is_wrong_only_at_edges(kind: LightKind, limit: f64) {
+    let mut scene = host::scene::spheres();
+    scene.light += Vec4::new(1.3, 3.0, 0.9, 0.0);
+    scene.shine_as(kind).unwrap();
+    let Some(studio) = Studio::new(scene) else {
+        return;
+    };
+    let error = studio.true_error("flat-2x2");
+    let wrong = wrong_percent(&error);
+    eprintln!("{kind:?}: {wrong} % of {} pixels", error.lit_facing);
+    assert!(error.lit_facing > 100_000, "{}", error.lit_facing);
+    assert_eq!(interior(&error), 0, "interior errors, {kind:?}");
+    assert!(wrong <= limit, "{wrong} % of pixels are wrong, {kind:?}");
+    for (what, bias, falsify) in [
+        (
+            "a moved light",
+            Bias::default(),
+            move_light_far as fn(&mut _),
+        ),
+        ("forgotten casters", Bias::default(), forget_casters),
+        ("no bias", Bias::NONE, |_: &mut ShadowInputs| ()),
+    ] {
+        let broken = studio.error("flat-2x2", bias, falsify);
+        let wrong = wrong_percent(&broken);
+        assert!(
+            interior(&broken) > 0 || wrong > limit,
+            "{what} went unnoticed: {wrong} %, {kind:?}"
+        );
+    }
+    // Volumes are exact for any light.
+    assert_eq!(interior(&studio.true_error("volume")), 0, "{kind:?}");
+}
+
+#[test]
+fn a_flat_map_of_a_spot_is_wrong_only_at_edges() {
+    a_flat_map_is_wrong_only_at_edges(LightKind::Spot, 0.09);
+}
+
+#[test]
+fn a_flat_map_of_a_directional_light_is_wrong_only_at_edges() {
+    a_flat_map_is_wrong_only_at_edges(LightKind::Directional, 0.13);
 }

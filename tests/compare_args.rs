@@ -7,8 +7,19 @@ use shadows::glam::{Vec3, Vec4};
 #[allow(dead_code)]
 #[path = "../examples/compare/args.rs"]
 mod args;
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[allow(dead_code)]
+#[path = "../examples/compare/table.rs"]
+mod table;
+#[allow(dead_code)]
+#[path = "../examples/compare/technique.rs"]
+mod technique;
 
-use args::{Args, Ground, Technique};
+use args::{Args, Ground};
+use host::scene::LightKind;
+use table::ROWS;
+use technique::Config;
 
 fn read(line: &str) -> Args {
     let items = std::iter::once("compare").chain(line.split_whitespace());
@@ -37,7 +48,8 @@ fn nothing_given_means_the_defaults() {
     assert_eq!(args.scenes, ["spheres"]);
     assert_eq!((args.size, args.face), ([1280, 720], 1024));
     assert_eq!((args.frames, args.seed), (8, 1));
-    assert_eq!(args.techniques.0, Technique::ALL);
+    assert!(args.techniques.are_usual());
+    assert_eq!(args.light_kind, None);
     assert_eq!(args.ground, Ground::Auto);
     assert_eq!(args.out, PathBuf::from("target/compare"));
     assert_eq!((args.light, args.range), (None, None));
@@ -50,7 +62,7 @@ fn nothing_given_means_the_defaults() {
 #[test]
 fn every_option_is_read() {
     let args = read(
-        "--scene a/bunny.obj --scene courtyard --ground none --light -1,2.5,-3 --range 12 \
+        "--scene a/bunny.obj --scene courtyard --ground none --light -1,2.5,-3 --range 12 --light-kind spot \
          --camera -1,2,3,0,0,0,60 --size 640x480 --technique volume,cube-16 --face 512 \
          --frames 3 --seed 42 --adapter llvm --export --out x/y",
     );
@@ -65,7 +77,8 @@ fn every_option_is_read() {
     );
     assert_eq!(args.camera_override(), Some(camera));
     assert_eq!((args.size, args.face), ([640, 480], 512));
-    assert_eq!(args.techniques.0, [Technique::Volume, Technique::Cube16]);
+    assert_eq!(args.techniques.0, [row("volume"), row("cube-16")]);
+    assert_eq!(args.light_kind, Some(LightKind::Spot));
     assert_eq!((args.frames, args.seed), (3, 42));
     assert_eq!(args.adapter.as_deref(), Some("llvm"));
     assert!(args.export);
@@ -85,22 +98,67 @@ fn a_light_may_be_a_direction_and_a_camera_keep_its_field_of_view() {
     );
 }
 
+fn row(name: &str) -> &'static table::Row {
+    ROWS.iter().find(|row| row.name == name).unwrap()
+}
+
 #[test]
 fn techniques_are_kept_once_in_the_order_given() {
-    let names = |line: &str| read(line).techniques.0;
-    let [hard, volume] = [Technique::CubeHard, Technique::Volume];
-    assert_eq!(names("--technique volume,cube-hard,volume"), [volume, hard]);
-    assert_eq!(names("--technique all,volume"), Technique::ALL);
-    for technique in Technique::ALL {
-        assert_eq!(
-            names(&format!("--technique {}", technique.name())),
-            [technique]
-        );
+    let names = |line: &str| -> Vec<&str> {
+        let chosen = read(line).techniques.0;
+        chosen.iter().map(|row| row.name).collect()
+    };
+    let all: Vec<&str> = ROWS.iter().map(|row| row.name).collect();
+    assert_eq!(
+        names("--technique volume,cube-hard,volume"),
+        ["volume", "cube-hard"]
+    );
+    assert_eq!(names("--technique all,volume"), all);
+    for name in &all {
+        assert_eq!(names(&format!("--technique {name}")), [*name]);
     }
     let told = mistake("--technique cube-8");
     assert!(told.contains("\"cube-8\""), "{told}");
-    for technique in Technique::ALL {
-        assert!(told.contains(technique.name()), "{told}");
+    for name in &all {
+        assert!(told.contains(name), "{told}");
+    }
+}
+
+#[test]
+fn techniques_may_be_named_by_how_they_begin() {
+    let names = |line: &str| read(line).techniques.0.len();
+    let cubes = names("--technique cube-*");
+    assert!(cubes >= 12 && cubes < ROWS.len());
+    assert_eq!(names("--technique cube-*,cube-hard"), cubes);
+    assert_eq!(names("--technique cube-*,flat-*,volume*"), ROWS.len());
+    let usual = names("--technique usual");
+    assert!((5..15).contains(&usual), "{usual} are not few");
+    assert_refused("--technique sphere-*", "sphere-*");
+}
+
+#[test]
+fn every_name_stands_for_another_technique() {
+    let settings = |row: &table::Row| format!("{:?}", row.at(512).config);
+    for (place, row) in ROWS.iter().enumerate() {
+        for other in &ROWS[place + 1..] {
+            assert_ne!(row.name, other.name);
+            assert_ne!(
+                settings(row),
+                settings(other),
+                "{} {}",
+                row.name,
+                other.name
+            );
+        }
+    }
+    // The kinds by their names.
+    for row in ROWS {
+        let kind = match row.at(512).config {
+            Config::Cube { .. } => "cube",
+            Config::Flat { .. } => "flat",
+            Config::Volume(_) => "volume",
+        };
+        assert!(row.name.starts_with(kind), "{}", row.name);
     }
 }
 
@@ -128,6 +186,7 @@ fn wrong_values_are_refused_with_the_reason() {
     assert_refused("--light 0,0,0,0", "direction");
     assert_refused("--light 1,NaN,3", "not finite");
     assert_refused("--light 1,x,3", "\"x\" is not a number");
+    assert_refused("--light-kind sun", "point, spot or directional");
     assert_refused("--range 0", "above 0");
     assert_refused("--range -1", "above 0");
     assert_refused("--range inf", "not finite");

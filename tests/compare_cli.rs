@@ -81,7 +81,7 @@ fn assert_refused(args: &[&str], part: &str) {
 fn bad_arguments_are_refused_in_one_line() {
     for (args, part) in [
         (&["--scene", "moon"][..], "spheres"),
-        (&["--technique", "cube-3x3"], "cube-2x2"),
+        (&["--technique", "cube-9x9"], "cube-2x2"),
         (&["--light", "1,2"], "numbers"),
         (&["--light", "1,2,3,0.5"], "w is 0.5"),
         (&["--range", "0"], "above 0"),
@@ -115,9 +115,12 @@ fn broken_models_are_refused_in_one_line() {
 }
 
 #[test]
-fn cube_maps_alone_are_refused_for_a_directional_light() {
+fn maps_alone_are_refused_for_lights_of_the_other_kind() {
     let args = ["--light", "1,2,3,0", "--technique", "cube-hard,cube-16"];
     assert_refused(&args, "directional");
+    assert_refused(&["--technique", "flat-*"], "--light-kind");
+    let placeless = ["--light", "1,2,3,0", "--light-kind", "spot"];
+    assert_refused(&placeless, "no place");
 }
 
 #[test]

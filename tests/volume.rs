@@ -6,6 +6,8 @@ mod chain;
 mod choices;
 #[path = "volume/combinations.rs"]
 mod combinations;
+#[path = "volume/counts.rs"]
+mod counts;
 #[path = "volume/errors.rs"]
 mod errors;
 #[path = "volume/far_away.rs"]

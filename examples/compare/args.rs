@@ -8,8 +8,13 @@ use clap::Parser;
 use clap::error::ErrorKind;
 use shadows::glam::{Vec3, Vec4};
 
+use crate::host::scene::LightKind;
+use crate::table::{ROWS, Row};
+
 /// The built-in scenes `--scene` knows besides files.
 const SCENES: [&str; 3] = ["spheres", "courtyard", "teapot"];
+/// What `--technique` calls the few that are compared where nothing else is asked for.
+pub const USUAL: &str = "usual";
 /// Textures wider than this are refused by many devices (WebGPU's default limit).
 const MAX_SIDE: u32 = 8192;
 
@@ -30,7 +35,12 @@ pub struct Args {
     #[arg(long, value_name = "X,Y,Z[,W]", value_parser = light, allow_hyphen_values = true)]
     pub light: Option<Vec4>,
 
-    /// Distance in metres at which a point light ends.
+    /// What the light is made into: point, spot or directional. A spot shines from the light's place
+    /// at the camera's target, 45 degrees to each side; a directional light in that direction.
+    #[arg(long, value_name = "KIND", value_parser = light_kind)]
+    pub light_kind: Option<LightKind>,
+
+    /// Distance in metres at which a point light or a spot ends.
     #[arg(long, value_name = "R", value_parser = range, allow_hyphen_values = true)]
     pub range: Option<f32>,
 
@@ -46,11 +56,12 @@ pub struct Args {
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
     pub size: [u32; 2],
 
-    /// Techniques to compare, separated by commas, or all.
-    #[arg(long = "technique", value_name = "NAME,..|all", default_value = "all")]
+    /// Techniques to compare, separated by commas: names, beginnings such as cube-*, the usual
+    /// few, or all.
+    #[arg(long = "technique", value_name = "NAME,..|usual|all", default_value = USUAL)]
     pub techniques: Techniques,
 
-    /// Side of a cube face in texels.
+    /// Side of a cube face or of a flat map in texels.
     #[arg(long, value_name = "N", default_value_t = 1024,
           value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SIDE)))]
     pub face: u32,
@@ -91,78 +102,48 @@ pub enum Ground {
     None,
 }
 
-/// A way to decide what is in shadow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Technique {
-    /// Cube shadow map, one comparison per pixel.
-    CubeHard,
-    /// Cube shadow map, one bilinear (2 x 2) comparison per pixel.
-    Cube2x2,
-    /// Cube shadow map, four bilinear comparisons per pixel: 16 texels.
-    Cube16,
-    /// Cube shadow map of 1024 texels a face, 2 x 2 comparison.
-    Cube1024,
-    /// Cube shadow map, 2 x 2 comparison, unchanged faces kept.
-    CubeCached,
-    /// Cube shadow map as textbooks have it.
-    CubeTextbook,
-    /// Stencil shadow volumes.
-    Volume,
-}
+/// At least one technique, none twice, in the order given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Techniques(pub Vec<&'static Row>);
 
-impl Technique {
-    /// All of them, in the order of a report.
-    pub const ALL: [Self; 7] = [
-        Self::CubeHard,
-        Self::Cube2x2,
-        Self::Cube16,
-        Self::Cube1024,
-        Self::CubeCached,
-        Self::CubeTextbook,
-        Self::Volume,
-    ];
-
-    /// Name on the command line, in file names and in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::CubeHard => "cube-hard",
-            Self::Cube2x2 => "cube-2x2",
-            Self::Cube16 => "cube-16",
-            Self::Cube1024 => "cube-1024",
-            Self::CubeCached => "cube-cached",
-            Self::CubeTextbook => "cube-textbook",
-            Self::Volume => "volume",
-        }
+impl Techniques {
+    /// Whether these are those that nobody asked for by name.
+    pub fn are_usual(&self) -> bool {
+        self.0
+            .iter()
+            .copied()
+            .eq(ROWS.iter().filter(|row| row.usual))
     }
 }
-
-/// At least one technique, none twice, in the order given.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Techniques(pub Vec<Technique>);
 
 impl FromStr for Techniques {
     type Err = String;
 
     fn from_str(list: &str) -> Result<Self, String> {
-        let mut chosen = Vec::new();
+        let mut chosen: Vec<&'static Row> = Vec::new();
         for name in list.split(',') {
-            if name == "all" {
-                chosen.extend(Technique::ALL);
-                continue;
+            let wanted = |row: &&Row| match (name, name.strip_suffix('*')) {
+                ("all", _) => true,
+                (USUAL, _) => row.usual,
+                (_, Some(start)) => row.name.starts_with(start),
+                _ => row.name == name,
+            };
+            let mut rows = ROWS.iter().filter(wanted).peekable();
+            if rows.peek().is_none() {
+                let names: Vec<&str> = ROWS.iter().map(|row| row.name).collect();
+                let names = names.join(", ");
+                return Err(format!(
+                    "no technique {name:?}; known are {names}, {USUAL}, all, and beginnings such \
+                     as cube-*"
+                ));
             }
-            let known = Technique::ALL.into_iter().find(|t| t.name() == name);
-            chosen.push(known.ok_or_else(|| {
-                let names = Technique::ALL.map(Technique::name).join(", ");
-                format!("no technique {name:?}; known are {names}, all")
-            })?);
-        }
-        let mut seen = Vec::new();
-        for technique in chosen {
-            if !seen.contains(&technique) {
-                seen.push(technique);
+            for row in rows {
+                if !chosen.contains(&row) {
+                    chosen.push(row);
+                }
             }
         }
-        Ok(Self(seen))
+        Ok(Self(chosen))
     }
 }
 
@@ -296,6 +277,15 @@ fn light(text: &str) -> Result<Vec4, String> {
         return Err("a direction cannot be 0,0,0".into());
     }
     Ok(light)
+}
+
+fn light_kind(text: &str) -> Result<LightKind, String> {
+    match text {
+        "point" => Ok(LightKind::Point),
+        "spot" => Ok(LightKind::Spot),
+        "directional" => Ok(LightKind::Directional),
+        _ => Err("it must be point, spot or directional".into()),
+    }
 }
 
 fn range(text: &str) -> Result<f32, String> {

@@ -13,7 +13,9 @@ mod measure;
 mod output;
 mod plot;
 mod report;
+mod shadow;
 mod stage;
+mod table;
 mod technique;
 
 use std::path::PathBuf;
@@ -21,7 +23,6 @@ use std::process::ExitCode;
 
 use anyhow::{Context as _, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use shadows::{HomogeneousLight, Kernel};
 
 use crate::args::Args;
 use crate::host::gpu::{Gpu, describe};
@@ -30,7 +31,7 @@ use crate::measure::Plan;
 use crate::output::{File, Results};
 use crate::report::LeftOut;
 use crate::stage::Stage;
-use crate::technique::Technique;
+use crate::technique::{Config, Technique};
 
 fn main() -> ExitCode {
     let args = args::parse();
@@ -84,22 +85,30 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     let ground = args.ground == args::Ground::Auto;
     let mut scene = scene::load(name, ground)?;
     scene.override_with(args.light, args.range, args.camera_override());
+    if let Some(kind) = args.light_kind {
+        let made = scene.shine_as(kind);
+        made.with_context(|| format!("scene {name}: --light-kind"))?;
+    }
     host::renderer::view(&scene, args.size).with_context(|| format!("scene {name}: camera"))?;
-    let light = HomogeneousLight(scene.light);
-    let asked = args.techniques.0.iter().copied().map(Technique::from);
+    let light = scene.light_kind();
+    let asked = args.techniques.0.iter().map(|row| row.at(args.face));
     let (techniques, others): (Vec<_>, Vec<_>) =
-        asked.partition(|technique| technique.applies_to(light));
-    let reason = "cube shadow maps need a point light, and this one is directional (w = 0)";
+        asked.partition(|technique| technique.config.applies_to(light));
+    if techniques.is_empty() {
+        let reasons: Vec<&str> = others.iter().map(|other| other.config.limit()).collect();
+        bail!("no technique is left: {}", reasons[0]);
+    }
+    // The usual flat maps are for lights that are no points; where nobody asked for them, that is
+    // nothing to tell.
+    let unasked = args.techniques.are_usual();
     let left_out: Vec<LeftOut> = others
-        .iter()
-        .map(|technique| LeftOut {
-            name: technique.name(),
-            reason,
+        .into_iter()
+        .filter(|other| !(unasked && matches!(other.config, Config::Flat { .. })))
+        .map(|other| LeftOut {
+            name: other.name.into_owned(),
+            reason: other.config.limit(),
         })
         .collect();
-    if techniques.is_empty() {
-        bail!("no technique is left: {reason}");
-    }
     for left in &left_out {
         eprintln!("{} is left out: {}", left.name, left.reason);
     }
@@ -122,7 +131,6 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
 
     let plan = Plan {
         techniques: &job.techniques,
-        face: args.face,
         frames: args.frames,
         seed: args.seed,
     };
@@ -155,18 +163,4 @@ fn progress(length: u64, what: &str) -> ProgressBar {
     ProgressBar::new(length)
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         .with_message(what.to_owned())
-}
-
-impl From<args::Technique> for Technique {
-    fn from(name: args::Technique) -> Self {
-        match name {
-            args::Technique::CubeHard => Self::Cube(Kernel::Hard),
-            args::Technique::Cube2x2 => Self::Cube(Kernel::Bilinear),
-            args::Technique::Cube16 => Self::Cube(Kernel::FourTaps),
-            args::Technique::Cube1024 => Self::Cube1024,
-            args::Technique::CubeCached => Self::CubeCached,
-            args::Technique::CubeTextbook => Self::CubeTextbook,
-            args::Technique::Volume => Self::Volume,
-        }
-    }
 }

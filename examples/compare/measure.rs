@@ -7,15 +7,14 @@ use shadows::reference::{Comparison, ReferenceImage};
 
 use crate::host::gpu::Gpu;
 use crate::host::timer::{Clock, Timer};
+use crate::shadow::{Cost, Shadow};
 use crate::stage::{Picture, Stage};
-use crate::technique::{Cost, Shadow, Technique};
+use crate::technique::Technique;
 
 /// How to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<'a> {
     pub techniques: &'a [Technique],
-    /// Texels along a cube map's side.
-    pub face: u32,
     /// Rounds; each times every technique once.
     pub frames: u32,
     /// Which technique goes first in the first round; the next one does in the next.
@@ -57,10 +56,9 @@ impl Times {
 /// What was found about one technique.
 pub struct Measured {
     pub technique: Technique,
-    pub settings: serde_json::Value,
     /// On the CPU.
     pub prepare: Times,
-    /// The map's faces, or the volumes and their stencil pass.
+    /// The map, or the volumes and their stencil pass.
     pub generate: Times,
     /// The lit pass less the lit pass without shadows of the same round: noise may make it
     /// negative, and so may a stencil test that spares more work than it costs.
@@ -114,10 +112,10 @@ pub fn measure(
 ) -> Result<Vec<Measured>> {
     let timer = Timer::new(gpu);
     let mut contestants = Vec::new();
-    for &technique in plan.techniques {
+    for technique in plan.techniques {
         // The first frame, not timed, also makes what is made lazily.
-        let contestant = Contestant::new(gpu, stage, technique, plan.face, timer.clock());
-        contestants.push(contestant.with_context(|| technique.name())?);
+        let contestant = Contestant::new(gpu, stage, technique, timer.clock());
+        contestants.push(contestant.with_context(|| technique.name.to_string())?);
     }
     let count = contestants.len();
     for round in 0..plan.frames as usize {
@@ -135,14 +133,8 @@ pub fn measure(
 }
 
 impl Contestant {
-    fn new(
-        gpu: &Gpu,
-        stage: &Stage,
-        technique: Technique,
-        face: u32,
-        clock: Clock,
-    ) -> Result<Self> {
-        let mut shadow = Shadow::new(gpu, &stage.renderer, technique, face)?;
+    fn new(gpu: &Gpu, stage: &Stage, technique: &Technique, clock: Clock) -> Result<Self> {
+        let mut shadow = Shadow::new(gpu, &stage.renderer, technique.clone())?;
         let picture = stage.picture(gpu, &mut shadow, &stage.inputs)?;
         Ok(Self {
             shadow,
@@ -177,8 +169,7 @@ impl Contestant {
     fn judged(self, reference: &ReferenceImage) -> Result<Measured> {
         let interior = self.shadow.interior();
         Ok(Measured {
-            technique: self.shadow.technique(),
-            settings: self.shadow.settings(),
+            technique: self.shadow.technique().clone(),
             cost: self.shadow.cost(),
             error: reference.compare(&self.picture.visibility, interior)?,
             picture: self.picture,

@@ -54,7 +54,7 @@ pub fn pictures(
         File::new("coverage.png", grey_png(size, &reference.coverage())?),
     ];
     for technique in measured {
-        let name = technique.technique.name();
+        let name = &technique.technique.name;
         let picture = &technique.picture;
         let errors = error_picture(&picture.shaded, &technique.error.verdicts);
         files.extend([

@@ -27,8 +27,8 @@ const COLORS: [RGBColor; 6] = [
     RGBColor(230, 159, 0),
 ];
 
-struct Mark {
-    name: &'static str,
+struct Mark<'a> {
+    name: &'a str,
     /// Milliseconds.
     time: f64,
     /// Per cent, 0 included.
@@ -40,10 +40,10 @@ struct Mark {
 /// # Errors
 /// If the plotting library cannot draw it.
 pub fn speed_vs_error(title: &str, measured: &[Measured]) -> Result<String> {
-    let marks: Vec<Mark> = measured
+    let marks: Vec<Mark<'_>> = measured
         .iter()
         .map(|measured| Mark {
-            name: measured.technique.name(),
+            name: &measured.technique.name,
             time: measured.total_ms(),
             error: measured.wrong_percent(),
         })
@@ -55,7 +55,7 @@ pub fn speed_vs_error(title: &str, measured: &[Measured]) -> Result<String> {
 
 type Failure = Box<dyn std::error::Error>;
 
-fn draw(svg: &mut String, title: &str, marks: &[Mark]) -> std::result::Result<(), Failure> {
+fn draw(svg: &mut String, title: &str, marks: &[Mark<'_>]) -> std::result::Result<(), Failure> {
     let (left, right) = decades(marks.iter().map(|mark| mark.time));
     let (floor, top) = decades(marks.iter().map(|mark| mark.error));
     // A place for what no logarithm shows, a decade below the smallest error there is.
@@ -97,7 +97,7 @@ type Plot<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, 
 
 fn draw_marks(
     chart: &mut Plot<'_, '_>,
-    marks: &[Mark],
+    marks: &[Mark<'_>],
     (left, right): (f64, f64),
     bottom: f64,
 ) -> std::result::Result<(), Failure> {
@@ -203,7 +203,7 @@ fn draw_shape(
     Ok(())
 }
 
-impl Mark {
+impl Mark<'_> {
     fn label(&self) -> String {
         let Self { name, time, error } = self;
         if *error > 0.0 {

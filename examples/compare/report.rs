@@ -25,6 +25,8 @@ pub struct Report {
     pub camera: Camera,
     /// Homogeneous, world space.
     pub light: [f32; 4],
+    /// Of a spot, else null.
+    pub cone: Option<Cone>,
     pub range: f32,
     /// Where the cube maps' frusta begin.
     pub shadow_near: f32,
@@ -57,6 +59,13 @@ pub struct Camera {
 }
 
 #[derive(Serialize)]
+pub struct Cone {
+    pub direction: [f32; 3],
+    /// Radians.
+    pub half_angle: f32,
+}
+
+#[derive(Serialize)]
 pub struct Object {
     pub name: String,
     pub triangles: usize,
@@ -67,7 +76,7 @@ pub struct Object {
 
 #[derive(Clone, Serialize)]
 pub struct LeftOut {
-    pub name: &'static str,
+    pub name: String,
     pub reason: &'static str,
 }
 
@@ -83,7 +92,7 @@ pub struct Times {
 
 #[derive(Serialize)]
 pub struct Technique {
-    pub name: &'static str,
+    pub name: String,
     pub settings: Value,
     pub prepare_ms: Times,
     pub generate_ms: Times,
@@ -127,6 +136,10 @@ impl Report {
             size,
             camera: camera(stage),
             light: stage.scene.light.to_array(),
+            cone: stage.scene.cone.map(|cone| Cone {
+                direction: cone.direction.to_array(),
+                half_angle: cone.half_angle,
+            }),
             range: stage.scene.range,
             shadow_near: stage.scene.shadow_near,
             scene_name: stage.scene.name.clone(),
@@ -162,7 +175,7 @@ impl Report {
             let interior = t.false_lit_interior + t.false_shadow_interior;
             let _ = write!(
                 out,
-                "\n  {:<10} {:>9.2} ms  {wrong:>8.4} % wrong, {interior} in the interior",
+                "\n  {:<15} {:>9.2} ms  {wrong:>8.4} % wrong, {interior} in the interior",
                 t.name, t.total_ms
             );
         }
@@ -187,9 +200,16 @@ impl Report {
         let casting: usize = casters.iter().map(|object| object.triangles).sum();
         let closed = casters.iter().filter(|c| c.kind == "closed").count();
         let [x, y, z, w] = self.light;
-        let light = match w {
-            0.0 => format!("Directional light from ({x}, {y}, {z})"),
-            _ => format!("Point light at ({x}, {y}, {z}), range {}", self.range),
+        let light = match (&self.cone, w) {
+            (_, 0.0) => format!("Directional light from ({x}, {y}, {z})"),
+            (None, _) => format!("Point light at ({x}, {y}, {z}), range {}", self.range),
+            (Some(cone), _) => format!(
+                "Spot at ({x}, {y}, {z}), range {}, {:.0} degrees to each side of the direction \
+                 {:?}; what is outside its cone does not count",
+                self.range,
+                cone.half_angle.to_degrees(),
+                cone.direction
+            ),
         };
         writeln!(
             out,
@@ -239,7 +259,7 @@ impl Report {
         writeln!(
             out,
             "Times are medians of {} rounds in milliseconds, the techniques in turn within each \
-             round: *prepare* on the CPU; *generate*, the map's faces or the volumes with their \
+             round: *prepare* on the CPU; *generate*, the map or the volumes with their \
              stencil pass; *shade*, the lit pass less the lit pass without shadows (noise can make \
              it negative, and so can a stencil test that spares more than it costs). {}\n",
             self.techniques.first().map_or(0, |t| t.generate_ms.samples),
@@ -284,7 +304,7 @@ impl Report {
             }
         )?;
         for t in &self.techniques {
-            let name = t.name;
+            let name = &t.name;
             writeln!(out, "## {name}\n")?;
             writeln!(
                 out,
@@ -300,8 +320,8 @@ impl Technique {
     fn new(measured: &Measured) -> Self {
         let error = &measured.error;
         Self {
-            name: measured.technique.name(),
-            settings: measured.settings.clone(),
+            name: measured.technique.name.to_string(),
+            settings: measured.technique.settings(),
             prepare_ms: Times::new(&measured.prepare),
             generate_ms: Times::new(&measured.generate),
             shade_ms: Times::new(&measured.shade),

@@ -3,13 +3,14 @@
 use anyhow::Result;
 use shadows::HomogeneousLight;
 use shadows::glam::{DAffine3, DMat3, Vec3};
+use shadows::mesh::Bounds;
 use shadows::reference::{ReferenceImage, ReferenceObject, ReferenceScene};
 
 use crate::host::gpu::Gpu;
 use crate::host::renderer::{self, Renderer};
 use crate::host::scene::{Object, Scene};
 use crate::host::scene_gpu::SceneGpu;
-use crate::technique::{Shadow, ShadowInputs};
+use crate::shadow::{Shadow, ShadowInputs};
 
 /// A scene, the targets it is drawn to, and what every technique is told about it.
 pub struct Stage {
@@ -38,9 +39,12 @@ impl Stage {
         let inputs = ShadowInputs {
             view,
             light: HomogeneousLight(scene.light),
+            cone: scene.cone,
             near: scene.shadow_near,
             range: scene.range,
             casters: scene_gpu.casters.clone(),
+            receivers: receivers(&scene),
+            seen: seen(&scene),
         };
         Ok(Self {
             scene,
@@ -88,6 +92,9 @@ impl Stage {
             .collect();
         let [width, height] = self.renderer.size();
         let scene = ReferenceScene::new(&objects)?.with_progress(progress);
+        if let Some(spot) = self.inputs.spot_light() {
+            return Ok(scene.render_spot(&self.inputs.view, width, height, &spot)?);
+        }
         let (light, range) = (self.inputs.light, self.inputs.light_range());
         Ok(scene.render(&self.inputs.view, width, height, light, range)?)
     }
@@ -112,4 +119,22 @@ impl Stage {
             casts: object.casts,
         }
     }
+}
+
+/// Bounds of all that is seen.
+fn receivers(scene: &Scene) -> Bounds {
+    let bounds = scene.bounds();
+    Bounds {
+        min: bounds.min.as_vec3(),
+        max: bounds.max.as_vec3(),
+    }
+}
+
+/// Distance along the camera's axis to the last of all corners, at least the near plane.
+fn seen(scene: &Scene) -> f32 {
+    let camera = &scene.camera;
+    let axis = (camera.target - camera.eye).normalize();
+    let Bounds { min, max } = receivers(scene);
+    let farthest = Vec3::select(axis.cmpgt(Vec3::ZERO), max, min);
+    axis.dot(farthest - camera.eye).max(camera.near)
 }

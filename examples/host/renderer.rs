@@ -29,6 +29,7 @@ struct FrameUniform {
     clip_from_world: [[f32; 4]; 4],
     eye: [f32; 4],
     light: [f32; 4],
+    cone: [f32; 4],
     range: f32,
     intensity: f32,
     ambient: f32,
@@ -255,6 +256,11 @@ fn frame_uniform(scene: &Scene, size: [u32; 2]) -> FrameUniform {
         clip_from_world: camera.clip_from_world(aspect).to_cols_array_2d(),
         eye: camera.eye.extend(1.0).to_array(),
         light: scene.light.to_array(),
+        // Direction and cosine; without a cone every angle's cosine is above the -1.
+        cone: scene.cone.map_or([0.0, 0.0, 0.0, -1.0], |cone| {
+            let axis = cone.direction.normalize();
+            axis.extend(cone.half_angle.cos()).to_array()
+        }),
         range: scene.range,
         intensity,
         ambient: AMBIENT,

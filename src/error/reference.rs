@@ -69,10 +69,10 @@ pub enum ReferenceError {
     },
     /// An interior of shadow map texels that cannot be.
     #[error(
-        "an interior of {face_size} texels a face, kernel radius {kernel_radius}, does not exist; pass at least 1 texel, a finite radius of at least 0, and a point light"
+        "an interior of {face_size} texels a face, kernel radius {kernel_radius}, does not exist; pass at least 1 texel, a finite radius of at least 0, and for cube maps a point light, for flat maps a finite matrix"
     )]
     Interior {
-        /// Texels along the edge of a cube face.
+        /// Texels along the edge of a cube face or a flat map.
         face_size: u32,
         /// Radius of the filter in texels.
         kernel_radius: f32,

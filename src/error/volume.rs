@@ -97,8 +97,8 @@ pub enum ShadowVolumeError {
     },
 }
 
-/// What can be wrong with a [`ShadowMask`](crate::ShadowMask) or a
-/// [`LightJoin`](crate::LightJoin).
+/// What can be wrong with a [`ShadowMask`](crate::ShadowMask), a
+/// [`LightJoin`](crate::LightJoin) or an [`ExactCount`](crate::ExactCount).
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ScreenPassError {
@@ -123,6 +123,14 @@ pub enum ScreenPassError {
     /// The sample count is neither 1 nor 4.
     #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
     SampleCount(u32),
+    /// The device was created without a feature that this needs.
+    #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
+    MissingFeature {
+        /// What is missing.
+        feature: wgpu::Features,
+        /// What needs it, e.g. `"ExactCount"`.
+        needed_by: &'static str,
+    },
     /// The source has another number of samples than the target.
     #[error("the source has {found} samples, the target {needed}; draw both with the same number")]
     Source {

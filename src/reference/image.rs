@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4, Vec4Swizzles};
 
 use super::camera::{Camera, PixelRay};
 use super::geometry::{Geometry, SurfacePoint};
-use crate::HomogeneousLight;
+use crate::{HomogeneousLight, SpotLight};
 
 /// What a pixel of the reference shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,7 +16,7 @@ pub enum Class {
     Background,
     /// The side of a triangle that faces away from the light, or is edge-on to it.
     Away,
-    /// A side that faces the light, beyond its range.
+    /// A side that faces the light, beyond its range or outside a spot's cone.
     OutOfRange,
     /// A side that faces the light, with nothing in between.
     Lit,
@@ -51,6 +51,8 @@ pub struct Hit {
 pub(super) struct Lighting {
     pub(super) light: DVec4,
     range: f64,
+    /// Unit direction of a spot, and the cosine of its half angle.
+    cone: Option<(DVec3, f64)>,
 }
 
 impl Lighting {
@@ -62,7 +64,23 @@ impl Lighting {
         Self {
             light: light.0.as_dvec4(),
             range,
+            cone: None,
         }
+    }
+
+    pub(super) fn of_spot(spot: &SpotLight) -> Self {
+        let direction = spot.direction.as_dvec3().normalize();
+        Self {
+            cone: Some((direction, f64::from(spot.half_angle).cos())),
+            ..Self::new(spot.homogeneous(), Some(spot.range))
+        }
+    }
+
+    /// Whether there is any of the light at a place, shadows aside.
+    fn reaches(&self, position: DVec3) -> bool {
+        let along = position - self.light.xyz();
+        let inside = |(axis, cosine): (DVec3, f64)| axis.dot(along) >= cosine * along.length();
+        self.light.w == 0.0 || (along.length() <= self.range && self.cone.is_none_or(inside))
     }
 
     /// The class of a point seen on the side of its triangle that `side` (+1 or -1) names.
@@ -71,7 +89,7 @@ impl Lighting {
         let size = light.xyz().abs().max_element();
         if geometry.triangle(surface.triangle).side(light, size) * side <= 0.0 {
             Class::Away
-        } else if light.w != 0.0 && surface.position.distance(light.xyz()) > self.range {
+        } else if !self.reaches(surface.position) {
             Class::OutOfRange
         } else if geometry.blocked(surface, light) {
             Class::Shadowed
@@ -135,7 +153,7 @@ impl Seen {
     }
 }
 
-/// Whether a pixel is in the interior, by radius on the cube face (as bits) and number.
+/// Whether a pixel is in the interior, by radius (a hash) and number.
 pub(super) type InteriorCache = Mutex<HashMap<(u64, usize), bool>>;
 
 /// The exact answer for one view and one light; made by

@@ -1,12 +1,14 @@
 //! Which pixels are so far from any shadow edge that resolution is no excuse.
 
 use std::f64::consts::TAU;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::PoisonError;
 
-use glam::{DVec3, Vec4Swizzles};
+use glam::{DVec3, Mat4, Vec4Swizzles};
 
 use super::geometry::SurfacePoint;
 use super::image::{Class, ReferenceImage, Seen};
+use super::map_rays::{MapRays, Rays};
 use crate::error::ReferenceError;
 
 /// How many pixel footprints apart two neighbouring surfaces must be to count as a depth edge.
@@ -32,36 +34,75 @@ pub enum Interior {
         /// Largest offset of a tap in texels, from the middle of a face; 0 for one tap.
         kernel_radius: f32,
     },
+    /// For flat shadow maps of a spot or directional light: as [`Map`](Self::Map), with the texels
+    /// of this map.
+    FlatMap {
+        /// From world space to the map's clip space, as the map was drawn:
+        /// [`ShadowMap::clip_from_world`](crate::ShadowMap::clip_from_world).
+        clip_from_world: Mat4,
+        /// Texels along the map's edge; at least 1.
+        size: u32,
+        /// Largest offset of a tap in texels, from the middle of the map; 0 for one tap.
+        kernel_radius: f32,
+    },
 }
 
 impl Interior {
-    /// The radius in which the reference must agree, in units of a cube face at distance 1 (whose
-    /// edge is 2 long), with the same in texels; `None` where the screen alone decides.
+    /// The radius in which the reference must agree; `None` where the screen alone decides.
     pub(super) fn radius(self, directional: bool) -> Result<Option<Radius>, ReferenceError> {
-        let Self::Map {
-            face_size,
-            kernel_radius,
-        } = self
-        else {
-            return Ok(None);
+        let (map, face_size, kernel_radius, possible) = match self {
+            Self::Screen => return Ok(None),
+            Self::Map {
+                face_size,
+                kernel_radius,
+            } => (MapRays::Cube, face_size, kernel_radius, !directional),
+            Self::FlatMap {
+                clip_from_world,
+                size,
+                kernel_radius,
+            } => {
+                let map = MapRays::Flat(clip_from_world.as_dmat4());
+                (map, size, kernel_radius, clip_from_world.is_finite())
+            }
         };
         let sound = face_size > 0 && kernel_radius.is_finite() && kernel_radius >= 0.0;
-        if directional || !sound {
+        if !possible || !sound {
             return Err(ReferenceError::Interior {
                 face_size,
                 kernel_radius,
             });
         }
         let texels = 1.5 + f64::from(kernel_radius);
-        let face = 2.0 * texels / f64::from(face_size);
-        Ok(Some(Radius { texels, face }))
+        let across = 2.0 * texels / f64::from(face_size);
+        Ok(Some(Radius {
+            texels,
+            across,
+            map,
+        }))
     }
 }
 
+/// How far around a pixel the reference must agree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Radius {
     texels: f64,
-    face: f64,
+    /// In units in which a map's edge is 2 long.
+    across: f64,
+    map: MapRays,
+}
+
+impl Radius {
+    /// What tells radii apart in the cache.
+    fn key(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.across.to_bits().hash(&mut hasher);
+        if let MapRays::Flat(clip_from_world) = &self.map {
+            for entry in clip_from_world.to_cols_array() {
+                entry.to_bits().hash(&mut hasher);
+            }
+        }
+        hasher.finish()
+    }
 }
 
 impl ReferenceImage {
@@ -95,7 +136,7 @@ impl ReferenceImage {
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
         };
-        let key = (radius.face.to_bits(), pixel);
+        let key = (radius.key(), pixel);
         if let Some(&known) = cache().get(&key) {
             return known;
         }
@@ -108,31 +149,25 @@ impl ReferenceImage {
     /// Whether the reference says `lit` for all light rays within the radius: on rings at most half
     /// a texel apart, as are the rays on each, the outermost first since it most likely disagrees.
     fn light_agrees(&self, seen: &Seen, lit: bool, radius: Radius) -> bool {
-        let toward = FaceDirection::new(seen.surface.position - self.lighting.light.xyz());
+        let light = self.lighting.light.xyz();
+        let rays = Rays::new(&radius.map, light, seen.surface.position, seen.normal);
         let rings = (2.0 * radius.texels).ceil();
         (1..=rings as u32).rev().all(|ring| {
             let fraction = f64::from(ring) / rings;
-            let rays = (2.0 * TAU * radius.texels * fraction).ceil().max(8.0);
-            (0..rays as u32).all(|ray| {
-                let angle = TAU * f64::from(ray) / rays;
+            let count = (2.0 * TAU * radius.texels * fraction).ceil().max(8.0);
+            (0..count as u32).all(|ray| {
+                let angle = TAU * f64::from(ray) / count;
                 let (v, u) = angle.sin_cos();
-                let length = radius.face * fraction;
-                self.lit_along(seen, toward.offset(length * u, length * v)) == Some(lit)
+                let length = radius.across * fraction;
+                let position = rays.meet(length * u, length * v);
+                position.is_some_and(|position| self.lit_at(seen, position) == lit)
             })
         })
     }
 
-    /// Whether the light reaches the pixel's tangent plane along a direction; `None` if the ray does
-    /// not meet the plane.
-    fn lit_along(&self, seen: &Seen, direction: DVec3) -> Option<bool> {
+    /// Whether the light reaches a point of the pixel's tangent plane.
+    fn lit_at(&self, seen: &Seen, position: DVec3) -> bool {
         let light = self.lighting.light.xyz();
-        let normal = seen.normal;
-        // The light is on the side of the normal, or the pixel would face away.
-        let t = normal.dot(seen.surface.position - light) / normal.dot(direction);
-        if !(t > 0.0 && t.is_finite()) {
-            return None;
-        }
-        let position = light + t * direction;
         let size = seen
             .surface
             .size
@@ -142,7 +177,7 @@ impl ReferenceImage {
             size,
             ..seen.surface
         };
-        Some(self.lighting.class(&self.geometry, &surface, seen.side) == Class::Lit)
+        self.lighting.class(&self.geometry, &surface, seen.side) == Class::Lit
     }
 }
 
@@ -156,35 +191,4 @@ fn is_continuous(a: &Seen, b: &Seen) -> bool {
     let footprint = b.ray.distance(p).min(a.ray.distance(q));
     let step = a.normal.dot(q - p).abs().max(b.normal.dot(q - p).abs());
     step <= STEP * footprint
-}
-
-/// A direction from the light with the axes of the cube face it goes through.
-struct FaceDirection {
-    /// Scaled to 1 along the major axis.
-    direction: DVec3,
-    u: DVec3,
-    v: DVec3,
-}
-
-impl FaceDirection {
-    fn new(direction: DVec3) -> Self {
-        let size = direction.abs();
-        let major = size.max_element();
-        let (u, v) = if size.x == major {
-            (DVec3::Y, DVec3::Z)
-        } else if size.y == major {
-            (DVec3::Z, DVec3::X)
-        } else {
-            (DVec3::X, DVec3::Y)
-        };
-        Self {
-            direction: direction / major,
-            u,
-            v,
-        }
-    }
-
-    fn offset(&self, u: f64, v: f64) -> DVec3 {
-        self.direction + u * self.u + v * self.v
-    }
 }

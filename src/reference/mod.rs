@@ -44,6 +44,7 @@ mod compare;
 mod geometry;
 mod image;
 mod interior;
+mod map_rays;
 mod ray;
 
 use std::sync::Arc;
@@ -61,7 +62,7 @@ use self::camera::Camera;
 use self::geometry::{Geometry, Triangle};
 use self::image::{Lighting, Pixel};
 use crate::error::{LightError, ReferenceError};
-use crate::{HomogeneousLight, View};
+use crate::{HomogeneousLight, SpotLight, View};
 
 /// A mesh as the reference takes it: triangles of any kind, open, inconsistently wound, degenerate.
 #[derive(Clone, Copy, Debug)]
@@ -134,16 +135,41 @@ impl ReferenceScene {
         light: HomogeneousLight,
         range: Option<f32>,
     ) -> Result<ReferenceImage, ReferenceError> {
-        let start = Instant::now();
         light.validate()?;
         if let Some(range) = range.filter(|range| !(range.is_finite() && *range > 0.0)) {
             return Err(LightError::Range(range).into());
         }
+        self.render_lit(view, width, height, Lighting::new(light, range))
+    }
+
+    /// The same for a spot. What lies outside its cone is [`Class::OutOfRange`]: there is none of
+    /// its light that could be shadowed, so techniques are not judged there.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if the light is not valid or the picture has no pixels.
+    pub fn render_spot(
+        &self,
+        view: &View,
+        width: u32,
+        height: u32,
+        light: &SpotLight,
+    ) -> Result<ReferenceImage, ReferenceError> {
+        light.validate()?;
+        self.render_lit(view, width, height, Lighting::of_spot(light))
+    }
+
+    fn render_lit(
+        &self,
+        view: &View,
+        width: u32,
+        height: u32,
+        lighting: Lighting,
+    ) -> Result<ReferenceImage, ReferenceError> {
+        let start = Instant::now();
         if width == 0 || height == 0 {
             return Err(ReferenceError::Size { width, height });
         }
         let camera = Camera::new(view, width, height);
-        let lighting = Lighting::new(light, range);
         let done = AtomicUsize::new(0);
         let row = |y: u32| -> Vec<Pixel> {
             let pixels = (0..width)

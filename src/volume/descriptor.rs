@@ -1,7 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
 use super::method::{Caps, Count, Extrusion, Method, Skip};
-use super::{Silhouettes, limits};
+use super::{Counter, Silhouettes, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
@@ -43,6 +43,8 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub keep_between_frames: bool,
     /// How silhouettes are found. Default [`Silhouettes::Auto`].
     pub silhouettes: Silhouettes,
+    /// What holds the count. Default [`Counter::Stencil`].
+    pub counter: Counter,
 }
 
 impl Default for ShadowVolumeDescriptor<'_> {
@@ -60,6 +62,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             culling: true,
             keep_between_frames: true,
             silhouettes: Silhouettes::Auto,
+            counter: Counter::Stencil,
         }
     }
 }
@@ -110,9 +113,14 @@ impl ShadowVolumeDescriptor<'_> {
             }
             check_feature(device, format.required_features(), || format!("{format:?}"))?;
         }
+        let mut targets = self.color_formats.len() as u64;
+        if self.counter == Counter::Exact {
+            check_feature(device, counter::FEATURE, || "Counter::Exact".to_owned())?;
+            targets += 1;
+        }
         limits::check_one(
             "max_color_attachments",
-            self.color_formats.len() as u64,
+            targets,
             u64::from(device.limits().max_color_attachments),
         )
     }

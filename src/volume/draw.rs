@@ -2,6 +2,7 @@
 
 use super::ShadowVolumeDescriptor;
 use super::buffers::Buffers;
+use super::counter::{self, Counter, Counting};
 use super::layout::{storage, uniform};
 use super::method::Count;
 use super::params::{Arguments, CasterParams};
@@ -70,28 +71,6 @@ impl Feed {
     }
 }
 
-/// z-fail: a back face behind the visible point counts +1, a front face -1; z-pass: a front face
-/// before it +1, a back face -1. Modulo 256, because the faces come in any order.
-fn counting(count: Count) -> wgpu::StencilState {
-    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
-    let face = |pass_op, depth_fail_op| wgpu::StencilFaceState {
-        compare: wgpu::CompareFunction::Always,
-        fail_op: Keep,
-        depth_fail_op,
-        pass_op,
-    };
-    let (front, back) = match count {
-        Count::Fail => (face(Keep, DecrementWrap), face(Keep, IncrementWrap)),
-        Count::Pass => (face(IncrementWrap, Keep), face(DecrementWrap, Keep)),
-    };
-    wgpu::StencilState {
-        front,
-        back,
-        read_mask: 0xff,
-        write_mask: 0xff,
-    }
-}
-
 /// What the light pass demands of the count, and the guard it leaves.
 pub(super) fn light_pass() -> wgpu::StencilState {
     let face = wgpu::StencilFaceState {
@@ -149,15 +128,20 @@ impl DrawPipelines {
             label: Some(label),
             entries: &entries,
         });
+        let module = |source: String| {
+            device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            })
+        };
         let factory = Factory {
             device,
             descriptor,
             feed,
             label,
-            module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(feed.source().into()),
-            }),
+            module: module(feed.source()),
+            counting: (descriptor.counter == Counter::Exact)
+                .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(label),
                 bind_group_layouts: &[Some(&layout)],
@@ -262,6 +246,8 @@ struct Factory<'a> {
     feed: Feed,
     label: &'a str,
     module: wgpu::ShaderModule,
+    /// Holds the fragment shader, where that is what counts.
+    counting: Option<wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
 }
 
@@ -275,11 +261,17 @@ impl Factory<'_> {
             Faces::Sides => "shadows_volume_side",
             Faces::Fan => "shadows_volume_fan",
         };
-        let targets = self.targets();
+        let nearer = self.descriptor.depth.nearer();
+        let counting = self.descriptor.counter.counting(style.count, nearer);
+        let targets = self.targets(&counting);
+        let (module, fragment) = match &self.counting {
+            Some(counting) => (counting, "shadows_volume_count"),
+            None => (&self.module, "shadows_volume_nothing"),
+        };
         // A pass without colour needs no fragment stage, and is faster without.
         let fragment = (!targets.is_empty()).then(|| wgpu::FragmentState {
-            module: &self.module,
-            entry_point: Some("shadows_volume_nothing"),
+            module,
+            entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         });
@@ -303,7 +295,7 @@ impl Factory<'_> {
                     unclipped_depth: self.descriptor.depth.clips_far(),
                     ..Default::default()
                 },
-                depth_stencil: Some(self.depth_stencil(style)),
+                depth_stencil: Some(self.depth_stencil(faces, counting)),
                 multisample: wgpu::MultisampleState {
                     count: self.descriptor.sample_count,
                     ..Default::default()
@@ -314,19 +306,20 @@ impl Factory<'_> {
             })
     }
 
-    fn targets(&self) -> Vec<Option<wgpu::ColorTargetState>> {
+    fn targets(&self, counting: &Counting) -> Vec<Option<wgpu::ColorTargetState>> {
         let target = |format| wgpu::ColorTargetState {
             format,
             blend: None,
             write_mask: wgpu::ColorWrites::empty(),
         };
         let formats = self.descriptor.color_formats.iter();
-        formats.map(|format| format.map(target)).collect()
+        let formats = formats.map(|format| format.map(target));
+        formats.chain(counting.target.clone().map(Some)).collect()
     }
 
-    fn depth_stencil(&self, style: Style) -> wgpu::DepthStencilState {
+    fn depth_stencil(&self, faces: Faces, counting: Counting) -> wgpu::DepthStencilState {
         let depth = self.descriptor.depth;
-        let bias = match style.faces {
+        let bias = match faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
             // At infinity, or beyond the light's range, they are behind everything as they are.
@@ -336,8 +329,8 @@ impl Factory<'_> {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),
             // A cap at the visible depth itself is behind it: strictly nearer passes.
-            depth_compare: Some(depth.nearer()),
-            stencil: counting(style.count),
+            depth_compare: Some(counting.depth_compare),
+            stencil: counting.stencil,
             bias: wgpu::DepthBiasState {
                 constant: bias * depth.away(),
                 ..Default::default()

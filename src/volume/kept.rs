@@ -18,6 +18,8 @@ pub(super) struct Slot {
     pub way: Way,
     /// The size of a volume that was found on the CPU.
     pub counts: Counts,
+    /// No point is in it more often than this; `None` until somebody asks.
+    pub layers: Option<u64>,
     /// Whether the buffers held this volume already when the frame was prepared.
     pub ready: bool,
     /// Whether it is drawn in this frame; if not, it keeps its place and what it holds.

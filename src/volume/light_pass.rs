@@ -1,7 +1,7 @@
 //! Ambient and direct light from two targets, joined by a full-screen pass.
 
 use super::mask::check_target;
-use super::screen::{SCREEN, ScreenPipeline};
+use super::screen::{On, SCREEN, ScreenPipeline};
 use crate::error::ScreenPassError;
 
 const JOIN: &str = include_str!("../../shaders/volume_join.wgsl");
@@ -72,24 +72,24 @@ impl LightJoin {
         let multisampled = descriptor.sample_count > 1;
         let layout = layout(device, &label, multisampled);
         let join = if multisampled { JOIN_SAMPLES } else { JOIN };
-        let make = |blend, lit_only| {
+        let make = |blend, on| {
             ScreenPipeline {
                 label: &label,
                 source: [SCREEN, join].join("\n"),
                 fragment: "same",
                 layout: &[Some(&layout)],
-                target: wgpu::ColorTargetState {
+                target: Some(wgpu::ColorTargetState {
                     format: descriptor.color_format,
                     blend,
                     write_mask: wgpu::ColorWrites::ALL,
-                },
+                }),
                 depth_stencil_format: descriptor.depth_stencil_format,
                 sample_count: descriptor.sample_count,
-                lit_only,
+                on,
             }
             .make(device)
         };
-        let (ambient, lit) = (make(None, false), make(Some(ADD), true));
+        let (ambient, lit) = (make(None, On::Everything), make(Some(ADD), On::Lit));
         Ok(Self {
             device: device.clone(),
             ambient,
@@ -113,14 +113,7 @@ impl LightJoin {
                 needed: self.sample_count,
             });
         }
-        Ok(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(&self.label),
-            layout: &self.layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(source),
-            }],
-        }))
+        Ok(bind(&self.device, &self.label, &self.layout, source))
     }
 
     /// Draws what [`bind`](Self::bind) was given over the whole target.
@@ -159,7 +152,12 @@ fn draw(
     pass.draw(0..3, 0..1);
 }
 
-fn layout(device: &wgpu::Device, label: &str, multisampled: bool) -> wgpu::BindGroupLayout {
+/// Binds one picture, of one sample a pixel or several.
+pub(super) fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    multisampled: bool,
+) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
         entries: &[wgpu::BindGroupLayoutEntry {
@@ -171,6 +169,23 @@ fn layout(device: &wgpu::Device, label: &str, multisampled: bool) -> wgpu::BindG
                 multisampled,
             },
             count: None,
+        }],
+    })
+}
+
+/// What [`layout`] describes.
+pub(super) fn bind(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    source: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(source),
         }],
     })
 }
@@ -202,6 +217,14 @@ mod tests {
             (
                 [SCREEN, JOIN_SAMPLES].join("\n"),
                 Capabilities::MULTISAMPLED_SHADING,
+            ),
+            (
+                super::super::exact_count::source(false),
+                Capabilities::empty(),
+            ),
+            (
+                super::super::exact_count::source(true),
+                Capabilities::empty(),
             ),
         ] {
             let module = naga::front::wgsl::parse_str(&source).unwrap();

@@ -1,6 +1,6 @@
 //! A mask of what each light reaches, for any later pass to sample.
 
-use super::screen::{SCREEN, ScreenPipeline};
+use super::screen::{On, SCREEN, ScreenPipeline};
 use crate::error::ScreenPassError;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
@@ -80,8 +80,7 @@ impl ShadowMask {
     ) -> Result<Self, ScreenPassError> {
         let limits = device.limits();
         let [width, height] = descriptor.size;
-        check_range("width", width, limits.max_texture_dimension_2d)?;
-        check_range("height", height, limits.max_texture_dimension_2d)?;
+        check_size(descriptor.size, &limits)?;
         check_range(
             "number of lights",
             descriptor.lights,
@@ -125,10 +124,10 @@ impl ShadowMask {
                 source: SCREEN.to_owned(),
                 fragment: "one",
                 layout: &[],
-                target: FORMAT.into(),
+                target: Some(FORMAT.into()),
                 depth_stencil_format: descriptor.depth_stencil_format,
                 sample_count: descriptor.sample_count,
-                lit_only: true,
+                on: On::Lit,
             }
             .make(device),
             view: mask.create_view(&wgpu::TextureViewDescriptor {
@@ -161,7 +160,10 @@ impl ShadowMask {
         let lights = self.layers.len() as u32;
         let no_layer = ScreenPassError::Layer { light, lights };
         let layer = self.layers.get(light as usize).ok_or(no_layer)?;
-        self.check_buffer(depth_stencil.texture())?;
+        let samples = self.samples.as_ref();
+        let samples = samples.map_or(1, |s| s.drawn.texture().sample_count());
+        let needed = [self.texture.width(), self.texture.height(), samples];
+        check_buffer(depth_stencil, needed, self.depth_stencil_format)?;
         let (view, resolve_target) = match &self.samples {
             Some(samples) => (&samples.drawn, Some(&samples.resolved)),
             None => (layer, None),
@@ -209,22 +211,25 @@ impl ShadowMask {
     pub fn texture(&self) -> &wgpu::Texture {
         &self.texture
     }
+}
 
-    fn check_buffer(&self, buffer: &wgpu::Texture) -> Result<(), ScreenPassError> {
-        let found = [buffer.width(), buffer.height(), buffer.sample_count()];
-        let samples = self.samples.as_ref();
-        let samples = samples.map_or(1, |s| s.drawn.texture().sample_count());
-        let needed = [self.texture.width(), self.texture.height(), samples];
-        if found != needed || buffer.format() != self.depth_stencil_format {
-            return Err(ScreenPassError::Buffer {
-                found,
-                found_format: buffer.format(),
-                needed,
-                needed_format: self.depth_stencil_format,
-            });
-        }
-        Ok(())
+/// Whether a depth-stencil buffer has the width, height, samples and format that were announced.
+pub(super) fn check_buffer(
+    buffer: &wgpu::TextureView,
+    needed: [u32; 3],
+    needed_format: wgpu::TextureFormat,
+) -> Result<(), ScreenPassError> {
+    let buffer = buffer.texture();
+    let found = [buffer.width(), buffer.height(), buffer.sample_count()];
+    if found == needed && buffer.format() == needed_format {
+        return Ok(());
     }
+    Err(ScreenPassError::Buffer {
+        found,
+        found_format: buffer.format(),
+        needed,
+        needed_format,
+    })
 }
 
 fn layer_of(texture: &wgpu::Texture, label: &str, layer: u32) -> wgpu::TextureView {
@@ -235,6 +240,15 @@ fn layer_of(texture: &wgpu::Texture, label: &str, layer: u32) -> wgpu::TextureVi
         array_layer_count: Some(1),
         ..Default::default()
     })
+}
+
+/// A target's width and height.
+pub(super) fn check_size(
+    [width, height]: [u32; 2],
+    limits: &wgpu::Limits,
+) -> Result<(), ScreenPassError> {
+    check_range("width", width, limits.max_texture_dimension_2d)?;
+    check_range("height", height, limits.max_texture_dimension_2d)
 }
 
 fn check_range(what: &'static str, value: u32, limit: u32) -> Result<(), ScreenPassError> {

@@ -12,11 +12,14 @@
 //! 2008, called it multiplicity). Closedness therefore does not depend on rounding.
 
 mod buffers;
+mod counter;
 mod descriptor;
 mod draw;
+mod exact_count;
 mod groups;
 mod hull;
 mod kept;
+mod layers;
 mod layout;
 mod light_pass;
 mod limits;
@@ -33,7 +36,9 @@ mod silhouette;
 mod subject;
 mod world_box;
 
+pub use counter::Counter;
 pub use descriptor::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+pub use exact_count::{ExactCount, ExactCountDescriptor};
 pub use light_pass::{LightJoin, LightJoinDescriptor};
 pub use mask::{ShadowMask, ShadowMaskDescriptor};
 pub use method::{Caps, Extrusion, Method};

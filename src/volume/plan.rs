@@ -196,11 +196,13 @@ impl Plan {
             instance: instance_params(subject, &place),
             way: subject.way,
             counts: Counts::default(),
+            layers: None,
             ready: false,
             drawn: subject.form.is_some(),
         };
         if let Some(kept) = kept.get(instance as usize, &slot) {
             slot.counts = kept.counts;
+            slot.layers = kept.layers;
             slot.ready = true;
         }
         let batch = self.batch(&slot, limits.workgroups);

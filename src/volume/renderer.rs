@@ -6,11 +6,12 @@ use super::buffers::{Buffers, window};
 use super::draw::{self, DrawPipelines, Feed, issue};
 use super::groups::{Groups, Parts};
 use super::kept::Kept;
+use super::layers;
 use super::method::Options;
 use super::params::{Arguments, BatchParams, CasterParams};
 use super::plan::{Batch, Means, Plan, PlanLimits};
 use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
-use super::{ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+use super::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
 
@@ -27,7 +28,9 @@ use crate::error::ShadowVolumeError;
 ///    [`light_pass_stencil`](Self::light_pass_stencil).
 ///
 /// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
-/// and is lit: casters that stack that deep along a light ray want fewer, closed meshes.
+/// and is lit: casters that stack that deep along a light ray want
+/// [`Counter::Exact`](crate::Counter::Exact) or fewer, closed meshes.
+/// [`may_wrap`](Self::may_wrap) says whether that can happen.
 ///
 /// A light nearer to a triangle than about 3e-5 of the triangle's size leaves wrong pixels along
 /// the horizon of that triangle: its corners' points at infinity then cancel in f32 clip space.
@@ -49,6 +52,7 @@ pub struct ShadowVolumeRenderer {
     plan: Plan,
     keep: bool,
     options: Options,
+    counter: Counter,
     /// Whether `encode` was called since the last `prepare`.
     encoded: AtomicBool,
 }
@@ -86,6 +90,7 @@ impl ShadowVolumeRenderer {
             groups: Groups::default(),
             plan: Plan::default(),
             options: Options::of(descriptor),
+            counter: descriptor.counter,
             keep: descriptor.keep_between_frames,
             encoded: AtomicBool::new(false),
             label,
@@ -174,7 +179,8 @@ impl ShadowVolumeRenderer {
     }
 
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
-    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only).
+    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only). With
+    /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
     /// gave a target size and a range, also the scissor rectangle, which is then the whole target.
@@ -234,6 +240,29 @@ impl ShadowVolumeRenderer {
         self.plan.statistics
     }
 
+    /// No visible point is in more volumes than this, of those that the last
+    /// [`prepare`](Self::prepare) draws.
+    ///
+    /// The bound is 1 for a convex caster and grows with the number of silhouette edges that one
+    /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
+    /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
+    ///
+    /// Takes the CPU about as long as one extraction of the volumes drawn
+    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)); what a caster comes to is kept with its
+    /// volume, and what is left to do where nothing moved is to sort the casters.
+    pub fn count_bound(&mut self) -> u64 {
+        layers::bound(&mut self.plan, &mut self.on_cpu)
+    }
+
+    /// Whether the counter could wrap in the frame prepared last, so that a point in shadow would
+    /// be lit: [`count_bound`](Self::count_bound) is at least 256, or with
+    /// [`Counter::Exact`](crate::Counter::Exact) 2^24.
+    ///
+    /// `false` is certain. `true` may be a false alarm, for the bound is not the count.
+    pub fn may_wrap(&mut self) -> bool {
+        self.count_bound() >= self.counter.end()
+    }
+
     /// Extracts on the CPU what is extracted there.
     fn extract(&mut self, queue: &wgpu::Queue, plan: &mut Plan) {
         for slot in plan.stale_on_cpu() {
@@ -243,15 +272,17 @@ impl ShadowVolumeRenderer {
                 continue;
             };
             let volume = &mut self.on_cpu;
-            volume.extract(mesh, slot.mesh.kind(), &slot.instance);
-            slot.counts = volume.counts();
-            let write = |buffer, words: &[u32], place: u32| {
-                queue.write_buffer(buffer, u64::from(place) * 4, bytemuck::cast_slice(words));
-            };
-            write(caps, &volume.front, slot.instance.cap_base);
-            let after = slot.instance.cap_base + slot.counts.front;
-            write(caps, &volume.back, after);
-            write(sides, &volume.sides, slot.instance.side_base);
+            slot.counts = volume.extract(mesh, slot.mesh.kind(), &slot.instance);
+            let at = |place: u32| u64::from(place) * 4;
+            // Caps are most of it, and go where the queue takes them from.
+            let caps_size = at(slot.counts.front) + at(slot.counts.back);
+            let staging = wgpu::BufferSize::new(caps_size)
+                .and_then(|size| queue.write_buffer_with(caps, at(slot.instance.cap_base), size));
+            if let Some(mut staging) = staging {
+                volume.write_caps(mesh, staging.slice(..));
+            }
+            let words = bytemuck::cast_slice(&volume.sides);
+            queue.write_buffer(sides, at(slot.instance.side_base), words);
         }
     }
 

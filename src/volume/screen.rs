@@ -9,11 +9,20 @@ pub(super) struct ScreenPipeline<'a> {
     pub source: String,
     pub fragment: &'a str,
     pub layout: &'a [Option<&'a wgpu::BindGroupLayout>],
-    pub target: wgpu::ColorTargetState,
+    pub target: Option<wgpu::ColorTargetState>,
     pub depth_stencil_format: wgpu::TextureFormat,
     pub sample_count: u32,
-    /// Whether only what is in no volume is drawn, or everything.
-    pub lit_only: bool,
+    pub on: On,
+}
+
+/// Where such a pipeline draws.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum On {
+    Everything,
+    /// What the stencil has counted in no volume.
+    Lit,
+    /// Wherever the fragment shader does not discard: the stencil becomes the reference there.
+    Marked,
 }
 
 impl ScreenPipeline<'_> {
@@ -29,6 +38,7 @@ impl ScreenPipeline<'_> {
             immediate_size: 0,
         });
         let options = wgpu::PipelineCompilationOptions::default;
+        let targets: Vec<_> = self.target.into_iter().map(Some).collect();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label,
             layout: Some(&layout),
@@ -43,7 +53,7 @@ impl ScreenPipeline<'_> {
                 format: self.depth_stencil_format,
                 depth_write_enabled: Some(false),
                 depth_compare: Some(wgpu::CompareFunction::Always),
-                stencil: stencil(self.lit_only),
+                stencil: stencil(self.on),
                 bias: wgpu::DepthBiasState::default(),
             }),
             multisample: wgpu::MultisampleState {
@@ -54,7 +64,7 @@ impl ScreenPipeline<'_> {
                 module: &module,
                 entry_point: Some(self.fragment),
                 compilation_options: options(),
-                targets: &[Some(self.target)],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,
@@ -62,19 +72,35 @@ impl ScreenPipeline<'_> {
     }
 }
 
-/// A test without a guard: nothing but one triangle is drawn, and the stencil may be read-only.
-fn stencil(lit_only: bool) -> wgpu::StencilState {
+/// A test without a guard: nothing but one triangle is drawn, and except where it marks, the stencil
+/// may be read-only.
+fn stencil(on: On) -> wgpu::StencilState {
+    let (compare, pass_op, write_mask) = match on {
+        On::Everything => (
+            wgpu::CompareFunction::Always,
+            wgpu::StencilOperation::Keep,
+            0,
+        ),
+        On::Lit => (
+            wgpu::CompareFunction::Equal,
+            wgpu::StencilOperation::Keep,
+            0,
+        ),
+        On::Marked => (
+            wgpu::CompareFunction::Always,
+            wgpu::StencilOperation::Replace,
+            0xff,
+        ),
+    };
     let face = wgpu::StencilFaceState {
-        compare: match lit_only {
-            true => wgpu::CompareFunction::Equal,
-            false => wgpu::CompareFunction::Always,
-        },
+        compare,
+        pass_op,
         ..wgpu::StencilFaceState::IGNORE
     };
     wgpu::StencilState {
         front: face,
         back: face,
         read_mask: 0xff,
-        write_mask: 0,
+        write_mask,
     }
 }

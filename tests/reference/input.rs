@@ -2,10 +2,10 @@
 
 use std::sync::{Arc, Mutex};
 
-use shadows::HomogeneousLight;
 use shadows::error::{LightError, ReferenceError};
-use shadows::glam::{DAffine3, DVec3, Vec3, Vec4};
+use shadows::glam::{DAffine3, DVec3, Mat4, Vec3, Vec4};
 use shadows::reference::{Interior, ReferenceScene};
+use shadows::{HomogeneousLight, SpotLight};
 
 use crate::scene::{EYE, Mesh, downward, ground};
 
@@ -120,6 +120,27 @@ fn every_bad_input_is_named() {
     let image = scene.render(&view, 4, 4, sun, None).unwrap();
     assert!(image.compare(&visibility, map(1024, 0.0)).is_err());
     assert!(image.compare(&visibility, Interior::Screen).is_ok());
+    let flat = |scale: f32, size| Interior::FlatMap {
+        clip_from_world: Mat4::from_scale(Vec3::splat(scale)),
+        size,
+        kernel_radius: 0.0,
+    };
+    assert!(image.compare(&visibility, flat(1.0, 64)).is_ok());
+    for wrong in [flat(f32::NAN, 64), flat(1.0, 0)] {
+        let error = image.compare(&visibility, wrong);
+        assert!(matches!(error, Err(ReferenceError::Interior { .. })));
+    }
+    let spot = SpotLight {
+        position: Vec3::Y,
+        direction: Vec3::NEG_Y,
+        half_angle: 0.0,
+        near: 0.1,
+        range: 9.0,
+    };
+    assert_eq!(
+        scene.render_spot(&view, 4, 4, &spot).err(),
+        Some(LightError::HalfAngle(0.0).into())
+    );
 }
 
 #[test]

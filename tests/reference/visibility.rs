@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use shadows::glam::camera::{lh, rh};
 use shadows::glam::{DVec3, Mat4, Vec2, Vec3, Vec4};
 use shadows::reference::{Class, Interior, ReferenceImage, ReferenceScene};
-use shadows::{DepthConvention, HomogeneousLight, View};
+use shadows::{DepthConvention, HomogeneousLight, SpotLight, View};
 
 use crate::scene::{
     EYE, SIDE, crosses, disagreements, downward, from_above, furnished, ground, ground_under,
@@ -43,6 +43,45 @@ fn a_rectangle_casts_its_projection() {
         let moved = HomogeneousLight(light.0 + Vec4::new(0.1, 0.0, 0.0, 0.0));
         assert!(disagreements(&image, |x, y| expected(x, y, moved)).0 > 0);
     }
+}
+
+#[test]
+fn a_spot_lights_a_disk_of_the_ground_below() {
+    let (ground, roof) = (ground(), rectangle(Vec2::NEG_ONE, Vec2::ONE, 2.0));
+    let spot = SpotLight {
+        position: Vec3::new(0.3, 3.0, -0.2),
+        direction: Vec3::NEG_Y * 7.0,
+        half_angle: 0.6,
+        near: 0.1,
+        range: 30.0,
+    };
+    let scene = ReferenceScene::new(&[ground.object(false), roof.object(false)]).unwrap();
+    let view = downward(EYE, 0.1);
+    let image = scene.render_spot(&view, SIDE, SIDE, &spot).unwrap();
+    let expected = |half_angle: f64| {
+        move |x, y| {
+            let point = ground_under(x, y, EYE);
+            let eye = EYE.as_dvec3();
+            let on_roof = point + (eye - point) * (2.0 / eye.y);
+            // What a pixel sees is the roof where that is in the way.
+            let at = match on_roof.x.abs() <= 1.0 && on_roof.z.abs() <= 1.0 {
+                true => on_roof,
+                false => point,
+            };
+            let along = at - spot.position.as_dvec3();
+            let inside = along.angle_between(DVec3::NEG_Y) <= half_angle;
+            Some(if inside {
+                Class::Lit
+            } else {
+                Class::OutOfRange
+            })
+        }
+    };
+    let exact = f64::from(spot.half_angle);
+    assert_eq!(disagreements(&image, expected(exact)).0, 0);
+    assert!(image.count(Class::OutOfRange) > 100 && image.lit_facing() > 100);
+    // The twin: a wider cone.
+    assert!(disagreements(&image, expected(exact + 0.05)).0 > 0);
 }
 
 #[test]

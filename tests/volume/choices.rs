@@ -2,7 +2,7 @@
 
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
-    Caps, Caster, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
+    Caps, Caster, Counter, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
     ShadowVolumeRenderer, Silhouettes, VolumeStatistics, wgpu,
 };
 
@@ -17,6 +17,7 @@ pub const TEXTBOOK: Savings = Savings {
     extrusion: Extrusion::Infinite,
     unculled: true,
     silhouettes: Silhouettes::Auto,
+    counter: Counter::Stencil,
 };
 
 /// Every convention that the device can draw.

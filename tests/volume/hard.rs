@@ -189,26 +189,6 @@ fn scale_does_not_matter() {
 }
 
 #[test]
-fn three_hundred_sheets_are_a_shadow_and_256_are_none() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    // Straight light, and a stack thinner than a pixel: each point is under all sheets or none.
-    let light = HomogeneousLight::directional(Vec3::Y);
-    let sheets = |count: u32| {
-        let bodies = (0..count).map(|sheet| {
-            let height = 1.0 + 2e-5 * sheet as f32;
-            Body::caster(shapes::square(1.0), at(0.0, height, 0.0))
-        });
-        Stage::new(light, bodies.collect())
-    };
-    for count in [255, 257, 300] {
-        assert_exact(&gpu, &sheets(count), &format!("{count} sheets"));
-    }
-    // The documented limit of an 8-bit count: 256 volumes around one point read 0.
-    let stage = sheets(256);
-    assert!(stage.truth().errors(&stage.draw(&gpu)).wrong > 500);
-}
-
-#[test]
 fn a_renderer_is_used_again_frame_after_frame() {
     let Some(gpu) = Gpu::for_test() else { return };
     let descriptor = ShadowVolumeDescriptor::default();

@@ -82,7 +82,7 @@ impl Random {
     }
 }
 
-fn scene(seed: u64, gpu: &Gpu) -> Stage {
+pub fn scene(seed: u64, gpu: &Gpu) -> Stage {
     let random = &mut Random(seed);
     let bodies: Vec<Body> = (0..1 + random.below(4))
         .map(|_| Body::caster(random.shape(), random.transform()))

@@ -5,8 +5,9 @@ use shadows::glam::{Affine3A, DAffine3, DMat4, Mat4, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
-    Caps, Caster, CasterMesh, DepthConvention, Extrusion, HomogeneousLight, HostPositions, Method,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    Caps, Caster, CasterMesh, Counter, DepthConvention, ExactCount, ExactCountDescriptor,
+    Extrusion, HomogeneousLight, HostPositions, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -87,6 +88,7 @@ pub struct Savings {
     /// Whether nothing is skipped or clipped.
     pub unculled: bool,
     pub silhouettes: Silhouettes,
+    pub counter: Counter,
 }
 
 impl Stage {
@@ -203,6 +205,7 @@ impl Stage {
             extrusion: self.savings.extrusion,
             culling: !self.savings.unculled,
             silhouettes: self.savings.silhouettes,
+            counter: self.savings.counter,
             ..Default::default()
         }
     }
@@ -321,12 +324,16 @@ impl Stage {
         let resolved = view_of(&picture);
         let host = HostPipelines::new(gpu, self);
         let surfaces = self.surfaces(gpu);
+        let counts = (self.savings.counter == Counter::Exact).then(|| self.exact_count(gpu));
         gpu.run(|encoder| {
             if let Some(renderer) = renderer {
                 renderer.encode(encoder);
             }
             self.prepass(encoder, &depth_view, &host, &surfaces);
-            if let Some(renderer) = renderer {
+            if let (Some(renderer), Some(counts)) = (renderer, &counts) {
+                renderer.render(&mut counts.begin(encoder, &depth_view).unwrap());
+                counts.encode(encoder, &depth_view).unwrap();
+            } else if let Some(renderer) = renderer {
                 let colors = extra.map(|view| vec![Some(clear(view, wgpu::Color::RED, None))]);
                 let colors = colors.unwrap_or_default();
                 let mut pass = begin(encoder, "stencil", &colors, attach(&depth_view, None));
@@ -343,7 +350,18 @@ impl Stage {
         gpu.read_texture(&picture, 0, wgpu::TextureAspect::All)
     }
 
-    fn prepass(
+    /// What fits the stage's passes.
+    pub fn exact_count(&self, gpu: &Gpu) -> ExactCount {
+        let descriptor = ExactCountDescriptor {
+            size: [self.side; 2],
+            depth_stencil_format: self.format,
+            sample_count: self.samples,
+            ..Default::default()
+        };
+        ExactCount::new(&gpu.device, &descriptor).unwrap()
+    }
+
+    pub fn prepass(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,

@@ -49,6 +49,7 @@ impl Yard {
             meshes: Vec::new(),
             objects: Vec::new(),
             light: Vec4::new(0.43, 4.07, 0.86, 1.0),
+            cone: None,
             range: 40.0,
             shadow_near: 0.1,
             camera: Camera {

@@ -143,6 +143,7 @@ fn around(name: &str, model: Model) -> Result<Scene> {
         meshes: model.meshes,
         objects: model.objects,
         light: shadows::glam::Vec4::W,
+        cone: None,
         range: 1.0,
         shadow_near: 1.0,
         camera: Camera {

@@ -139,6 +139,26 @@ impl Bounds {
     }
 }
 
+/// The kinds of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightKind {
+    /// In all directions from one place.
+    Point,
+    /// From one place into a cone.
+    Spot,
+    /// Parallel.
+    Directional,
+}
+
+/// Where a spot shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Of any length but 0, world space.
+    pub direction: Vec3,
+    /// From the direction to the cone's side, in radians.
+    pub half_angle: f32,
+}
+
 /// Everything a picture needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -150,6 +170,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Homogeneous light, world space: a point (w = 1) or the direction to the light (w = 0).
     pub light: Vec4,
+    /// Into which the light shines, if it is a spot.
+    pub cone: Option<Cone>,
     /// Distance in metres at which a point light ends.
     pub range: f32,
     /// Near plane of the light's shadow map in metres.
@@ -206,6 +228,44 @@ impl Scene {
             self.camera.target = target;
             self.camera.fovy = fovy.unwrap_or(self.camera.fovy);
         }
+    }
+
+    /// Which kind of light it has.
+    pub fn light_kind(&self) -> LightKind {
+        match (self.light.w == 0.0, self.cone) {
+            (true, _) => LightKind::Directional,
+            (false, Some(_)) => LightKind::Spot,
+            (false, None) => LightKind::Point,
+        }
+    }
+
+    /// Makes the light one of another kind: a spot shines from its place at the camera's target, as
+    /// wide as a face of a cube map (45 degrees to each side); a directional light shines from
+    /// there, too.
+    ///
+    /// # Errors
+    /// If a directional light is to have a place, or the light is at the camera's target.
+    pub fn shine_as(&mut self, kind: LightKind) -> anyhow::Result<()> {
+        if kind == self.light_kind() {
+            return Ok(());
+        }
+        anyhow::ensure!(
+            self.light.w != 0.0,
+            "a directional light has no place to shine from; give one with --light X,Y,Z"
+        );
+        let toward_light = self.light.truncate() - self.camera.target;
+        anyhow::ensure!(
+            kind == LightKind::Point || toward_light != Vec3::ZERO,
+            "the light is at the camera's target, so it has no direction; move one of them"
+        );
+        self.cone = (kind == LightKind::Spot).then_some(Cone {
+            direction: -toward_light,
+            half_angle: std::f32::consts::FRAC_PI_4,
+        });
+        if kind == LightKind::Directional {
+            self.light = toward_light.extend(0.0);
+        }
+        Ok(())
     }
 
     /// Adds a mesh and says where it is.

@@ -47,6 +47,7 @@ fn empty() -> Scene {
         meshes: Vec::new(),
         objects: Vec::new(),
         light: Vec4::new(0.0, 4.0, 0.0, 1.0),
+        cone: None,
         range: 30.0,
         shadow_near: 0.1,
         camera: Camera {

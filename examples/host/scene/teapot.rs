@@ -83,6 +83,7 @@ pub fn teapot() -> Scene {
             object("teapot", 1, true, [0.7, 0.62, 0.5]),
         ],
         light: Vec4::new(3.37, 6.61, 2.83, 1.0),
+        cone: None,
         range: 30.0,
         shadow_near: 0.1,
         camera: Camera {

@@ -5,6 +5,7 @@ struct HostFrame {
     clip_from_world: mat4x4f,
     eye: vec4f,
     light: vec4f, // homogeneous
+    cone: vec4f, // unit direction, cosine of the half angle
     range: f32,
     intensity: f32,
     ambient: f32,
@@ -70,7 +71,8 @@ fn host_light(in: HostVaryings, visibility: f32) -> HostLit {
     if host_frame.light.w != 0.0 {
         let ratio = squared / (host_frame.range * host_frame.range);
         let window = saturate(1.0 - ratio * ratio);
-        falloff = window * window / squared;
+        let along = -dot(host_frame.cone.xyz, toward_light) * inverseSqrt(squared);
+        falloff = select(0.0, window * window / squared, along >= host_frame.cone.w);
     }
     let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
     let facing = select(0.0, 1.0, dot(flat_normal, toward_light) > 0.0);

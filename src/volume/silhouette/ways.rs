@@ -17,8 +17,11 @@ pub enum Silhouettes {
     Auto,
     /// Two compute passes. Needs compute, storage buffers in vertex shaders and indirect draws.
     Compute,
-    /// One thread of the CPU during `prepare`: facing bytes, then edges. Needs storage buffers in
-    /// vertex shaders, and positions that were uploaded by [`CasterMesh::new`].
+    /// One thread of the CPU during `prepare`: facings, 64 triangles at a time by their planes, then
+    /// the edges near those that differ. Needs storage buffers in vertex shaders, and positions that
+    /// were uploaded by [`CasterMesh::new`]. A million triangles on a grid take no longer than a
+    /// plain loop over triangles and edges whose lists are never uploaded
+    /// (`cargo bench --bench shadow_extraction`).
     Cpu,
     /// The vertex shader alone: every triangle and every edge is drawn every frame, and those that
     /// are not part of the volume are degenerate. Runs at WebGL2's limits; needs positions that

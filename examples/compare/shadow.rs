@@ -1,0 +1,361 @@
+//! The shadow techniques behind one interface: prepare, generate, shade.
+
+use anyhow::Result;
+use serde_json::{Value, json};
+use shadows::mesh::Bounds;
+use shadows::reference::Interior;
+use shadows::{
+    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight, FlatLight,
+    HomogeneousLight, Kernel, PcfDescriptor, PcfSampler, PointLight, Radius, ShadowFrame,
+    ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, SpotLight, View, wgpu,
+};
+
+use crate::host::gpu::Gpu;
+use crate::host::pipelines::visibility_module;
+use crate::host::renderer::{DEPTH, LitPipeline, Renderer, ShadowAccess};
+use crate::host::scene::Cone;
+use crate::host::scene_gpu::SceneGpu;
+use crate::technique::{Config, Technique};
+
+/// What a technique is told each frame.
+#[derive(Clone)]
+pub struct ShadowInputs {
+    pub view: View,
+    pub light: HomogeneousLight,
+    /// Into which a spot shines; lights of other kinds have none.
+    pub cone: Option<Cone>,
+    /// Where maps begin; shadow volumes begin at the light.
+    pub near: f32,
+    pub range: f32,
+    pub casters: Vec<Caster>,
+    /// Everything that receives, world space.
+    pub receivers: Bounds,
+    /// Up to where along the camera's axis there is something to see.
+    pub seen: f32,
+}
+
+impl ShadowInputs {
+    /// The light's end; directional lights have none.
+    pub fn light_range(&self) -> Option<f32> {
+        (!self.light.is_directional()).then_some(self.range)
+    }
+
+    fn point_light(&self) -> PointLight {
+        PointLight::new(self.light.0.truncate(), self.near, self.range)
+    }
+
+    /// The spot, if it is one.
+    pub fn spot_light(&self) -> Option<SpotLight> {
+        self.cone.map(|cone| SpotLight {
+            position: self.light.0.truncate(),
+            direction: cone.direction,
+            half_angle: cone.half_angle,
+            near: self.near,
+            range: self.range,
+        })
+    }
+
+    fn flat_light(&self) -> FlatLight {
+        match self.spot_light() {
+            Some(spot) => FlatLight::Spot(spot),
+            None => FlatLight::Directional(DirectionalLight::new(self.light.0.truncate())),
+        }
+    }
+}
+
+/// What it takes, for reports.
+#[derive(Clone, Copy, Debug)]
+pub struct Cost {
+    /// GPU memory beyond what the host has anyway (meshes, depth-stencil buffer).
+    pub bytes: u64,
+    pub draws: u64,
+    pub triangles: u64,
+}
+
+/// A technique at work.
+pub struct Shadow {
+    technique: Technique,
+    lit: LitPipeline,
+    means: Means,
+}
+
+enum Means {
+    Cube {
+        map: Box<CubeShadowMap>,
+        sampler: Box<PcfSampler>,
+        /// With the revision of the map's texture that it is for.
+        group: (u64, wgpu::BindGroup),
+    },
+    Flat {
+        map: Box<ShadowMap>,
+        group: wgpu::BindGroup,
+    },
+    Volume(Box<ShadowVolumeRenderer>),
+}
+
+impl Shadow {
+    /// Makes what the technique needs.
+    ///
+    /// # Errors
+    /// If the device cannot do it.
+    pub fn new(gpu: &Gpu, renderer: &Renderer, technique: Technique) -> Result<Self> {
+        let label = Some(technique.name.as_ref());
+        let (means, lit) = match &technique.config {
+            Config::Cube { map, sampler } => {
+                let map = CubeShadowMapDescriptor {
+                    label,
+                    ..map.clone()
+                };
+                let map = CubeShadowMap::new(&gpu.device, &map)?;
+                let sampler = make_sampler(gpu, label, sampler)?;
+                let lit = sampled(gpu, renderer, &sampler);
+                let group = (
+                    map.texture_revision(),
+                    sampler.bind_group(&gpu.device, &map)?,
+                );
+                let (map, sampler) = (Box::new(map), Box::new(sampler));
+                let means = Means::Cube {
+                    map,
+                    sampler,
+                    group,
+                };
+                (means, lit)
+            }
+            Config::Flat { map, sampler } => {
+                let map = ShadowMapDescriptor {
+                    label,
+                    ..map.clone()
+                };
+                let map = Box::new(ShadowMap::new(&gpu.device, &map)?);
+                let sampler = make_sampler(gpu, label, sampler)?;
+                let group = sampler.bind_group(&gpu.device, &*map)?;
+                (Means::Flat { map, group }, sampled(gpu, renderer, &sampler))
+            }
+            Config::Volume(descriptor) => {
+                let descriptor = ShadowVolumeDescriptor {
+                    label,
+                    depth_stencil_format: renderer.depth_stencil_format(),
+                    depth: DEPTH,
+                    ..*descriptor
+                };
+                let volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
+                let access = ShadowAccess {
+                    stencil: Some(ShadowVolumeRenderer::light_pass_stencil()),
+                    ..Default::default()
+                };
+                let lit = renderer.lit_pipeline(gpu, &access);
+                (Means::Volume(Box::new(volumes)), lit)
+            }
+        };
+        Ok(Self {
+            technique,
+            lit,
+            means,
+        })
+    }
+
+    /// Which technique it is.
+    pub fn technique(&self) -> &Technique {
+        &self.technique
+    }
+
+    /// The frame's work on the CPU.
+    ///
+    /// # Errors
+    /// If the technique refuses the inputs.
+    pub fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()> {
+        let casters = &inputs.casters;
+        match &mut self.means {
+            Means::Cube {
+                map,
+                sampler,
+                group,
+            } => {
+                let frame = CubeFrame {
+                    lights: &[inputs.point_light()],
+                    casters,
+                    ..Default::default()
+                };
+                map.prepare(&gpu.device, &gpu.queue, &frame)?;
+                let revision = map.texture_revision();
+                if group.0 != revision {
+                    *group = (revision, sampler.bind_group(&gpu.device, &**map)?);
+                }
+            }
+            Means::Flat { map, .. } => {
+                let frame = ShadowFrame {
+                    view: Some((&inputs.view, inputs.seen)),
+                    receivers: Some(inputs.receivers),
+                    ..ShadowFrame::new(inputs.flat_light(), casters)
+                };
+                map.prepare(&gpu.device, &gpu.queue, &frame)?;
+            }
+            Means::Volume(volumes) => {
+                let frame = ShadowVolumeFrame {
+                    range: inputs.light_range(),
+                    ..ShadowVolumeFrame::new(&inputs.view, inputs.light, casters)
+                };
+                volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Records what finds the shadows: the map, or the volumes and their stencil pass.
+    pub fn generate(&self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+        match &self.means {
+            Means::Cube { map, .. } => map.encode(encoder),
+            Means::Flat { map, .. } => map.encode(encoder),
+            Means::Volume(volumes) => {
+                volumes.encode(encoder);
+                volumes.render(&mut host.begin_stencil_pass(encoder));
+            }
+        }
+    }
+
+    /// Records the lit pass.
+    pub fn shade(&self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
+        let group = match &self.means {
+            Means::Cube { group, .. } => Some(&group.1),
+            Means::Flat { group, .. } => Some(group),
+            Means::Volume(_) => None,
+        };
+        host.draw_lit(encoder, scene, &self.lit, group);
+    }
+
+    /// What the last prepared frame takes.
+    pub fn cost(&self) -> Cost {
+        let (bytes, draws, triangles) = match &self.means {
+            Means::Cube { map, .. } => {
+                let taken = map.statistics();
+                (taken.bytes, taken.draws, taken.triangles)
+            }
+            Means::Flat { map, .. } => {
+                let taken = map.statistics();
+                (taken.bytes, taken.draws, taken.triangles)
+            }
+            Means::Volume(volumes) => {
+                let taken = volumes.statistics();
+                (taken.gpu_bytes, taken.draws, taken.triangles)
+            }
+        };
+        let draws = draws.into();
+        Cost {
+            bytes,
+            draws,
+            triangles,
+        }
+    }
+
+    /// Where resolution is no excuse for this technique's errors in the last prepared frame.
+    pub fn interior(&self) -> Interior {
+        let kernel_radius = self.technique.config.kernel().map_or(0.0, radius_in_texels);
+        match &self.means {
+            Means::Cube { map, .. } => Interior::Map {
+                face_size: map.size(),
+                kernel_radius,
+            },
+            Means::Flat { map, .. } => match map.clip_from_world() {
+                Some(clip_from_world) => Interior::FlatMap {
+                    clip_from_world,
+                    size: map.size(),
+                    kernel_radius,
+                },
+                // Nothing casts.
+                None => Interior::Screen,
+            },
+            Means::Volume(_) => Interior::Screen,
+        }
+    }
+}
+
+impl Technique {
+    /// Everything that was chosen, by name.
+    pub fn settings(&self) -> Value {
+        let (map, sampler) = match &self.config {
+            Config::Cube { map, sampler } => (
+                json!({
+                    "face_texels": map.size,
+                    "encoding": format!("{:?}", map.encoding),
+                    "format": format!("{:?}", map.format),
+                    "cache": map.cache,
+                }),
+                (sampler, map.bias),
+            ),
+            Config::Flat { map, sampler } => (
+                json!({ "map_texels": map.size, "cache": map.cache }),
+                (sampler, map.bias),
+            ),
+            Config::Volume(volume) => {
+                return json!({
+                    "method": format!("{:?}", volume.method),
+                    "silhouettes": format!("{:?}", volume.silhouettes),
+                    "caps": format!("{:?}", volume.caps),
+                    "extrusion": format!("{:?}", volume.extrusion),
+                    "culling": volume.culling,
+                    "keep_between_frames": volume.keep_between_frames,
+                    "cap_bias_ulps": volume.cap_bias_ulps,
+                });
+            }
+        };
+        with_receiver(map, sampler.0, self.config.kernel(), sampler.1)
+    }
+}
+
+/// The settings of a map, and those by which it is read.
+fn with_receiver(
+    mut map: Value,
+    sampler: &PcfDescriptor<'_>,
+    kernel: Option<Kernel>,
+    bias: Bias,
+) -> Value {
+    let kernel = kernel.unwrap_or_default();
+    if sampler.textbook {
+        map["textbook"] = true.into();
+    }
+    map["kernel"] = format!("{kernel:?}").into();
+    map["kernel_radius_texels"] = decimal(radius_in_texels(kernel)).into();
+    map["bias_normal_offset_texels"] = decimal(bias.normal_offset).into();
+    map["bias_constant_texels"] = decimal(bias.constant).into();
+    map
+}
+
+fn make_sampler(
+    gpu: &Gpu,
+    label: Option<&str>,
+    sampler: &PcfDescriptor<'static>,
+) -> Result<PcfSampler> {
+    let descriptor = PcfDescriptor {
+        label,
+        ..sampler.clone()
+    };
+    Ok(PcfSampler::new(&gpu.device, &gpu.queue, &descriptor)?)
+}
+
+/// The lit pass that asks a map.
+fn sampled(gpu: &Gpu, renderer: &Renderer, sampler: &PcfSampler) -> LitPipeline {
+    renderer.lit_pipeline(
+        gpu,
+        &ShadowAccess {
+            module: Some(&visibility_module(sampler)),
+            layout: Some(sampler.bind_group_layout()),
+            stencil: None,
+        },
+    )
+}
+
+/// The number as one would write it: 0.1 rather than the f64 nearest to the f32 nearest to 0.1.
+fn decimal(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(f64::from(value))
+}
+
+/// How many texels a kernel reaches, at most: disks are measured on the surface, where texels are
+/// up to `sqrt(3)` smaller than straight ahead, and reach to the centre of the texel they hit.
+fn radius_in_texels(kernel: Kernel) -> f32 {
+    match kernel.radius() {
+        Radius::Texels(radius) if kernel.uses_pixel() => radius * 3.0_f32.sqrt() + 0.5,
+        Radius::Texels(radius) => radius,
+        Radius::World(_) => f32::INFINITY, // no pixel is safely interior
+    }
+}

@@ -1,0 +1,579 @@
+//! More volumes around one point than a byte can count.
+
+use shadows::error::{ScreenPassError, ShadowVolumeError};
+use shadows::glam::{Affine3A, Vec3};
+use shadows::{
+    Caps, Counter, ExactCount, ExactCountDescriptor, HomogeneousLight, Method, ShadowMask,
+    ShadowMaskDescriptor, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes, wgpu,
+};
+
+use crate::choices::depths;
+use crate::host::gpu::Gpu;
+use crate::passes::{HostPipelines, LightPass, begin, clear, view_of};
+use crate::pictures::{assert_exact, at, lamp, mixed};
+use crate::random;
+use crate::shapes::{self, Shape};
+use crate::stage::{Body, SIDE, Savings, Stage};
+
+/// A device that counts in floats.
+fn gpu() -> Option<Gpu> {
+    let gpu = Gpu::for_test()?;
+    if !gpu.support.float32_blending {
+        eprintln!("skipped: no FLOAT32_BLENDABLE");
+        return None;
+    }
+    Some(gpu)
+}
+
+/// Copies of a shape in a stack that is thinner than a pixel, under a light straight above: each
+/// point is in all volumes or in none.
+fn stack(shape: &Shape, flat: f32, count: u32) -> Stage {
+    let bodies = (0..count).map(|layer| {
+        let place = at(0.0, 1.0 + 2e-5 * layer as f32, 0.0);
+        let scale = Affine3A::from_scale(Vec3::new(1.0, flat, 1.0));
+        Body::caster(shape.clone(), place * scale)
+    });
+    Stage::new(HomogeneousLight::directional(Vec3::Y), bodies.collect())
+}
+
+fn sheets(count: u32) -> Stage {
+    stack(&shapes::square(1.0), 1.0, count)
+}
+
+/// Boxes wound without a plan: both of a box's faces on the way to the light count.
+fn boxes(count: u32) -> Stage {
+    let shape = shapes::cube().turned(|triangle| triangle % 3 == 0);
+    stack(&shape, 5e-6, count)
+}
+
+fn with(stage: &Stage, savings: Savings) -> Stage {
+    Stage {
+        savings,
+        ..stage.clone()
+    }
+}
+
+fn exact() -> Savings {
+    Savings {
+        counter: Counter::Exact,
+        ..Default::default()
+    }
+}
+
+/// The counts themselves.
+fn exact_counts(gpu: &Gpu, stage: &Stage) -> Vec<f32> {
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
+    stage.prepare(gpu, &mut renderer, &stage.casters(gpu));
+    let depth = view_of(&gpu.target([stage.side; 2], stage.format, 1));
+    let (host, surfaces) = (HostPipelines::new(gpu, stage), stage.surfaces(gpu));
+    let counts = stage.exact_count(gpu);
+    gpu.checked(|| {
+        gpu.run(|encoder| {
+            renderer.encode(encoder);
+            stage.prepass(encoder, &depth, &host, &surfaces);
+            renderer.render(&mut counts.begin(encoder, &depth).unwrap());
+        });
+    });
+    let bytes = gpu.read_texture(counts.texture(), 0, wgpu::TextureAspect::All);
+    bytemuck::pod_collect_to_vec(&bytes)
+}
+
+#[test]
+fn no_number_of_sheets_is_lost() {
+    let Some(gpu) = gpu() else { return };
+    for count in [255, 256, 257, 512] {
+        let stage = sheets(count);
+        assert_exact(&gpu, &with(&stage, exact()), &format!("{count} sheets"));
+        // A byte reads 0 in multiples of 256 volumes.
+        let wrong = stage.truth().errors(&stage.draw(&gpu)).wrong;
+        assert_eq!(wrong > 500, count % 256 == 0, "{count}: {wrong}");
+    }
+}
+
+#[test]
+fn both_sides_of_128_boxes_are_256_volumes() {
+    let Some(gpu) = gpu() else { return };
+    let stage = boxes(128);
+    assert_exact(&gpu, &with(&stage, exact()), "128 boxes");
+    assert!(stage.truth().errors(&stage.draw(&gpu)).wrong > 500);
+}
+
+#[test]
+fn three_hundred_layers_read_300_and_not_44() {
+    let Some(gpu) = gpu() else { return };
+    let stage = sheets(300);
+    let found = exact_counts(&gpu, &with(&stage, exact()));
+    let deepest = found.iter().copied().fold(0.0, f32::max);
+    assert_eq!(deepest, 300.0);
+    let bytes = stage.counts(&gpu);
+    for (float, byte) in found.iter().zip(&bytes) {
+        assert_eq!(*float as i32 & 255, i32::from(*byte));
+    }
+    let pixel = found.iter().position(|count| *count == 300.0).unwrap();
+    assert_eq!(bytes[pixel], 44);
+}
+
+#[test]
+fn every_way_method_and_convention_counts_alike() {
+    let Some(gpu) = gpu() else { return };
+    let stage = mixed(lamp());
+    for depth in depths(&gpu) {
+        let stage = Stage {
+            depth,
+            ..stage.clone()
+        };
+        let truth = stage.truth();
+        for silhouettes in [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex] {
+            for (method, caps) in [(Method::ZFail, Caps::Full), (Method::Auto, Caps::AsNeeded)] {
+                let stage = with(
+                    &stage,
+                    Savings {
+                        silhouettes,
+                        method,
+                        caps,
+                        ..exact()
+                    },
+                );
+                let found = truth.errors(&stage.draw(&gpu));
+                let what = format!("{depth:?} {silhouettes:?} {method:?}");
+                assert_eq!(found.wrong, 0, "{what}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn z_fail_counts_behind_the_surface_and_z_pass_before_it() {
+    let Some(gpu) = gpu() else { return };
+    // From within the shadow, where the two differ.
+    let stage = Stage {
+        eye: Vec3::new(0.1, 0.6, 0.1),
+        target: Vec3::new(3.0, 0.0, 2.0),
+        near: 0.01,
+        ..with(&sheets(3), exact())
+    };
+    assert_exact(&gpu, &stage, "from within");
+    let savings = Savings {
+        method: Method::ZPass,
+        ..exact()
+    };
+    let wrong = with(&stage, savings);
+    assert!(stage.truth().errors(&wrong.draw(&gpu)).wrong > 10_000);
+}
+
+#[test]
+fn each_sample_is_counted_by_itself() {
+    let Some(gpu) = gpu() else { return };
+    let four = |stage: &Stage| Stage {
+        samples: 4,
+        ..stage.clone()
+    };
+    let stage = four(&with(&mixed(lamp()), exact()));
+    let picture = stage.draw(&gpu);
+    assert!(picture.iter().any(|&value| value > 0 && value < 255));
+    assert_eq!(stage.truth().errors(&picture).wrong, 0);
+    // 257 is 1 in a byte, so the stencil has the same picture to the last sample; 256 is 0.
+    for (count, same) in [(257, true), (256, false)] {
+        let stage = four(&sheets(count));
+        assert_eq!(with(&stage, exact()).draw(&gpu) == stage.draw(&gpu), same);
+    }
+}
+
+#[test]
+fn the_guard_adds_light_once_however_often_the_scene_is_drawn() {
+    let Some(gpu) = gpu() else { return };
+    for samples in [1, 4] {
+        let light_pass = |guarded| Stage {
+            samples,
+            light_pass: LightPass::Scene { times: 2, guarded },
+            ..with(&mixed(lamp()), exact())
+        };
+        assert_eq!(light_pass(true).draw(&gpu).iter().max(), Some(&100));
+        assert_eq!(light_pass(false).draw(&gpu).iter().max(), Some(&200));
+    }
+}
+
+#[test]
+fn a_mask_is_filled_from_exact_counts() {
+    let Some(gpu) = gpu() else { return };
+    let stage = with(&sheets(256), exact());
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
+    stage.prepare(&gpu, &mut renderer, &stage.casters(&gpu));
+    let depth = view_of(&gpu.target([SIDE; 2], stage.format, 1));
+    let (host, surfaces) = (HostPipelines::new(&gpu, &stage), stage.surfaces(&gpu));
+    let counts = stage.exact_count(&gpu);
+    let descriptor = ShadowMaskDescriptor {
+        size: [SIDE; 2],
+        ..Default::default()
+    };
+    let mask = ShadowMask::new(&gpu.device, &descriptor).unwrap();
+    let fill = |marked: bool| {
+        gpu.checked(|| {
+            gpu.run(|encoder| {
+                renderer.encode(encoder);
+                stage.prepass(encoder, &depth, &host, &surfaces);
+                renderer.render(&mut counts.begin(encoder, &depth).unwrap());
+                if marked {
+                    counts.encode(encoder, &depth).unwrap();
+                }
+                mask.encode(encoder, 0, &depth).unwrap();
+            });
+        });
+        let read = gpu.read_texture(mask.texture(), 0, wgpu::TextureAspect::All);
+        stage.truth().errors(&read).wrong
+    };
+    assert_eq!(fill(true), 0);
+    // The stencil knows nothing of the counts until it is marked.
+    assert!(fill(false) > 500);
+}
+
+/// A lighting pass of the host's that reads the counts itself.
+fn lit_by_shader(gpu: &Gpu, stage: &Stage) -> Vec<u8> {
+    let multisampled = stage.samples > 1;
+    let fragment = match multisampled {
+        false => {
+            shadows::wgsl::EXACT.to_owned()
+                + "@group(0) @binding(0) var counts: texture_2d<f32>;
+            @fragment fn light(@builtin(position) position: vec4f) -> @location(0) vec4f {
+                return vec4f(shadows_exact_visibility(counts, position.xy));
+            }"
+        }
+        true => {
+            shadows::wgsl::EXACT_SAMPLES.to_owned()
+                + "@group(0) @binding(0) var counts: texture_multisampled_2d<f32>;
+            struct Lit { @builtin(sample_mask) samples: u32, @location(0) color: vec4f }
+            @fragment fn light(@builtin(position) position: vec4f) -> Lit {
+                return Lit(shadows_exact_lit_samples(counts, position.xy), vec4f(1.0));
+            }"
+        }
+    };
+    let source = fragment
+        + "
+        @vertex fn screen(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
+            return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.5, 1.0);
+        }";
+    let device = &gpu.device;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let binding = wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled,
+        },
+        count: None,
+    };
+    let groups = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &[binding],
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &[Some(&groups)],
+        immediate_size: 0,
+    });
+    let format = wgpu::TextureFormat::R8Unorm;
+    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: None,
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState {
+            count: stage.samples,
+            ..Default::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: None,
+            compilation_options: Default::default(),
+            targets: &[Some(format.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    let mut renderer = ShadowVolumeRenderer::new(device, &stage.descriptor()).unwrap();
+    stage.prepare(gpu, &mut renderer, &stage.casters(gpu));
+    let size = [stage.side; 2];
+    let depth = view_of(&gpu.target(size, stage.format, stage.samples));
+    let drawn = view_of(&gpu.target(size, format, stage.samples));
+    let picture = gpu.target(size, format, 1);
+    let resolved = view_of(&picture);
+    let (host, surfaces) = (HostPipelines::new(gpu, stage), stage.surfaces(gpu));
+    let counts = stage.exact_count(gpu);
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &groups,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(counts.view()),
+        }],
+    });
+    gpu.run(|encoder| {
+        renderer.encode(encoder);
+        stage.prepass(encoder, &depth, &host, &surfaces);
+        renderer.render(&mut counts.begin(encoder, &depth).unwrap());
+        let target = match multisampled {
+            false => clear(&resolved, wgpu::Color::BLACK, None),
+            true => clear(&drawn, wgpu::Color::BLACK, Some(&resolved)),
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(target)],
+            ..Default::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    });
+    gpu.read_texture(&picture, 0, wgpu::TextureAspect::All)
+}
+
+#[test]
+fn a_lighting_shader_may_read_the_counts() {
+    let Some(gpu) = gpu() else { return };
+    for samples in [1, 4] {
+        for stage in [mixed(lamp()), sheets(256)] {
+            let stage = Stage {
+                samples,
+                ..with(&stage, exact())
+            };
+            let picture = gpu.checked(|| lit_by_shader(&gpu, &stage));
+            assert!(picture.contains(&0) && picture.contains(&255));
+            let between = picture.iter().any(|&value| value > 0 && value < 255);
+            assert_eq!(between, samples == 4);
+            // The same as by the stencil that the counts are marked in, sample for sample.
+            assert!(picture == stage.draw(&gpu));
+        }
+        // A count of 256 in a byte would leave no shadow.
+        let stage = Stage {
+            samples,
+            ..sheets(256)
+        };
+        let exact = gpu.checked(|| lit_by_shader(&gpu, &with(&stage, exact())));
+        assert!(exact != stage.draw(&gpu));
+    }
+}
+
+#[test]
+fn counts_come_after_the_hosts_own_targets() {
+    let Some(gpu) = gpu() else { return };
+    let stage = with(&sheets(256), exact());
+    let formats = [Some(wgpu::TextureFormat::Rgba8Unorm), None];
+    let descriptor = ShadowVolumeDescriptor {
+        color_formats: &formats,
+        ..stage.descriptor()
+    };
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap();
+    stage.prepare(&gpu, &mut renderer, &stage.casters(&gpu));
+    let depth = view_of(&gpu.target([SIDE; 2], stage.format, 1));
+    let (host, surfaces) = (HostPipelines::new(&gpu, &stage), stage.surfaces(&gpu));
+    let counts = stage.exact_count(&gpu);
+    let color = gpu.target([SIDE; 2], wgpu::TextureFormat::Rgba8Unorm, 1);
+    let color_view = view_of(&color);
+    gpu.checked(|| {
+        gpu.run(|encoder| {
+            renderer.encode(encoder);
+            stage.prepass(encoder, &depth, &host, &surfaces);
+            let colors = [
+                Some(clear(&color_view, wgpu::Color::RED, None)),
+                None,
+                Some(clear(counts.view(), wgpu::Color::TRANSPARENT, None)),
+            ];
+            let attachment = wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
+                depth_ops: None,
+                stencil_ops: None,
+            };
+            renderer.render(&mut begin(encoder, "counts", &colors, attachment));
+        });
+    });
+    let bytes = gpu.read_texture(counts.texture(), 0, wgpu::TextureAspect::All);
+    let found: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes);
+    assert!(found == exact_counts(&gpu, &stage));
+    assert!(found.contains(&256.0));
+    let color = gpu.read_texture(&color, 0, wgpu::TextureAspect::All);
+    assert!(color.chunks(4).all(|texel| texel == [255, 0, 0, 255]));
+}
+
+#[test]
+fn exact_counts_that_do_not_fit_are_refused() {
+    let feature = wgpu::Features::FLOAT32_BLENDABLE;
+    let device = |required_features| {
+        wgpu::Device::noop(&wgpu::DeviceDescriptor {
+            required_features,
+            ..Default::default()
+        })
+    };
+    let ok = ExactCountDescriptor {
+        size: [64, 32],
+        ..Default::default()
+    };
+    let (bare, _queue) = device(wgpu::Features::empty());
+    assert_eq!(
+        ExactCount::new(&bare, &ok).unwrap_err(),
+        ScreenPassError::MissingFeature {
+            feature,
+            needed_by: "ExactCount"
+        }
+    );
+    let descriptor = ShadowVolumeDescriptor {
+        counter: Counter::Exact,
+        ..Default::default()
+    };
+    let error = ShadowVolumeRenderer::new(&bare, &descriptor).unwrap_err();
+    assert_eq!(
+        error,
+        ShadowVolumeError::MissingFeature {
+            feature,
+            needed_by: "Counter::Exact".to_owned()
+        }
+    );
+
+    let (device, _queue) = device(feature);
+    let eight = [Some(wgpu::TextureFormat::R8Unorm); 8];
+    let crowded = ShadowVolumeDescriptor {
+        color_formats: &eight,
+        ..descriptor
+    };
+    assert!(matches!(
+        ShadowVolumeRenderer::new(&device, &crowded),
+        Err(ShadowVolumeError::Limit {
+            name: "max_color_attachments",
+            needed: 9,
+            ..
+        })
+    ));
+    ShadowVolumeRenderer::new(&device, &descriptor).unwrap();
+    let none = ExactCountDescriptor { size: [0, 1], ..ok };
+    assert!(matches!(
+        ExactCount::new(&device, &none),
+        Err(ScreenPassError::Range { what: "width", .. })
+    ));
+    let two = ExactCountDescriptor {
+        sample_count: 2,
+        ..ok
+    };
+    assert_eq!(
+        ExactCount::new(&device, &two).unwrap_err(),
+        ScreenPassError::SampleCount(2)
+    );
+    let counts = ExactCount::new(&device, &ok).unwrap();
+    let buffer = |width| {
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d {
+                width,
+                height: 32,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Depth24PlusStencil8,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        view_of(&texture)
+    };
+    let mut encoder = device.create_command_encoder(&Default::default());
+    let refused = |result| assert!(matches!(result, Err(ScreenPassError::Buffer { .. })));
+    refused(counts.begin(&mut encoder, &buffer(65)).map(drop));
+    refused(counts.encode(&mut encoder, &buffer(65)));
+    counts.begin(&mut encoder, &buffer(64)).map(drop).unwrap();
+    counts.encode(&mut encoder, &buffer(64)).unwrap();
+}
+
+/// A renderer of the stage that has prepared its frame.
+fn prepared(gpu: &Gpu, stage: &Stage) -> ShadowVolumeRenderer {
+    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
+    stage.prepare(gpu, &mut renderer, &stage.casters(gpu));
+    renderer
+}
+
+#[test]
+fn a_count_that_could_wrap_is_announced() {
+    let Some(gpu) = gpu() else { return };
+    for (stage, count) in [
+        (sheets(1), 1),
+        (sheets(255), 255),
+        (sheets(256), 256),
+        (sheets(257), 257),
+        (sheets(512), 512),
+        (boxes(127), 254),
+        (boxes(128), 256),
+    ] {
+        let mut stencil = prepared(&gpu, &stage);
+        assert_eq!(stencil.count_bound(), count);
+        assert_eq!(stencil.may_wrap(), count > 255);
+        assert!(!prepared(&gpu, &with(&stage, exact())).may_wrap());
+    }
+}
+
+#[test]
+fn no_pixel_counts_more_than_the_bound() {
+    let Some(gpu) = gpu() else { return };
+    let (mut overlaps, mut deeper_than_casters) = (0, 0);
+    for seed in 0..60 {
+        let stage = Stage {
+            samples: 1,
+            savings: exact(),
+            ..random::scene(seed, &gpu)
+        };
+        let counts = exact_counts(&gpu, &stage);
+        let deepest = counts
+            .iter()
+            .fold(0.0, |most: f32, count| most.max(count.abs()));
+        let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+        let savings = Savings {
+            silhouettes: ways[seed as usize % 3],
+            ..Default::default()
+        };
+        let bound = prepared(&gpu, &with(&stage, savings)).count_bound();
+        assert!(deepest <= bound as f32, "seed {seed}: {deepest}, {bound}");
+        overlaps += i32::from(deepest > 1.0);
+        // The broken twin: one for each caster.
+        let casters = stage.bodies.iter().filter(|body| body.casts).count();
+        deeper_than_casters += i32::from(deepest > casters as f32);
+    }
+    assert!(overlaps > 20, "{overlaps}");
+    assert!(deeper_than_casters > 5, "{deeper_than_casters}");
+}
+
+#[test]
+fn the_bound_is_near_where_casters_are_simple() {
+    let Some(gpu) = gpu() else { return };
+    let sphere = |x: f32| Body::caster(shapes::sphere(24), at(x, 1.2, 0.0));
+    let mut apart = prepared(&gpu, &Stage::new(lamp(), vec![sphere(-2.0), sphere(2.0)]));
+    assert_eq!(apart.count_bound(), 1);
+    let mut together = prepared(&gpu, &Stage::new(lamp(), vec![sphere(0.0), sphere(0.2)]));
+    assert_eq!(together.count_bound(), 2);
+    // Inside, every way out leads through the wall: no silhouette says so.
+    let inside = HomogeneousLight::point(Vec3::new(0.1, 1.3, 0.2));
+    let mut around = prepared(&gpu, &Stage::new(inside, vec![sphere(0.0)]));
+    assert_eq!(around.count_bound(), 1);
+}
+
+#[test]
+fn the_bound_follows_what_moves() {
+    let Some(gpu) = gpu() else { return };
+    let stage = sheets(2);
+    let mut renderer = prepared(&gpu, &stage);
+    assert_eq!(renderer.count_bound(), 2);
+    let mut casters = stage.casters(&gpu);
+    stage.prepare(&gpu, &mut renderer, &casters);
+    assert_eq!(renderer.count_bound(), 2);
+    casters[1].world_from_object = at(0.0, 1.0, 5.0);
+    stage.prepare(&gpu, &mut renderer, &casters);
+    assert_eq!(renderer.count_bound(), 1);
+    stage.prepare(&gpu, &mut renderer, &[]);
+    assert_eq!(renderer.count_bound(), 0);
+}
