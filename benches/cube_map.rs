@@ -16,24 +16,22 @@
 //!   that many.
 //! - `culling_N_vs_linear`: on the CPU alone, a hundredth of N casters and 16 lights moving: the map's
 //!   own tree, kept up to date and asked for what each light reaches, against testing every
-//!   caster's sphere for each light.
+//!   caster's sphere for each light. `culling_N_vs_compute`: against a compute shader that does so, its
+//!   uploads not counted.
 //!
 //! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
 //! machine that slows down slows both. `--quick` takes fewer rounds.
 
+mod culling;
 #[path = "../examples/host/mod.rs"]
 mod host;
-#[allow(dead_code)] // no caster goes here
-#[path = "../src/map/reach.rs"]
-mod reach;
 
 use std::time::{Duration, Instant};
 
 use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
-use reach::Reach;
-use shadows::glam::{Affine3A, DVec3, DVec4, Vec3, Vec3A, Vec4Swizzles as _};
+use shadows::glam::{Affine3A, Vec3, Vec3A};
 use shadows::mesh::Adjacency;
 use shadows::{
     Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight,
@@ -65,7 +63,7 @@ fn main() {
     prepare(&gpu, if quick { 5 } else { 25 });
     for (name, count) in [("1e2", 100), ("1e4", 10_000), ("1e5", 100_000)] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
-        culling(name, count, if quick { 25 } else { 125 });
+        culling::culling(&gpu, name, count, if quick { 25 } else { 125 });
     }
     moved(&gpu, if quick { 25 } else { 125 });
 }
@@ -324,58 +322,4 @@ fn moved(gpu: &Gpu, rounds: u32) {
     println!("comparing a caster with the last frame's: {compared:.2} ns");
     let ratio = (many[0] - many[1]) / (few[0] - few[1]);
     println!("ratio moved_among_1e5_vs_among_1e3 {ratio:.4}");
-}
-
-const RANGE: f64 = 15.0;
-
-fn culling(name: &str, count: usize, rounds: u32) {
-    let side = (count as f64).sqrt().ceil();
-    let mut spheres: Vec<DVec4> = (0..count)
-        .map(|i| DVec4::new(i as f64 % side, 0.0, (i as f64 / side).floor(), 0.35))
-        .collect();
-    let mut reach = Reach::default();
-    spheres.iter().for_each(|sphere| reach.push(*sphere));
-    let (mut with, mut without) = (Vec::new(), Vec::new());
-    let (mut found, mut all) = (Vec::new(), Vec::new());
-    // The first rounds find out that a tree pays.
-    for round in 0..rounds as usize + 12 {
-        let lights = [0.5, 1.5, 2.5, 3.5].map(|k| (k + 0.01 * round as f64) / 4.0 * side);
-        let lights = lights.map(|x| lights.map(|z| DVec3::new(x, 2.0, z)));
-        let lights = lights.as_flattened();
-        let movers = (0..count.div_ceil(100)).map(|k| (k * 7919 + round) % count);
-        let place = |sphere: &DVec4| *sphere + DVec4::new(0.3, 0.0, 0.2, 0.0);
-        let moved: Vec<_> = movers.map(|i| (i, place(&spheres[i]))).collect();
-
-        let start = Instant::now();
-        found.clear();
-        moved.iter().for_each(|&(i, to)| reach.set(i, to));
-        lights
-            .iter()
-            .for_each(|&light| reach.within(light, RANGE, &mut found));
-        let tree = start.elapsed();
-
-        let start = Instant::now();
-        all.clear();
-        moved.iter().for_each(|&(i, to)| spheres[i] = to);
-        for light in lights {
-            let near = (0..).zip(&spheres).filter(|(_, sphere)| {
-                let reach = RANGE + sphere.w;
-                sphere.xyz().distance_squared(*light) <= reach * reach
-            });
-            all.extend(near.map(|(i, _): (u32, _)| i));
-        }
-        let linear = start.elapsed();
-        if round >= 12 {
-            with.push(tree);
-            without.push(linear);
-        }
-        found.sort_unstable();
-        all.sort_unstable();
-        assert_eq!(found, all, "the tree lost some");
-    }
-    ratio(
-        &format!("culling_{name}_vs_linear"),
-        &mut with,
-        &mut without,
-    );
 }

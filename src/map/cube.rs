@@ -52,9 +52,11 @@ use crate::{Bias, PointLight};
 ///
 /// The tree (boxes over the casters in Morton order) is kept from frame to frame where it pays, which
 /// is found by adding up. With a hundredth of the casters and all 16 lights moving, keeping it and
-/// asking it takes 0.9 of the time of testing every caster's sphere among 100 casters (too few for
-/// a tree), 0.27 among 10,000 and 0.04 to 0.10 among 100,000 (`culling_N_vs_linear`). A uniform grid
-/// took 20 to 35, 0.6 to 1.3 and 0.03 to 0.29. Culling on the GPU has not been tried.
+/// asking it takes as long as testing every caster's sphere among 100 casters (too few for a tree),
+/// 0.26 to 0.41 of that among 10,000 and 0.04 to 0.14 among 100,000 (`culling_N_vs_linear`). A
+/// uniform grid took 20 to 35, 0.6 to 1.3 and 0.03 to 0.29. A compute shader that fills the lists of
+/// indirect draws takes at least 12, 7 and 17 times as long as the tree on llvmpipe
+/// (`culling_N_vs_compute`), and only the CPU can tell beforehand which faces need no draw at all.
 ///
 /// # What depths are at fault for
 ///
