@@ -46,9 +46,9 @@ use crate::{Bias, PointLight};
 /// | 10,000 | 0.02 ms | 0.04 ms | 0.08 ms |
 /// | 100,000 | 0.29 ms | 0.41 ms | 0.50 ms |
 ///
-/// What grows with the casters that stand still is the comparison, some 3 ns each, and the caches
-/// that it empties: a hundred casters that move near a light add 36 us among 1,000 and 48 us among
-/// 100,000 (`moved_among_1e5_vs_among_1e3`).
+/// What grows with the casters that stand still is the comparison, 3 to 5 ns each, and that it
+/// empties the caches: a hundred casters that move near a light add 36 us among 1,000, 48 us among
+/// 100,000 (`moved_among_1e5_vs_among_1e3`), and no more than that among 400,000.
 ///
 /// The tree (boxes over the casters in Morton order) is kept from frame to frame where it pays, which
 /// is found by adding up. With a hundredth of the casters and all 16 lights moving, keeping it and
