@@ -19,12 +19,25 @@
 //!   caster's sphere for each light. `culling_N_vs_compute`: against a compute shader that does so, its
 //!   uploads not counted.
 //!
+//! - `static_layer_vs_redraw`: a heavy part that stands still, 4,608 triangles a face of 1024
+//!   texels, with one box moving before each face: its layers copied against drawing all again.
+//! - `static_layer_vs_redraw_SIZE_TRIANGLES`: the same by size of face and triangles that stand
+//!   still on it, all in one small mesh.
+//! - `texels_a_triangle`: how many texels are copied in the time in which a small triangle is drawn,
+//!   which is what `StillLayers::Auto` decides by.
+//!
 //! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
 //! machine that slows down slows both. `--quick` takes fewer rounds.
 
+#[path = "cube_map/culling.rs"]
 mod culling;
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[allow(dead_code)] // what other tests need
+#[path = "../tests/common/shapes.rs"]
+mod shapes;
+#[path = "cube_map/still_layers.rs"]
+mod still_layers;
 
 use std::time::{Duration, Instant};
 
@@ -32,11 +45,10 @@ use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
 use shadows::glam::{Affine3A, Vec3, Vec3A};
-use shadows::mesh::Adjacency;
 use shadows::{
-    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight,
-    wgpu,
+    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight, wgpu,
 };
+use shapes::cuboid;
 
 fn main() {
     let quick = std::env::args().any(|arg| arg == "--quick");
@@ -60,6 +72,7 @@ fn main() {
             if quick { 5 } else { 25 },
         );
     }
+    still_layers::run(&gpu, if quick { 5 } else { 25 });
     prepare(&gpu, if quick { 5 } else { 25 });
     for (name, count) in [("1e2", 100), ("1e4", 10_000), ("1e5", 100_000)] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
@@ -172,16 +185,7 @@ struct World {
 
 impl World {
     fn new(gpu: &Gpu, count: usize, range: f32) -> Self {
-        let positions: Vec<[f32; 3]> = (0..8)
-            .map(|i: u32| [1, 2, 4].map(|bit| if i & bit == 0 { -0.2 } else { 0.2 }))
-            .collect();
-        #[rustfmt::skip]
-        let indices = [
-            0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-            2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
-        ];
-        let adjacency = Adjacency::new(&positions, &indices).expect("a box is a mesh");
-        let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a box fits");
+        let mesh = cuboid(Vec3::splat(0.2)).mesh(&gpu.device);
         let side = (count as f32).sqrt().ceil();
         let place = |i: usize| {
             let (x, z) = (i as f32 % side, (i as f32 / side).floor());

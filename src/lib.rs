@@ -159,7 +159,7 @@ pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
     CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FacePasses, FaceState,
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    texture_from_clip,
+    StillLayers, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{

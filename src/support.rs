@@ -1,6 +1,9 @@
 //! What an adapter offers, what of it is worth asking for, and what is used where it is missing.
 
 use std::fmt;
+use std::future::Future as _;
+use std::pin::pin;
+use std::task::{Context, Poll, Waker};
 
 use wgpu::{DownlevelFlags, Features, Limits};
 
@@ -170,6 +173,19 @@ impl Support {
         .map(|(_, missing, instead)| Fallback { missing, instead })
         .collect()
     }
+}
+
+/// Whether a device takes shaders with cube array textures, which none of its features or limits
+/// tells. The answer comes at once from wgpu's own validation; WebGPU gives it later, and has them.
+pub(crate) fn has_cube_arrays(device: &wgpu::Device) -> bool {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let source = "@group(0) @binding(0) var map: texture_cube_array<f32>;";
+    drop(device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("shadows cube array"),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    }));
+    let answer = pin!(scope.pop()).poll(&mut Context::from_waker(Waker::noop()));
+    !matches!(answer, Poll::Ready(Some(_)))
 }
 
 #[cfg(test)]

@@ -3,22 +3,23 @@
 mod common;
 #[path = "common/cubes.rs"]
 mod cubes;
+#[path = "common/deformed.rs"]
+mod deformed;
 #[path = "../examples/host/mod.rs"]
 mod host;
 
 use common::own_pass::OwnPass;
-use common::shapes::{Shape, cuboid, sphere, square};
+use common::shapes::{cuboid, sphere, square};
 use cubes::{draw, faces, fresh};
+use deformed::Deformed;
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
     Caster, CasterMesh, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FaceState,
-    HostPositions, PointLight, glam, wgpu,
+    PointLight, glam,
 };
-use wgpu::util::DeviceExt as _;
 
 const SIZE: u32 = 24;
 
@@ -36,53 +37,6 @@ fn at(mesh: &CasterMesh, x: f32, y: f32, z: f32) -> Caster {
 
 fn light_at(position: Vec3) -> PointLight {
     PointLight::new(position, 0.1, 12.0)
-}
-
-/// A mesh in a buffer of the host's, which may deform it.
-struct Deformed {
-    shape: Shape,
-    buffer: wgpu::Buffer,
-    mesh: CasterMesh,
-}
-
-impl Deformed {
-    fn new(gpu: &Gpu) -> Self {
-        let shape = cuboid(Vec3::splat(0.5));
-        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
-        let init = wgpu::util::BufferInitDescriptor {
-            label: None,
-            contents: bytemuck::cast_slice(&shape.positions),
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-        };
-        let buffer = gpu.device.create_buffer_init(&init);
-        let positions = HostPositions {
-            buffer: &buffer,
-            stride: 12,
-            offset: 0,
-            bounds: Bounds {
-                min: Vec3::splat(-2.0),
-                max: Vec3::splat(2.0),
-            },
-        };
-        let adjacency = Adjacency::new(&shape.positions, &shape.indices).unwrap();
-        let mesh = CasterMesh::from_host_positions(&gpu.device, &positions, &adjacency).unwrap();
-        Self {
-            shape,
-            buffer,
-            mesh,
-        }
-    }
-
-    fn deform(&self, gpu: &Gpu, factor: f32) {
-        let moved: Vec<[f32; 3]> = self
-            .shape
-            .positions
-            .iter()
-            .map(|p| p.map(|x| x * factor))
-            .collect();
-        gpu.queue
-            .write_buffer(&self.buffer, 0, bytemuck::cast_slice(&moved));
-    }
 }
 
 /// Something that a host does between two frames.

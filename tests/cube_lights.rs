@@ -12,8 +12,8 @@ use common::shapes::{Random, cuboid};
 use cubes::{draw, draw_frame, faces, fresh};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
-use receivers::ask;
-use shadows::error::PcfError;
+use receivers::{ask, ask_group};
+use shadows::error::{CubeShadowMapError, PcfError};
 use shadows::{
     Allocation, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel,
     PcfDescriptor, PcfSampler, PointLight, glam,
@@ -268,4 +268,92 @@ fn statistics_count_every_face_once() {
         };
         draw_frame(&gpu, &mut map, &frame);
     }
+}
+
+#[test]
+fn a_bind_group_from_before_the_first_caster_shows_no_shadow() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (casters, light) = (casters(&gpu), lights()[0]);
+    let mut random = Random::new(17);
+    let points: Vec<(Vec3, Vec3)> = (0..500)
+        .map(|_| (light.position + random.vec3() * 4.0, random.vec3()))
+        .collect();
+    for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
+        let descriptor = CubeShadowMapDescriptor {
+            encoding,
+            ..one_light()
+        };
+        let reader = PcfDescriptor {
+            encoding,
+            ..Default::default()
+        };
+        let mut map = fresh(&gpu, &descriptor, &[light], &[]);
+        let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &reader).unwrap();
+        let early = sampler.bind_group(&gpu.device, &map).unwrap();
+        let revision = map.texture_revision();
+        draw(&gpu, &mut map, &[light], &casters);
+        assert_ne!(map.texture_revision(), revision);
+        let late = sampler.bind_group(&gpu.device, &map).unwrap();
+        let lit = |group| {
+            let seen = ask_group(&gpu, (&sampler, group), &reader, 0, &points, |module| {
+                module
+            });
+            seen.iter().filter(|&&v| v == 1.0).count()
+        };
+        assert_eq!(lit(&early), points.len(), "{encoding:?}");
+        assert!(lit(&late) < points.len() * 9 / 10, "the one made again");
+    }
+}
+
+/// Set for a process of its own, whose GL driver has no cube arrays.
+const WITHOUT: &str = "SHADOWS_TEST_WITHOUT_CUBE_ARRAYS";
+
+#[test]
+fn devices_without_cube_arrays_give_each_light_a_cube() {
+    if std::env::var_os(WITHOUT).is_some() {
+        return without_cube_arrays();
+    }
+    let name = "devices_without_cube_arrays_give_each_light_a_cube";
+    let status = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", name, "--nocapture"])
+        .env(WITHOUT, "1")
+        .env("MESA_GL_VERSION_OVERRIDE", "3.3")
+        .env("MESA_GLES_VERSION_OVERRIDE", "3.0")
+        .env(
+            "MESA_EXTENSION_OVERRIDE",
+            "-GL_EXT_texture_cube_map_array -GL_OES_texture_cube_map_array -GL_ARB_texture_cube_map_array",
+        )
+        .status();
+    assert!(status.unwrap().success());
+}
+
+fn without_cube_arrays() {
+    let gl = match Gpu::new(Some("(Gl,")) {
+        Ok(gl) => gl,
+        Err(_) => return eprintln!("skipped: no GL adapter"),
+    };
+    if gl.support.cube_arrays {
+        return eprintln!("skipped: this GL driver has cube arrays whatever it is told");
+    }
+    let make = |cube_array| CubeShadowMap::new(&gl.device, &descriptor(cube_array));
+    let error = gl.checked(|| make(true).unwrap_err());
+    assert_eq!(error, CubeShadowMapError::CubeArray);
+    let many = |many_lights| PcfDescriptor {
+        many_lights,
+        ..Default::default()
+    };
+    let sampler = |many_lights| PcfSampler::new(&gl.device, &gl.queue, &many(many_lights));
+    let error = gl.checked(|| sampler(true).unwrap_err());
+    assert_eq!(error, PcfError::CubeArray);
+
+    // What the errors say to do.
+    let has = gl.support.cube_arrays;
+    let (mut map, sampler) = (make(has).unwrap(), sampler(has).unwrap());
+    draw(&gl, &mut map, &lights(), &casters(&gl));
+    assert!(!map.lights_in_one_binding());
+    for light in 0..3 {
+        assert!(map.texture(light).is_some());
+        gl.checked(|| sampler.bind_group_of(&gl.device, &map, light).unwrap());
+    }
+    eprintln!("no cube arrays: a cube for each light");
 }

@@ -1,6 +1,8 @@
 //! What receivers see: no acne, no gap at a contact, no seam, whatever the size and scale.
 
 mod common;
+#[path = "common/cubes.rs"]
+mod cubes;
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[path = "common/receivers.rs"]
@@ -10,10 +12,10 @@ use common::rays::Triangles;
 use common::shapes::{Random, cuboid, square};
 use glam::{Affine3A, DVec3, Vec3};
 use host::gpu::Gpu;
-use receivers::visibility;
+use receivers::{ask_changed, visibility};
 use shadows::{
-    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, PointLight, Radius,
-    glam,
+    Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, PcfDescriptor,
+    PointLight, Radius, glam, wgpu::TextureFormat,
 };
 
 fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster]) -> CubeShadowMap {
@@ -22,28 +24,21 @@ fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster])
         bias,
         ..Default::default()
     };
-    gpu.checked(|| {
-        let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-        let frame = CubeFrame {
-            lights: std::slice::from_ref(light),
-            casters,
-            ..Default::default()
-        };
-        map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-        gpu.run(|encoder| map.encode(encoder));
-        map
-    })
+    cubes::fresh(gpu, &descriptor, std::slice::from_ref(light), casters)
 }
 
 /// Points of a plane through the origin that casts its own shadow map, seen at cosines from 1 down
-/// to 0.01, the plane turned against the faces of the cube.
+/// to 0.01 within the light's range, the plane turned against the faces of the cube.
 struct Plane {
     light: PointLight,
     caster: Caster,
     points: Vec<(Vec3, Vec3)>,
 }
 
-fn plane(gpu: &Gpu, scale: f32, turn: f32) -> Plane {
+/// `depths`: the range as a multiple of the near distance. The light is at 1 from the plane.
+fn plane(gpu: &Gpu, scale: f32, turn: f32, depths: f32) -> Plane {
+    let range = (0.5 * depths).min(200.0);
+
     let rotation = Affine3A::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), turn);
     let world = Affine3A::from_scale(Vec3::splat(scale)) * rotation;
     let normal = rotation.transform_vector3(Vec3::Y);
@@ -54,15 +49,16 @@ fn plane(gpu: &Gpu, scale: f32, turn: f32) -> Plane {
             let cosine = 10.0_f32.powf(-1.0 - random.next());
             let radius = (1.0 / (cosine * cosine) - 1.0).max(0.0).sqrt();
             let (sine, cosine) = (random.next() * 3.15).sin_cos();
-            let point = Vec3::new(radius * cosine, 0.0, radius * sine);
-            (world.transform_point3(point), normal)
+            Vec3::new(radius * cosine, 0.0, radius * sine)
         })
+        .filter(|point| point.distance(Vec3::Y) < 0.99 * range)
+        .map(|point| (world.transform_point3(point), normal))
         .collect();
     Plane {
         light: PointLight::new(
             world.transform_point3(Vec3::Y),
-            0.002 * scale,
-            200.0 * scale,
+            range / depths * scale,
+            range * scale,
         ),
         caster: square(150.0).caster(&gpu.device, world),
         points,
@@ -85,15 +81,22 @@ fn shadowed(gpu: &Gpu, plane: &Plane, map: &CubeShadowMap, kernel: Kernel) -> us
 fn a_flat_receiver_has_no_acne_at_any_angle_size_and_scale() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut without_bias = 0;
-    for (scale, turn) in [(1.0, 0.0), (1.0, 0.4), (1e-4, 1.1), (1e5, 2.3)] {
-        let plane = plane(&gpu, scale, turn);
+    for (scale, turn, depths) in [
+        (1.0, 0.0, 1e5),
+        (1.0, 0.4, 1e5),
+        (1e-4, 1.1, 1e5),
+        (1e5, 2.3, 1e5),
+        (1.0, 0.9, 10.0),
+        (1e5, 1.7, 1e3),
+    ] {
+        let plane = plane(&gpu, scale, turn, depths);
         for size in [64, 256, 1024, 4096] {
             let map = plane_map(&gpu, &plane, size, Bias::default());
             for kernel in Kernel::ALL {
                 let acne = shadowed(&gpu, &plane, &map, kernel);
                 assert_eq!(
                     acne, 0,
-                    "scale {scale}, turn {turn}, size {size}, {kernel:?}"
+                    "scale {scale}, turn {turn}, 1:{depths}, size {size}, {kernel:?}"
                 );
             }
             let map = plane_map(&gpu, &plane, size, Bias::NONE);
@@ -102,6 +105,68 @@ fn a_flat_receiver_has_no_acne_at_any_angle_size_and_scale() {
     }
     // The broken twin: without bias, rounding alone puts receivers in their own shadow.
     assert!(without_bias > 1000, "{without_bias}");
+}
+
+/// Depths that a format can tell apart: with fewer than some hundreds of steps between a receiver
+/// and infinity nothing casts, and there is nothing to test.
+fn sweep() -> impl Iterator<Item = (TextureFormat, DepthEncoding, f32)> {
+    use DepthEncoding::{LinearDistance, MajorAxis};
+    use TextureFormat::{Depth16Unorm, Depth24Plus, Depth32Float};
+    let depths = [10.0, 1e3, 1e5];
+    let of = move |format, encoding, count: usize| {
+        let depths = depths.into_iter().take(count);
+        depths.map(move |depths| (format, encoding, depths))
+    };
+    of(Depth32Float, LinearDistance, 3)
+        .chain(of(Depth24Plus, LinearDistance, 3))
+        .chain(of(Depth24Plus, MajorAxis, 3))
+        .chain(of(Depth16Unorm, LinearDistance, 3))
+        .chain(of(Depth16Unorm, MajorAxis, 1))
+}
+
+#[test]
+fn no_acne_in_any_format_however_far_the_light_reaches() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (mut without_bias, mut without_step) = (0, 0);
+    for (i, (format, encoding, depths)) in sweep().enumerate() {
+        let plane = plane(&gpu, [1.0, 1e-4, 1e5][i % 3], 0.3 + i as f32, depths);
+        for size in [64, 1024] {
+            let dark = |bias, kernel, change: fn(String) -> String| {
+                let descriptor = CubeShadowMapDescriptor {
+                    size,
+                    bias,
+                    format,
+                    encoding,
+                    ..Default::default()
+                };
+                let casters = std::slice::from_ref(&plane.caster);
+                let map = cubes::fresh(&gpu, &descriptor, &[plane.light], casters);
+                let reader = PcfDescriptor {
+                    kernel,
+                    encoding,
+                    ..Default::default()
+                };
+                let seen = ask_changed(&gpu, (&map).into(), &reader, 0, &plane.points, change);
+                seen.iter().filter(|&&v| v < 1.0).count()
+            };
+            for kernel in [Kernel::Hard, Kernel::Bilinear, Kernel::Weighted7] {
+                let acne = dark(Bias::default(), kernel, |module| module);
+                assert_eq!(
+                    acne, 0,
+                    "{format:?} {encoding:?} 1:{depths}, size {size}, {kernel:?}"
+                );
+            }
+            // The broken twins: no bias, and the format's own step left out.
+            without_bias += dark(Bias::NONE, Kernel::Bilinear, |module| module);
+            if format == TextureFormat::Depth16Unorm {
+                without_step += dark(Bias::default(), Kernel::Bilinear, |module| {
+                    module.replace("receiver.quantum = light.quantum", "receiver.quantum = 0.0")
+                });
+            }
+        }
+    }
+    assert!(without_bias > 1000, "{without_bias}");
+    assert!(without_step > 1000, "{without_step}");
 }
 
 #[test]

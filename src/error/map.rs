@@ -65,6 +65,16 @@ pub enum CubeShadowMapError {
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
     )]
     SlopeScale,
+    /// A cube array on a device without such textures.
+    #[error(
+        "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for cube_array: each light then has a cube and a bind group of its own"
+    )]
+    CubeArray,
+    /// Layers of still casters on a back end that cannot copy depth.
+    #[error(
+        "StillLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
+    )]
+    StillLayers,
     /// More lights in a frame than the map was made for.
     #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
     TooManyLights {
@@ -198,6 +208,11 @@ pub enum PcfError {
         /// What the sampler reads.
         sampler: crate::DepthEncoding,
     },
+    /// A sampler for many lights on a device without cube array textures.
+    #[error(
+        "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for many_lights: each light is then read through a bind group of its own"
+    )]
+    CubeArray,
     /// A sampler for many lights and a map with one texture for each.
     #[error(
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"

@@ -15,6 +15,7 @@ use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
 use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
+use super::still_layer::StillLayer;
 use super::texture::Textures;
 use crate::error::CubeShadowMapError;
 use crate::{Bias, PointLight};
@@ -91,6 +92,9 @@ pub struct CubeShadowMap {
     pub(super) order: Vec<usize>,
     pub(super) plans: Vec<SlotPlan>,
     pub(super) draws: DrawLists,
+    /// The layers of what stands still, by slot and face, and the fewest triangles worth one.
+    pub(super) still: Vec<[Option<StillLayer>; 6]>,
+    pub(super) still_least: Option<u64>,
     // What the uniforms hold, by light and by slot.
     pub(super) written_lights: Vec<Option<LightUniform>>,
     pub(super) written_faces: Vec<Option<[f32; 2]>>,
@@ -175,6 +179,8 @@ impl CubeShadowMap {
             plans: Vec::new(),
             draws: DrawLists::new(slots, joint.as_ref()),
             joint,
+            still: (0..slots).map(|_| Default::default()).collect(),
+            still_least: descriptor.still_least(device),
             written_lights: vec![None; slots],
             written_faces: vec![None; slots],
             statistics: CubeStatistics::default(),
@@ -244,7 +250,9 @@ impl CubeShadowMap {
     }
 
     /// Changes when a bind group of this map must be made again: when its texture came or went, or
-    /// (for bind groups of one light) when a light changed its place.
+    /// (for bind groups of one light) when a light changed its place. A bind group from before the
+    /// first texture shows everything in range lit; others that were not made again show a light's
+    /// shadows as they were.
     pub fn texture_revision(&self) -> u64 {
         self.textures.revision() + self.reordered
     }
@@ -304,6 +312,7 @@ impl CubeShadowMap {
     fn bytes(&self) -> u64 {
         let all = self.lights.all.as_ref().map_or(0, wgpu::Buffer::size);
         self.textures.bytes()
+            + self.layer_bytes()
             + self.instances.size()
             + self.face_uniforms.size()
             + self.lights.uniforms.size()

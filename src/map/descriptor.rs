@@ -1,6 +1,7 @@
 //! How a cube map is made, and what it is told each frame.
 
 use super::joint::FacePasses;
+use super::still_layer::StillLayers;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
 use crate::{Bias, PointLight, View};
@@ -85,9 +86,11 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// The most lights it will hold. Default 1. At least 1; six times as many layers must fit the
     /// device's `max_texture_array_layers` if `cube_array` is set.
     pub lights: u32,
-    /// Whether all lights share one cube array texture, which needs
-    /// [`Support::cube_arrays`](crate::Support). Default false: one cube texture for each light,
-    /// and one bind group for each.
+    /// Whether all lights share one cube array texture and one bind group, which needs
+    /// [`Support::cube_arrays`](crate::Support): pass that for both this and
+    /// [`PcfDescriptor::many_lights`](crate::PcfDescriptor::many_lights) to have it wherever it can
+    /// be. Default false: one cube texture for each light, and one bind group for each
+    /// ([`PcfSampler::bind_group_of`](crate::PcfSampler::bind_group_of)). Receivers see the same.
     pub cube_array: bool,
     /// When the texture is made. Default [`Allocation::WithFirstCaster`].
     pub allocation: Allocation,
@@ -111,6 +114,9 @@ pub struct CubeShadowMapDescriptor<'a> {
     pub max_faces_per_frame: Option<u32>,
     /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
     pub passes: FacePasses,
+    /// Whether casters that stand still are kept in a second layer under those that move. Default
+    /// [`StillLayers::Auto`]. Without `cache`, and with [`FacePasses::Multiview`], there are none.
+    pub still_layers: StillLayers,
 }
 
 impl CubeShadowMapDescriptor<'_> {
@@ -147,6 +153,9 @@ impl CubeShadowMapDescriptor<'_> {
                 limit: most,
             });
         }
+        if self.cube_array && !crate::support::has_cube_arrays(device) {
+            return Err(CubeShadowMapError::CubeArray);
+        }
         if quantum(self.format).is_none() {
             return Err(CubeShadowMapError::Format(self.format));
         }
@@ -154,11 +163,19 @@ impl CubeShadowMapDescriptor<'_> {
             return Err(CubeShadowMapError::Budget);
         }
         self.passes.validate(device)?;
+        self.still_layers.validate(&device.adapter_info())?;
         self.bias.validate()?;
         if self.bias.slope_scale != 0.0 && self.encoding == DepthEncoding::LinearDistance {
             return Err(CubeShadowMapError::SlopeScale);
         }
         Ok(())
+    }
+
+    /// The fewest triangles that stand still on a face that are worth a layer.
+    pub(super) fn still_least(&self, device: &wgpu::Device) -> Option<u64> {
+        self.still_layers
+            .least_triangles(self.size, &device.adapter_info())
+            .filter(|_| self.cache && !self.passes.joint())
     }
 }
 
@@ -188,6 +205,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             sides: CasterSides::default(),
             max_faces_per_frame: None,
             passes: FacePasses::default(),
+            still_layers: StillLayers::default(),
         }
     }
 }

@@ -99,9 +99,11 @@ impl Cull {
 #[derive(Debug, Default)]
 pub(super) struct DrawLists {
     faces: Vec<[Vec<Draw>; 6]>,
+    /// Those of the layers under the faces, where they are drawn.
+    layers: Vec<[Vec<Draw>; 6]>,
     pub instances: Vec<Instance>,
-    // Kept only for its memory: group, culling and row of each caster on each face.
-    members: [Vec<(u32, Cull, u32)>; 6],
+    // Kept only for its memory: group, culling and row of each caster on each face and layer.
+    members: [Vec<(u32, Cull, u32)>; 12],
     rows: Vec<Instance>,
     /// Whether all faces of a slot share one list, that of the lowest face drawn.
     joint: bool,
@@ -115,12 +117,14 @@ impl DrawLists {
             faces: (0..slots).map(|_| Default::default()).collect(),
             joint: joint.is_some(),
             separator: joint.and_then(Joint::separator),
+            layers: (0..slots).map(|_| Default::default()).collect(),
             ..Self::default()
         }
     }
 
     pub fn clear(&mut self) {
-        self.faces.iter_mut().flatten().for_each(Vec::clear);
+        let lists = self.faces.iter_mut().chain(&mut self.layers);
+        lists.flatten().for_each(Vec::clear);
         self.instances.clear();
     }
 
@@ -128,8 +132,13 @@ impl DrawLists {
         &self.faces[slot][face]
     }
 
+    /// What goes on the layer under a face.
+    pub fn of_layer(&self, slot: usize, face: usize) -> &[Draw] {
+        &self.layers[slot][face]
+    }
+
     pub fn iter(&self) -> impl Iterator<Item = &Draw> {
-        self.faces.iter().flatten().flatten()
+        self.faces.iter().chain(&self.layers).flatten().flatten()
     }
 
     /// Adds some faces of a slot.
@@ -140,21 +149,25 @@ impl DrawLists {
         self.members.iter_mut().for_each(Vec::clear);
         for at in slot.masks().touching(mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
-            let on = match self.joint {
-                true => mask & mask.wrapping_neg(),
-                false => slot.masks().get(at) & mask,
+            let lists = match self.joint {
+                true => u16::from(mask & mask.wrapping_neg()),
+                false => slot.lists(slot.masks().get(at) & mask, record),
             };
+            if lists == 0 {
+                continue; // all on layers that are there
+            }
             let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
             let cull = Cull::of(scene.sides(), record, clear);
             for (bit, members) in self.members.iter_mut().enumerate() {
-                if on & 1 << bit != 0 {
+                if lists & 1 << bit != 0 {
                     members.push((record.group, cull, self.rows.len() as u32));
                 }
             }
             self.rows
                 .push(instance(&(light_from_world * caster.transform())));
         }
-        for (members, draws) in self.members.iter_mut().zip(&mut self.faces[index]) {
+        let lists = self.faces[index].iter_mut().chain(&mut self.layers[index]);
+        for (members, draws) in self.members.iter_mut().zip(lists) {
             members.sort_unstable();
             for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
                 let Some(group) = scene.group(run[0].0) else {

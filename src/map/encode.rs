@@ -11,6 +11,14 @@ impl CubeShadowMap {
     /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        // A bind group that was made before there were texels, and is not made again, says lit.
+        for view in self.textures.blank() {
+            drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(&self.label),
+                depth_stencil_attachment: Some(depth_attachment(view, self.clear())),
+                ..Default::default()
+            }));
+        }
         for (index, slot) in self.slots.iter().enumerate() {
             let pending = slot.pending.swap(0, Ordering::Relaxed);
             if let Some(joint) = &self.joint {
@@ -29,7 +37,7 @@ impl CubeShadowMap {
         }
     }
 
-    /// Draws one face in a pass of its own.
+    /// Draws one face in a pass of its own, over what stands still on it.
     pub(super) fn encode_face(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -37,13 +45,28 @@ impl CubeShadowMap {
         face: CubeFace,
         draws: &[Draw],
     ) {
-        let Some(mut pass) = self.begin_pass(encoder, slot, face) else {
-            return; // prepare made the texture of every slot with pending faces
+        let load = match self.encode_layer(encoder, slot, face) {
+            true if draws.is_empty() => return,
+            true => wgpu::LoadOp::Load,
+            false => self.clear(),
         };
+        // Prepare made the texture of every slot with pending faces.
+        if let Some(mut pass) = self.begin_pass(encoder, slot, face, load) {
+            self.draw_face(&mut pass, slot, face, draws);
+        }
+    }
+
+    pub(super) fn draw_face(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        slot: usize,
+        face: CubeFace,
+        draws: &[Draw],
+    ) {
         let offset = (slot as u32 * 6 + face.layer()) * UNIFORM_STRIDE as u32;
         pass.set_bind_group(0, &self.face_group, &[offset]);
         for draw in draws {
-            draw.record(&mut pass, &self.pipelines, &self.instances);
+            draw.record(pass, &self.pipelines, &self.instances);
         }
     }
 
@@ -63,7 +86,7 @@ impl CubeShadowMap {
         face: CubeFace,
     ) -> Option<wgpu::RenderPass<'encoder>> {
         let &index = self.order.get(light)?;
-        let pass = self.begin_pass(encoder, index, face)?;
+        let pass = self.begin_pass(encoder, index, face, self.clear())?;
         let slot = &self.slots[index];
         slot.pending.fetch_and(!face.bit(), Ordering::Relaxed);
         slot.touched.fetch_or(face.bit(), Ordering::Relaxed);
@@ -75,30 +98,46 @@ impl CubeShadowMap {
         encoder: &'encoder mut wgpu::CommandEncoder,
         slot: usize,
         face: CubeFace,
+        load: wgpu::LoadOp<f32>,
     ) -> Option<wgpu::RenderPass<'encoder>> {
         let texture = self.textures.slot(slot)?;
         texture.cleared.fetch_or(face.bit(), Ordering::Relaxed);
-        Some(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(&format!("{} {slot} {face:?}", self.label)),
-            depth_stencil_attachment: Some(
-                self.depth_attachment(&texture.faces[face.layer() as usize]),
-            ),
-            ..Default::default()
-        }))
+        let view = &texture.faces[face.layer() as usize];
+        Some(self.begin_depth_pass(encoder, slot, face, view, load))
     }
 
-    /// A view of the texture to be cleared and drawn on.
-    pub(super) fn depth_attachment<'view>(
+    /// Begins a pass on a face, or on the layer under it.
+    pub(super) fn begin_depth_pass<'encoder>(
         &self,
-        view: &'view wgpu::TextureView,
-    ) -> wgpu::RenderPassDepthStencilAttachment<'view> {
-        wgpu::RenderPassDepthStencilAttachment {
-            view,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(self.encoding.clear_depth()),
-                store: wgpu::StoreOp::Store,
-            }),
-            stencil_ops: None,
-        }
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        slot: usize,
+        face: CubeFace,
+        view: &wgpu::TextureView,
+        load: wgpu::LoadOp<f32>,
+    ) -> wgpu::RenderPass<'encoder> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&format!("{} {slot} {face:?}", self.label)),
+            depth_stencil_attachment: Some(depth_attachment(view, load)),
+            ..Default::default()
+        })
+    }
+
+    pub(super) fn clear(&self) -> wgpu::LoadOp<f32> {
+        wgpu::LoadOp::Clear(self.encoding.clear_depth())
+    }
+}
+
+/// A view to be drawn on.
+pub(super) fn depth_attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<f32>,
+) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations {
+            load,
+            store: wgpu::StoreOp::Store,
+        }),
+        stencil_ops: None,
     }
 }

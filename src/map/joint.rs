@@ -6,6 +6,7 @@ use std::sync::atomic::Ordering;
 
 use super::cube::CubeShadowMap;
 use super::draws::Draw;
+use super::encode::depth_attachment;
 use super::face::CubeFace;
 use super::plan::SlotPlan;
 use super::resources::{self, Instance, PipelineKey, PipelineKind, UNIFORM_STRIDE};
@@ -32,7 +33,8 @@ pub enum FacePasses {
     /// One pass for all faces of a light that are drawn in this frame, with every caster that
     /// touches any of them: fewer passes and draws, and more triangles that a view only clips. Needs
     /// [`Support::multiview`](crate::Support). A pipeline is made for each set of faces when it
-    /// first occurs. Faces that go alone are drawn as by [`Separate`](Self::Separate).
+    /// first occurs. Faces that go alone are drawn as by [`Separate`](Self::Separate). There are no
+    /// [`StillLayers`](crate::StillLayers) under faces that are drawn together.
     Multiview,
 }
 
@@ -181,7 +183,7 @@ impl CubeShadowMap {
         let label = format!("{} {index} faces {bits:06b}", self.label);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(&label),
-            depth_stencil_attachment: Some(self.depth_attachment(texture.layers())),
+            depth_stencil_attachment: Some(depth_attachment(texture.layers(), self.clear())),
             multiview_mask: Some(mask),
             ..Default::default()
         });
@@ -204,7 +206,7 @@ impl CubeShadowMap {
         let unknown = ALL_FACES & !mask & !texture.cleared.load(Ordering::Relaxed);
         for face in CubeFace::ALL {
             if unknown & face.bit() != 0 {
-                drop(self.begin_pass(encoder, index, face));
+                drop(self.begin_pass(encoder, index, face, self.clear()));
             }
         }
     }
@@ -217,7 +219,9 @@ impl CubeShadowMap {
                 None => 1,
             };
             // The faces that go alone in a map of joint faces are drawn from the same list.
-            for draw in (0..6).flat_map(|face| self.draws.of(index, face)) {
+            let on_faces = (0..6).flat_map(|face| self.draws.of(index, face));
+            let on_layers = (0..6).flat_map(|face| self.draws.of_layer(index, face));
+            for draw in on_faces.chain(on_layers) {
                 statistics.draws += 1;
                 statistics.triangles += u64::from(times)
                     * u64::from(draw.mesh.triangle_count())

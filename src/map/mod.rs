@@ -21,6 +21,8 @@ mod scene;
 mod schedule;
 mod slot;
 mod statistics;
+mod still;
+mod still_layer;
 mod texture;
 mod upload;
 mod visible;
@@ -36,3 +38,4 @@ pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor, ShadowMap
 pub use joint::FacePasses;
 pub(crate) use light::LightUniform;
 pub use statistics::{CubeStatistics, FaceState, FaceStatistics};
+pub use still_layer::StillLayers;

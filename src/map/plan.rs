@@ -6,6 +6,7 @@ use super::face::CubeFace;
 use super::schedule::{Job, choose, jobs_of};
 use super::slot::{ALL_FACES, Slot};
 use super::statistics::{CubeStatistics, FaceState, FaceStatistics};
+use super::still::Way;
 use super::visible::Frustum;
 
 /// One slot's part of a plan.
@@ -76,6 +77,11 @@ impl CubeShadowMap {
             statistics.casters_out_of_range += (casters - slot.casting) as u32;
             for face in CubeFace::ALL {
                 statistics.count(state(slot, &plans[index], face));
+                if plans[index].drawn & face.bit() != 0 {
+                    let way = slot.faces[face.layer() as usize].still.way();
+                    statistics.faces_copied += u32::from(way != Way::Whole);
+                    statistics.layers_drawn += u32::from(matches!(way, Way::Build(_)));
+                }
             }
         }
         self.plans.clear();
@@ -102,6 +108,7 @@ impl CubeShadowMap {
     pub(super) fn allocate(&mut self, device: &wgpu::Device) {
         if self.allocation == Allocation::WithFirstCaster && self.order.is_empty() {
             self.textures.free();
+            self.free_layers();
             self.slots.iter_mut().for_each(Slot::forget_texels);
             return;
         }

@@ -1,6 +1,7 @@
 //! The casters as the last frame had them, so that what changed is found by looking.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 use glam::{Affine3A, DVec3};
 
@@ -42,6 +43,8 @@ pub(super) struct Record {
     /// Index of its [`Group`].
     pub group: u32,
     pub winding: Winding,
+    /// The frame in which it became what it is.
+    pub since: u64,
 }
 
 /// What a caster's winding says of its sides.
@@ -72,6 +75,8 @@ pub(super) struct Scene {
     group_of_mesh: HashMap<u64, u32>,
     changed: Vec<u32>,
     sides: CasterSides,
+    /// Counts the updates.
+    frame: u64,
 }
 
 impl std::fmt::Debug for Scene {
@@ -104,6 +109,11 @@ impl Scene {
         self.reach.within(centre, f64::from(light.range), found);
     }
 
+    /// The last frame in which anything changed.
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
     pub fn group(&self, index: u32) -> Option<&Group> {
         self.groups.get(index as usize)?.as_ref()
     }
@@ -131,6 +141,8 @@ impl Scene {
 
     /// Takes over what [`compare`](Self::compare) found, and tells the lights.
     pub fn update(&mut self, casters: &[Caster], slots: &mut [Slot]) {
+        self.frame += 1;
+        let leaving = self.leaving(casters.len());
         for index in (casters.len()..self.records.len()).rev() {
             let old = self.records[index];
             slots.iter_mut().for_each(|slot| slot.remove_last(&old));
@@ -142,7 +154,10 @@ impl Scene {
         for changed in std::mem::take(&mut self.changed) {
             let index = changed as usize;
             let caster = &casters[index];
-            let new = self.record(caster);
+            let mut new = self.record(caster);
+            if let Some(&since) = leaving.get(&new.digest) {
+                new.since = since;
+            }
             match self.records.get(index).copied() {
                 Some(old) => {
                     slots
@@ -163,6 +178,23 @@ impl Scene {
         }
     }
 
+    /// The casters that are no longer where they were in the host's list, which may only have
+    /// changed their order: since when each has been what it was.
+    fn leaving(&self, count: usize) -> HashMap<u128, u64, BuildHasherDefault<DigestHasher>> {
+        let changed = self.changed.iter().map(|&index| index as usize);
+        let gone = changed
+            .filter(|&index| index < count)
+            .chain(count..self.records.len())
+            .filter_map(|index| self.records.get(index));
+        // Of two that are alike the younger counts: what was drawn since then holds both.
+        let mut leaving = HashMap::default();
+        for record in gone {
+            let since = leaving.entry(record.digest).or_insert(record.since);
+            *since = record.since.max(*since);
+        }
+        leaving
+    }
+
     fn record(&mut self, caster: &Caster) -> Record {
         let transform = caster.transform();
         let (centre, half) = caster.mesh.bounds().transformed(&transform);
@@ -174,6 +206,7 @@ impl Scene {
             triangles: caster.mesh.triangle_count(),
             group: self.join_group(caster),
             winding: self.winding(caster),
+            since: self.frame,
         }
     }
 
@@ -226,6 +259,28 @@ impl Scene {
             self.group_of_mesh.remove(&group.mesh.id());
             *place = None;
         }
+    }
+}
+
+/// Digests are hashes already.
+#[derive(Default)]
+struct DigestHasher(u64);
+
+impl Hasher for DigestHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.0 ^= u64::from_ne_bytes(word);
+        }
+    }
+
+    fn write_u128(&mut self, digest: u128) {
+        self.0 = digest as u64;
     }
 }
 

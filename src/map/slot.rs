@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use super::face::{CubeFace, LightBounds};
 use super::masks::FaceMasks;
 use super::scene::{Record, Scene};
+use super::still::{Still, Way};
 use crate::PointLight;
 
 /// A mask of all six faces.
@@ -30,6 +31,16 @@ impl Content {
         self.casters -= 1;
         self.triangles -= u64::from(record.triangles);
     }
+
+    /// Casters of 100 triangles each, told apart by frames.
+    #[cfg(test)]
+    pub fn of_frames<'a>(frames: impl Iterator<Item = &'a u64>) -> Self {
+        frames.fold(Self::default(), |sum, &frame| Self {
+            digest: sum.digest + (1 << (frame % 128)),
+            casters: sum.casters + 1,
+            triangles: sum.triangles + 100,
+        })
+    }
 }
 
 /// All that a face's texels depend on. A face without casters is the same for every light.
@@ -52,6 +63,8 @@ pub(super) struct Face {
     /// How much has changed since it was drawn: the sum of (radius / distance)^2 of the casters
     /// that did.
     pub change: f64,
+    /// Its layer of casters that stand still.
+    pub still: Still,
 }
 
 /// Bounds of a caster relative to a light.
@@ -104,6 +117,9 @@ impl Slot {
                 face.rendered = None;
             } else if encoded & 1 << bit != 0 {
                 face.rendered = face.scheduled;
+            }
+            if encoded & 1 << bit != 0 {
+                face.still.encoded();
             }
         }
     }
@@ -243,6 +259,39 @@ impl Slot {
             }
         }
         self.pending.store(mask, Ordering::Relaxed);
+    }
+
+    /// Decides how the faces of a mask are drawn: on layers of at least so many triangles that stand
+    /// still, or all at once.
+    pub fn choose_ways(&mut self, mask: u8, least: u64, scene: &Scene) {
+        let Some(light) = self.light else { return };
+        for (bit, face) in self.faces.iter_mut().enumerate() {
+            if mask & 1 << bit != 0 {
+                let masks = &self.masks;
+                face.still.choose(&light, scene.frame(), least, |frame| {
+                    let mut content = Content::default();
+                    masks
+                        .touching(1 << bit)
+                        .map(|at| &scene.records()[at])
+                        .filter(|record| record.since <= frame)
+                        .for_each(|record| content.add(record));
+                    content
+                });
+            }
+        }
+    }
+
+    /// Which lists of draws a caster on the faces `on` goes to, as bits: 0 to 5 the faces, 6 to 11
+    /// the layers under them.
+    pub fn lists(&self, on: u8, record: &Record) -> u16 {
+        let list = |bit: usize| match self.faces[bit].still.way() {
+            Way::Build(until) if record.since <= until => 64 << bit,
+            Way::Copy(until) if record.since <= until => 0,
+            Way::Whole | Way::Copy(_) | Way::Build(_) => 1 << bit,
+        };
+        (0..6)
+            .filter(|bit| on & 1 << bit != 0)
+            .fold(0, |lists, bit| lists | list(bit))
     }
 
     /// One more frame for the faces that wait; the others have nothing to wait for.

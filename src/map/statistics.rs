@@ -18,6 +18,11 @@ pub struct CubeStatistics {
     pub faces_hidden: u32,
     /// Faces that changed and wait for a later frame's budget.
     pub faces_postponed: u32,
+    /// Those of `faces_rendered` whose still casters are copied from a second layer
+    /// ([`StillLayers`](crate::StillLayers)), not drawn.
+    pub faces_copied: u32,
+    /// Second layers that are drawn, to be copied in this frame and later ones.
+    pub layers_drawn: u32,
     /// Casters that touch a face, counted once for each light.
     pub casters_in_range: u32,
     /// Casters beyond the light's range, counted once for each light.

@@ -1,6 +1,7 @@
 //! The textures of a cube map, made when the first light casts.
 
-use std::sync::{OnceLock, atomic::AtomicU8};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use super::face::CubeFace;
 
@@ -27,7 +28,15 @@ pub(super) struct Textures {
     array: Option<Array>,
     /// A texel for each face, bound as long as there is nothing else.
     placeholder: wgpu::TextureView,
+    blank: Blank,
     revision: u64,
+}
+
+/// The faces of the placeholder, and whether they are clear.
+#[derive(Debug)]
+struct Blank {
+    faces: [wgpu::TextureView; 6],
+    clear: AtomicBool,
 }
 
 #[derive(Debug)]
@@ -55,6 +64,10 @@ impl Textures {
                 placeholder: array_view(&placeholder, label),
                 view: None,
             }),
+            blank: Blank {
+                faces: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
+                clear: AtomicBool::new(false),
+            },
             placeholder: cube_view(&placeholder, label, 0),
             revision: 0,
         }
@@ -101,6 +114,14 @@ impl Textures {
         self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube)
     }
 
+    /// The faces of the placeholder, the first time that it is asked for them.
+    pub fn blank(&self) -> &[wgpu::TextureView] {
+        match self.blank.clear.swap(true, Ordering::Relaxed) {
+            true => &[],
+            false => &self.blank.faces,
+        }
+    }
+
     /// All lights' cubes, or a placeholder; `None` if each has a texture of its own.
     pub fn array(&self) -> Option<&wgpu::TextureView> {
         let array = self.array.as_ref()?;
@@ -112,12 +133,15 @@ impl Textures {
     }
 
     pub fn bytes(&self) -> u64 {
-        let texel = match self.format {
-            wgpu::TextureFormat::Depth16Unorm => 2,
-            _ => 4,
-        };
         let cubes = self.slots.iter().flatten().count() as u64;
-        (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel
+        (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel_bytes(self.format)
+    }
+}
+
+pub(super) fn texel_bytes(format: wgpu::TextureFormat) -> u64 {
+    match format {
+        wgpu::TextureFormat::Depth16Unorm => 2,
+        _ => 4,
     }
 }
 
@@ -154,7 +178,10 @@ fn create(
     format: wgpu::TextureFormat,
     layers: u32,
 ) -> wgpu::Texture {
-    let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+    // Layers of what stands still are copied to it.
+    let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::TEXTURE_BINDING
+        | wgpu::TextureUsages::COPY_DST;
     if format != wgpu::TextureFormat::Depth24Plus {
         usage |= wgpu::TextureUsages::COPY_SRC;
     }

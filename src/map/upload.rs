@@ -53,6 +53,7 @@ impl CubeShadowMap {
             if plan.drawn == 0 {
                 continue;
             }
+            self.choose_ways(device, index, plan.drawn);
             let slot = &self.slots[index];
             self.draws
                 .add(index, slot, plan.drawn, &self.scene, frame.casters);

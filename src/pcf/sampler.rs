@@ -21,7 +21,8 @@ pub struct PcfDescriptor<'a> {
     /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]. Cube maps.
     pub encoding: DepthEncoding,
     /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
-    /// a cube map. Such maps are made with `cube_array`. Default false: one light a bind group.
+    /// a cube map. Such maps are made with `cube_array`, and the device has
+    /// [`Support::cube_arrays`](crate::Support). Default false: one light a bind group.
     pub many_lights: bool,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
@@ -59,7 +60,8 @@ impl PcfSampler {
     /// no bindings in its layout.
     ///
     /// # Errors
-    /// [`PcfError`] if a parameter of the kernel is out of range.
+    /// [`PcfError`] if a parameter of the kernel is out of range, or the device has no cube arrays
+    /// for many lights.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -74,6 +76,10 @@ impl PcfSampler {
             textbook,
         } = descriptor;
         kernel.validate()?;
+        let many_lights = many_lights && map == MapKind::Cube;
+        if many_lights && !crate::support::has_cube_arrays(device) {
+            return Err(PcfError::CubeArray);
+        }
         let border = map == MapKind::Flat
             && device
                 .features()
@@ -85,7 +91,7 @@ impl PcfSampler {
         let reads = Reads {
             map,
             encoding,
-            many_lights: many_lights && map == MapKind::Cube,
+            many_lights,
             border,
         };
         let label = match label {

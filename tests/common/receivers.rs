@@ -67,8 +67,24 @@ pub fn ask_changed(
     points: &[(Vec3, Vec3)],
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
+    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, descriptor).unwrap();
+    let group = match map {
+        AnyMap::Cube(map) => sampler.bind_group_of(&gpu.device, map, light).unwrap(),
+        _ => sampler.bind_group(&gpu.device, map).unwrap(),
+    };
+    ask_group(gpu, (&sampler, &group), descriptor, light, points, change)
+}
+
+/// The same through a bind group that is there already.
+pub fn ask_group(
+    gpu: &Gpu,
+    (sampler, map_group): (&PcfSampler, &wgpu::BindGroup),
+    descriptor: &PcfDescriptor<'_>,
+    light: usize,
+    points: &[(Vec3, Vec3)],
+    change: impl FnOnce(String) -> String,
+) -> Vec<f32> {
     let device = &gpu.device;
-    let sampler = PcfSampler::new(device, &gpu.queue, descriptor).unwrap();
     let call = match descriptor.many_lights {
         false => "shadows_visibility_flat(".to_owned(),
         true => format!("shadows_visibility_flat({light}u, "),
@@ -146,15 +162,11 @@ pub fn ask_changed(
             },
         ],
     });
-    let map_group = match map {
-        AnyMap::Cube(map) => sampler.bind_group_of(device, map, light).unwrap(),
-        _ => sampler.bind_group(device, map).unwrap(),
-    };
     gpu.run(|encoder| {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
-        pass.set_bind_group(1, &map_group, &[]);
+        pass.set_bind_group(1, map_group, &[]);
         pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
     });
     bytemuck::pod_collect_to_vec(&gpu.read_buffer(&output))

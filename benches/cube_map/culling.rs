@@ -1,6 +1,7 @@
 //! Three ways to find the casters that lights reach, by bounding spheres: the map's own tree, one by
 //! one, and by a compute shader as indirect draws would have them.
 
+#[path = "compute_culling.rs"]
 mod compute;
 #[allow(dead_code)] // no caster goes here
 #[path = "../../src/map/reach.rs"]
