@@ -15,8 +15,8 @@ use glam::{Affine3A, Mat4, Vec3};
 use host::gpu::Gpu;
 use receivers::visibility;
 use shadows::{
-    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, Kernel,
-    PointLight, View, glam,
+    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention,
+    FaceState, Kernel, PointLight, View, glam,
 };
 
 const SIZE: u32 = 32;
@@ -138,6 +138,49 @@ fn a_pinned_light_never_waits() {
     }
     assert!(oldest(&map) > 0, "the others wait");
     assert_eq!(map.statistics().faces_rendered, 6 + 2);
+}
+
+#[test]
+fn what_changed_most_and_matters_most_to_the_eye_goes_first() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mesh = cuboid(Vec3::splat(0.3)).mesh(&gpu.device);
+    let at = |place: Vec3| Caster::new(mesh.clone(), Affine3A::from_translation(place));
+    let lights = [-20.0, 20.0].map(|x| PointLight::new(Vec3::X * x, 0.1, 9.0));
+    // Before each light a caster that takes much of a face, on +Y, and one that takes little, on +Z.
+    let mut casters: Vec<Caster> = lights
+        .iter()
+        .flat_map(|light| [Vec3::Y * 2.0, Vec3::Z * 7.0].map(|from| light.position + from))
+        .map(at)
+        .collect();
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(2, Some(1))).unwrap();
+    let waits = map.max_age().unwrap();
+    let mut frame = |casters: &[Caster], eye: Vec3| {
+        let view = camera(eye, Vec3::ZERO).1;
+        let frame = CubeFrame {
+            lights: &lights,
+            casters,
+            view: Some(&view),
+            ..Default::default()
+        };
+        draw_frame(&gpu, &mut map, &frame);
+        let state = |light, face| map.face_statistics(light, face).unwrap().state;
+        let faces = [CubeFace::PositiveY, CubeFace::PositiveZ];
+        let rendered = |light| faces.map(|face| state(light, face) == FaceState::Rendered);
+        [rendered(0), rendered(1)]
+    };
+    // Far away from both, so that all of it is in view, once nearer to the one, once to the other.
+    let eyes = [-1.0, 1.0].map(|side| Vec3::new(side * 45.0, 3.0, 60.0));
+    for (light, eye) in eyes.into_iter().enumerate() {
+        for _ in 0..2 * waits {
+            frame(&casters, eye);
+        }
+        for caster in &mut casters {
+            caster.world_from_object.translation.x += 0.01;
+        }
+        let mut order = [[false; 2]; 2];
+        order[light] = [true, false];
+        assert_eq!(frame(&casters, eye), order, "near the eye, and large");
+    }
 }
 
 /// Where the light of a map's faces is, read off their matrix.

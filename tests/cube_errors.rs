@@ -61,24 +61,28 @@ fn bad_frames_are_refused_and_the_map_goes_on() {
     map.prepare(&device, &queue, &frame).unwrap();
     let before = map.statistics();
 
-    let bad_light = PointLight {
-        range: f32::NAN,
-        ..light
+    let mut refused = |light| {
+        let lights = [light];
+        let frame = CubeFrame {
+            lights: &lights,
+            ..frame
+        };
+        match map.prepare(&device, &queue, &frame).unwrap_err() {
+            CubeShadowMapError::Light(error) => error,
+            other => panic!("{other}"),
+        }
     };
-    let error = map
-        .prepare(
-            &device,
-            &queue,
-            &CubeFrame {
-                lights: &[bad_light],
-                ..frame
-            },
-        )
-        .unwrap_err();
-    assert!(matches!(
-        error,
-        CubeShadowMapError::Light(LightError::Range(_))
-    ));
+    for range in [f32::NAN, f32::INFINITY, 0.0, -1.0] {
+        let error = refused(PointLight { range, ..light });
+        assert!(matches!(error, LightError::Range(_)), "{error}");
+    }
+    for near in [f32::NAN, 0.0, 10.0, 11.0] {
+        let error = refused(PointLight { near, ..light });
+        assert!(matches!(error, LightError::Near { .. }), "{error}");
+    }
+    let position = Vec3::NAN;
+    let error = refused(PointLight { position, ..light });
+    assert!(matches!(error, LightError::Position(_)), "{error}");
 
     let bent = Caster::new(
         good[0].mesh.clone(),

@@ -83,16 +83,19 @@ fn each_light_has_the_faces_it_would_have_alone() {
 #[test]
 fn a_light_that_comes_goes_or_moves_has_only_its_own_faces_drawn() {
     let Some(gpu) = Gpu::for_test() else { return };
-    if !gpu.support.cube_arrays {
-        return eprintln!("skipped: no cube arrays");
+    for array in arrays(&gpu) {
+        only_its_own_faces(&gpu, array);
     }
-    let (casters, mut lights) = (casters(&gpu), lights());
-    let mut map = fresh(&gpu, &descriptor(true), &lights, &casters);
+}
+
+fn only_its_own_faces(gpu: &Gpu, array: bool) {
+    let (casters, mut lights) = (casters(gpu), lights());
+    let mut map = fresh(gpu, &descriptor(array), &lights, &casters);
     let mut step = |lights: &[PointLight]| {
-        draw(&gpu, &mut map, lights, &casters);
+        draw(gpu, &mut map, lights, &casters);
         for (place, &light) in lights.iter().enumerate() {
-            let alone = fresh(&gpu, &one_light(), &[light], &casters);
-            assert_eq!(faces(&gpu, &map, place), faces(&gpu, &alone, 0), "{place}");
+            let alone = fresh(gpu, &one_light(), &[light], &casters);
+            assert_eq!(faces(gpu, &map, place), faces(gpu, &alone, 0), "{place}");
         }
         map.statistics().faces_rendered
     };
@@ -158,20 +161,29 @@ fn receivers_ask_for_a_light_by_its_place() {
 fn maps_of_different_sizes_share_a_sampler() {
     let Some(gpu) = Gpu::for_test() else { return };
     let (casters, lights) = (casters(&gpu), lights());
-    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &PcfDescriptor::default()).unwrap();
-    for size in [16, 64] {
-        let map = fresh(
-            &gpu,
-            &CubeShadowMapDescriptor {
-                size,
-                ..descriptor(false)
-            },
-            &lights,
-            &casters,
-        );
-        gpu.checked(|| sampler.bind_group(&gpu.device, &map).unwrap());
+    let reader = PcfDescriptor::default();
+    let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &reader).unwrap();
+    let mut random = Random::new(23);
+    let points: Vec<(Vec3, Vec3)> = (0..2000)
+        .map(|_| (random.vec3() * 6.0, random.vec3()))
+        .collect();
+    let seen = [16, 64].map(|size| {
+        let descriptor = CubeShadowMapDescriptor {
+            size,
+            ..one_light()
+        };
+        let map = fresh(&gpu, &descriptor, &lights[..1], &casters);
         assert_eq!(map.texture(0).unwrap().0.width(), size);
-    }
+        let group = gpu.checked(|| sampler.bind_group(&gpu.device, &map).unwrap());
+        let seen = ask_group(&gpu, (&sampler, &group), &reader, 0, &points, |m| m);
+        assert_eq!(
+            seen,
+            ask(&gpu, &map, &reader, 0, &points),
+            "a sampler of its own"
+        );
+        seen
+    });
+    assert_ne!(seen[0], seen[1], "the broken twin: the other map");
 }
 
 #[test]

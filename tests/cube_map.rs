@@ -149,6 +149,33 @@ fn casters_are_drawn_only_on_the_faces_they_touch() {
 }
 
 #[test]
+fn culling_changes_no_bit() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // All casters are in range: what lies beyond it is drawn only without culling.
+    let light = PointLight::new(Vec3::new(0.1, -0.2, 0.3), 0.05, 40.0);
+    let (casters, _) = clutter(&gpu, 40);
+    let faces = |cull_casters, casters: &[Caster]| {
+        let descriptor = CubeShadowMapDescriptor {
+            size: 96,
+            cull_casters,
+            ..Default::default()
+        };
+        let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
+        draw(&gpu, &mut map, &light, casters);
+        let triangles = map.statistics().triangles;
+        (
+            CubeFace::ALL.map(|face| texels(&gpu, &map, face)),
+            triangles,
+        )
+    };
+    let (culled, few) = faces(true, &casters);
+    let (whole, many) = faces(false, &casters);
+    assert!(2 * few < many, "{few} of {many} triangles");
+    assert!(culled == whole);
+    assert!(faces(true, &casters[1..]).0 != whole, "the broken twin");
+}
+
+#[test]
 fn a_face_without_casters_is_cleared_once() {
     let Some(gpu) = Gpu::for_test() else { return };
     let light = PointLight::new(Vec3::ZERO, 0.1, 40.0);

@@ -321,10 +321,7 @@ impl CubeShadowMap {
 
     /// Takes over the frame's lights and casters.
     fn take_over(&mut self, frame: &CubeFrame<'_>) {
-        let order = match self.array {
-            true => assign(frame.lights, &self.slots, &self.order),
-            false => (0..frame.lights.len()).collect(),
-        };
+        let order = assign(frame.lights, &self.slots, &self.order);
         let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
         self.reordered += u64::from(moved);
         let mut wanted = vec![None; self.slots.len()];

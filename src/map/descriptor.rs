@@ -214,9 +214,9 @@ impl Default for CubeShadowMapDescriptor<'_> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CubeFrame<'a> {
     /// The lights; shaders name them by their place here. Lights that were there last frame keep
-    /// their faces wherever they now stand in the slice (with
-    /// [`cube_array`](CubeShadowMapDescriptor::cube_array); without, where they stand is which
-    /// texture they have).
+    /// their faces wherever they now stand in the slice. Without
+    /// [`cube_array`](CubeShadowMapDescriptor::cube_array) their bind groups must then be made again
+    /// ([`CubeShadowMap::texture_revision`](crate::CubeShadowMap::texture_revision)).
     pub lights: &'a [PointLight],
     /// Everything that may cast; what a light cannot reach is left out by the map itself. Their
     /// order does not matter, but what is found at another place in the slice than last frame counts
