@@ -2,18 +2,21 @@
 //!
 //! - `four_taps_vs_3x3_loop`: 16 texels by four gathers against a loop over nine single texels, each
 //!   compared with its own plane depth in both.
+//!   What is not counted twice: both read the same texels into the cache, the loop's nine and the
+//!   taps' sixteen, and where that is slow (many pictures at once) the ratio is nearer to 1.
 //! - `disk_early_out_vs_full`: the random disk (8 x 8 taps) with its early-out against all taps, and
 //!   what that does to the picture.
-//! - `vogel_N_vs_M_per_tap`: cost of a tap among N against one among M: 1 where cost is linear.
+//! - `vogel_N_vs_M_per_tap` and `disk_N_vs_M_per_tap`: cost of a tap among N against one among M: 1
+//!   or less where cost grows no faster than taps do.
 //!
-//! Times are those of the lit pass less those of the same pass without shadows, medians of rounds in
-//! which all take turns, so that a machine that slows down slows all. `--quick` takes fewer rounds,
-//! and only the kernels of the ratios.
+//! Positions and normals of all pixels are kept in a buffer; what is timed is one full-screen pass
+//! that reads them and asks for the visibility, less the same pass that asks nothing: the kernel and
+//! nothing else. Both sides of a ratio, and the bare pass, take turns; a ratio is the median of those
+//! of the rounds, so that a machine that slows down slows all. `--quick` takes fewer rounds, and
+//! only the kernels of the ratios.
 
 #[path = "../examples/host/mod.rs"]
 mod host;
-
-use std::time::Duration;
 
 use host::gpu::Gpu;
 use host::pipelines::{LitPipeline, ShadowAccess, visibility_module};
@@ -25,12 +28,11 @@ use shadows::{
     PointLight, Radius, RandomDisk, VogelDisk, wgpu,
 };
 
-const SIZE: [u32; 2] = [640, 360];
+const SIZE: [u32; 2] = [1280, 720];
 
 /// Nine single texels around the receiver's own.
 const LOOP: &str = "
-fn host_visibility(world: vec3f, pixel: vec2f) -> f32 {
-    let normal = cross(dpdx(world), dpdy(world));
+fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
     let receiver = shadows_cube_receiver(shadows_light, world, normal);
     if receiver.known >= 0.0 {
         return receiver.known;
@@ -55,13 +57,62 @@ struct Yard {
     renderer: Renderer,
     scene: SceneGpu,
     map: CubeShadowMap,
+    points_layout: wgpu::BindGroupLayout,
+    points: wgpu::BindGroup,
+    target: wgpu::TextureView,
 }
 
 /// One way to shade it.
 struct Way {
-    lit: LitPipeline,
-    group: wgpu::BindGroup,
-    times: Vec<Duration>,
+    name: String,
+    pipeline: wgpu::RenderPipeline,
+    group: Option<wgpu::BindGroup>,
+    lit: Option<LitPipeline>,
+    times: Vec<f64>,
+}
+
+/// Puts every pixel's position and normal into a buffer, in the place of a shadow test.
+const STORE: &str = "
+@group(1) @binding(0) var<storage, read_write> host_points: array<vec4f>;
+fn host_visibility(world: vec3f, pixel: vec2f) -> f32 {
+    let at = 2u * (u32(pixel.y) * 1280u + u32(pixel.x));
+    host_points[at] = vec4f(world, 1.0);
+    host_points[at + 1u] = vec4f(cross(dpdx(world), dpdy(world)), 0.0);
+    return 1.0;
+}
+";
+
+/// Asks for the visibility of every pixel's point.
+const ASK: &str = "
+@group(0) @binding(0) var<storage, read> host_points: array<vec4f>;
+@vertex
+fn screen(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
+    return vec4f(vec2f(f32(i & 1u), f32(i >> 1u)) * 4.0 - 1.0, 0.0, 1.0);
+}
+@fragment
+fn ask(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
+    let at = 2u * (u32(pixel.y) * 1280u + u32(pixel.x));
+    return vec4f(host_ask(host_points[at].xyz, host_points[at + 1u].xyz, pixel.xy));
+}
+";
+
+const BARE: &str = "
+fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
+    return world.x + normal.x;
+}
+";
+
+/// The host's functions around a sampler's own.
+fn asking(sampler: &PcfSampler) -> String {
+    let pixel = if sampler.takes_pixel() { ", pixel" } else { "" };
+    format!(
+        "{}
+fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {{
+    return shadows_visibility_flat(world, normal{pixel});
+}}
+",
+        visibility_module(sampler)
+    )
 }
 
 impl Yard {
@@ -81,15 +132,25 @@ impl Yard {
             map.encode(encoder);
             renderer.draw_ambient(encoder, &scene_gpu);
         });
+        let (points_layout, points) = keep_points(&gpu, &renderer, &scene_gpu);
+        let target = gpu.target(SIZE, wgpu::TextureFormat::R8Unorm, 1);
         Ok(Self {
+            target: target.create_view(&Default::default()),
             gpu,
             renderer,
             scene: scene_gpu,
             map,
+            points_layout,
+            points,
         })
     }
 
-    fn way(&self, kernel: Kernel, wgsl: impl Fn(&PcfSampler) -> String) -> anyhow::Result<Way> {
+    fn way(
+        &self,
+        name: &str,
+        kernel: Kernel,
+        wgsl: impl Fn(&PcfSampler) -> String,
+    ) -> anyhow::Result<Way> {
         let descriptor = PcfDescriptor {
             kernel,
             ..Default::default()
@@ -98,39 +159,164 @@ impl Yard {
         let lit = self.renderer.lit_pipeline(
             &self.gpu,
             &ShadowAccess {
-                module: Some(&wgsl(&sampler)),
+                module: Some(&visibility_module(&sampler)),
                 layout: Some(sampler.bind_group_layout()),
                 stencil: None,
             },
         );
-        let group = sampler.bind_group(&self.gpu.device, &self.map)?;
         Ok(Way {
-            lit,
-            group,
+            name: name.to_owned(),
+            pipeline: self.pipeline(&wgsl(&sampler), Some(sampler.bind_group_layout())),
+            group: Some(sampler.bind_group(&self.gpu.device, &self.map)?),
+            lit: Some(lit),
             times: Vec::new(),
         })
     }
 
-    fn shade(&self, lit: &LitPipeline, group: Option<&wgpu::BindGroup>) -> Duration {
-        self.gpu
-            .run(|encoder| self.renderer.draw_lit(encoder, &self.scene, lit, group))
+    fn bare(&self) -> Way {
+        Way {
+            name: "bare".to_owned(),
+            pipeline: self.pipeline(BARE, None),
+            group: None,
+            lit: None,
+            times: Vec::new(),
+        }
+    }
+
+    fn pipeline(&self, wgsl: &str, layout: Option<&wgpu::BindGroupLayout>) -> wgpu::RenderPipeline {
+        let device = &self.gpu.device;
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("ask"),
+            source: wgpu::ShaderSource::Wgsl((wgsl.to_owned() + ASK).into()),
+        });
+        let mut layouts = vec![Some(&self.points_layout)];
+        layouts.extend(layout.map(Some));
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("ask"),
+            layout: Some(
+                &device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                    label: Some("ask"),
+                    bind_group_layouts: &layouts,
+                    immediate_size: 0,
+                }),
+            ),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("screen"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("ask"),
+                compilation_options: Default::default(),
+                targets: &[Some(wgpu::TextureFormat::R8Unorm.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    /// Milliseconds of one pass.
+    fn time(&self, way: &Way) -> f64 {
+        let time = self.gpu.run(|encoder| {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("ask"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &self.target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&way.pipeline);
+            pass.set_bind_group(0, &self.points, &[]);
+            if let Some(group) = &way.group {
+                pass.set_bind_group(1, group, &[]);
+            }
+            pass.draw(0..3, 0..1);
+        });
+        time.as_secs_f64() * 1e3
     }
 
     fn picture(&self, way: &Way) -> Vec<u8> {
-        self.shade(&way.lit, Some(&way.group));
+        if let Some(lit) = &way.lit {
+            self.gpu.run(|encoder| {
+                self.renderer
+                    .draw_lit(encoder, &self.scene, lit, way.group.as_ref());
+            });
+        }
         self.renderer.read_visibility(&self.gpu)
     }
 }
 
-fn median(times: &mut [Duration]) -> f64 {
-    times.sort_unstable();
-    times[times.len() / 2].as_secs_f64() * 1e3
+/// Draws the scene once, into a buffer of positions and normals.
+fn keep_points(
+    gpu: &Gpu,
+    renderer: &Renderer,
+    scene: &SceneGpu,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
+    let points = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("points"),
+        size: u64::from(SIZE[0] * SIZE[1] * 32),
+        usage: wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    let [write, read] = [false, true].map(|read_only| {
+        let layout = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("points"),
+                entries: &[wgpu::BindGroupLayoutEntry {
+                    binding: 0,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Buffer {
+                        ty: wgpu::BufferBindingType::Storage { read_only },
+                        has_dynamic_offset: false,
+                        min_binding_size: None,
+                    },
+                    count: None,
+                }],
+            });
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("points"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: points.as_entire_binding(),
+            }],
+        });
+        (layout, group)
+    });
+    let store = renderer.lit_pipeline(
+        gpu,
+        &ShadowAccess {
+            module: Some(STORE),
+            layout: Some(&write.0),
+            stencil: None,
+        },
+    );
+    gpu.run(|encoder| renderer.draw_lit(encoder, scene, &store, Some(&write.1)));
+    read
 }
 
-fn disk(early_out: bool) -> Kernel {
+fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn disk(rings: u32, early_out: bool) -> Kernel {
     Kernel::RandomDisk(RandomDisk {
         around: 8,
-        rings: 8,
+        rings,
         early_out,
         ..Default::default()
     })
@@ -174,60 +360,62 @@ fn main() -> anyhow::Result<()> {
     };
     println!("adapter {}", host::gpu::describe(&gpu.info));
     let yard = Yard::new(gpu)?;
-    let mut names: Vec<String> = ["four taps", "3x3 loop", "disk early-out", "disk full"]
-        .map(str::to_owned)
-        .to_vec();
     let mut ways = vec![
-        yard.way(Kernel::FourTaps, visibility_module)?,
-        yard.way(Kernel::Hard, |sampler| sampler.wgsl_module(1) + LOOP)?,
-        yard.way(disk(true), visibility_module)?,
-        yard.way(disk(false), visibility_module)?,
+        yard.bare(),
+        yard.way("four taps", Kernel::FourTaps, asking)?,
+        yard.way("3x3 loop", Kernel::Hard, |sampler| {
+            sampler.wgsl_module(1) + LOOP
+        })?,
     ];
+    let mut ratios = vec![("four_taps_vs_3x3_loop".to_owned(), 1, 2, 1.0)];
+    for rings in [1, 2, 4, 8] {
+        ways.push(yard.way(
+            &format!("disk {} full", 8 * rings),
+            disk(rings, false),
+            asking,
+        )?);
+        if rings > 1 {
+            let name = format!("disk_{}_vs_{}_per_tap", 8 * rings, 4 * rings);
+            ratios.push((name, ways.len() - 1, ways.len() - 2, 0.5));
+        }
+    }
+    let full = ways.len() - 1;
+    ways.push(yard.way("disk 64 early-out", disk(8, true), asking)?);
+    let early = ways.len() - 1;
+    ratios.insert(1, ("disk_early_out_vs_full".to_owned(), early, full, 1.0));
+    for taps in [4, 8, 16, 32, 64] {
+        ways.push(yard.way(&format!("vogel {taps}"), vogel(taps), asking)?);
+        if taps > 4 {
+            let name = format!("vogel_{taps}_vs_{}_per_tap", taps / 2);
+            ratios.push((name, ways.len() - 1, ways.len() - 2, 0.5));
+        }
+    }
     for kernel in Kernel::ALL.into_iter().filter(|_| !quick) {
-        names.push(format!("{kernel:?}"));
-        ways.push(yard.way(kernel, visibility_module)?);
+        ways.push(yard.way(&format!("{kernel:?}"), kernel, asking)?);
     }
-    const TAPS: [u32; 5] = [4, 8, 16, 32, 64];
-    let first_vogel = ways.len();
-    for taps in TAPS {
-        names.push(format!("vogel {taps}"));
-        ways.push(yard.way(vogel(taps), visibility_module)?);
-    }
-    let mut unshadowed = Vec::new();
-    let rounds = if quick { 3 } else { 15 };
+    let rounds = if quick { 7 } else { 31 };
     for round in 0..=rounds {
-        let bare = yard.shade(yard.renderer.unshadowed(), None);
-        let times: Vec<Duration> = ways
-            .iter()
-            .map(|way| yard.shade(&way.lit, Some(&way.group)))
-            .collect();
-        if round > 0 {
-            // The first round compiles.
-            unshadowed.push(bare);
-            for (way, time) in ways.iter_mut().zip(times) {
+        for way in &mut ways {
+            let time = yard.time(way);
+            if round > 0 {
+                // The first round compiles.
                 way.times.push(time);
             }
         }
     }
-    let bare = median(&mut unshadowed);
+    let bare = median(ways[0].times.iter().copied());
     println!("{bare:8.3} ms without shadows; the others less that:");
-    let cost: Vec<f64> = ways
-        .iter_mut()
-        .map(|way| median(&mut way.times) - bare)
-        .collect();
-    for (name, cost) in names.iter().zip(&cost) {
-        println!("{cost:8.3} ms {name}");
+    for way in &ways[1..] {
+        let cost = median(way.times.iter().copied()) - bare;
+        println!("{cost:8.3} ms {}", way.name);
     }
-    early_out_error(&yard.picture(&ways[2]), &yard.picture(&ways[3]));
-    println!("ratio four_taps_vs_3x3_loop {:.3}", cost[0] / cost[1]);
-    println!("ratio disk_early_out_vs_full {:.3}", cost[2] / cost[3]);
-    for (pair, taps) in TAPS.windows(2).enumerate() {
-        let at = first_vogel + pair;
-        let per_tap = cost[at + 1] / cost[at] * f64::from(taps[0]) / f64::from(taps[1]);
-        println!(
-            "ratio vogel_{}_vs_{}_per_tap {per_tap:.3}",
-            taps[1], taps[0]
-        );
+    early_out_error(&yard.picture(&ways[early]), &yard.picture(&ways[full]));
+    for (name, a, b, scale) in ratios {
+        let rounds = (0..rounds).map(|round| {
+            let cost = |way: usize| ways[way].times[round] - ways[0].times[round];
+            cost(a) / cost(b) * scale
+        });
+        println!("ratio {name} {:.3}", median(rounds));
     }
     Ok(())
 }

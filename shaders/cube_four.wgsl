@@ -1,8 +1,8 @@
 // The depths stored in four texels of a cube map.
 
-// Whether the four texels around a corner lie on one face.
-fn shadows_cube_gathers(size: f32, corner: vec2f) -> bool {
-    return all(corner >= vec2f(1.0)) && all(corner <= vec2f(size - 1.0));
+// Whether the texels around all corners from `first` to `last` lie on one face.
+fn shadows_cube_gathers(size: f32, first: vec2f, last: vec2f) -> bool {
+    return all(first >= vec2f(1.0)) && all(last <= vec2f(size - 1.0));
 }
 
 // Bottom left, bottom right, top right, top left.

@@ -29,19 +29,19 @@ struct ShadowsCubeFace {
 
 // A map stores near / d, d along the major axis, which for a plane n.x = q is near * (n.dir) / q
 // with dir of length 1 along that axis: linear in dir. `plane` is near * n / q, so that the depth
-// of the receiver's plane in any direction is one dot product (its parts along the face's axes
-// here), and no tap needs a bias for slope.
+// of the receiver's plane in any direction is one dot product, and no tap needs a bias for slope.
 struct ShadowsCubeReceiver {
     face: ShadowsCubeFace,
     texel: vec2f,
+    // Along the face's axes (forward, right, down), and along the world's.
     plane: vec3f,
+    gradient: vec3f,
     // No tap takes the plane for nearer than this depth, a thirty-second of the receiver's distance:
     // what casts from nearer casts at any grazing angle.
     bound: f32,
     // Depth of the plane's horizon: no receiver is at this depth or below.
     horizon: f32,
-    // From the light along the face's axes (forward, right, down), the same with length 1, and the
-    // unit normal.
+    // From the light, the same with length 1, and the unit normal, along the world's axes.
     local: vec3f,
     ray: vec3f,
     normal: vec3f,
@@ -111,10 +111,11 @@ fn shadows_cube_receiver(
         return receiver;
     }
     let axes = mat3x3f(face.forward, face.right, face.down);
-    receiver.normal = n * axes;
-    receiver.local = from_light * axes;
-    receiver.ray = receiver.local / distance;
-    receiver.plane = light.near * light.depth_scale / plane_distance * receiver.normal;
+    receiver.normal = n;
+    receiver.local = from_light;
+    receiver.ray = from_light / distance;
+    receiver.gradient = light.near * light.depth_scale / plane_distance * n;
+    receiver.plane = receiver.gradient * axes;
     receiver.bound = 32.0 * light.near * light.depth_scale / major;
     receiver.horizon = 0.0;
     receiver.width = 2.0 * major / light.size;

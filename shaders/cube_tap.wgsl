@@ -1,8 +1,7 @@
-// One tap of a disk: the texel that a point falls on, found again on whichever face it is.
+// One tap of a disk: the texel that a point falls on, on whichever face it is.
 
 // Depth of the receiver's plane, and the depth stored, in the direction of the centre of the texel
-// that `local` falls on; `local` is a point of the plane relative to the light, along the axes of
-// the receiver's face (forward, right, down).
+// that `local` falls on; `local` is a point of the plane relative to the light.
 fn shadows_cube_look(
     map: texture_cube<f32>,
     map_sampler: sampler,
@@ -10,22 +9,18 @@ fn shadows_cube_look(
     size: f32,
     local: vec3f,
 ) -> vec2f {
-    let step = 2.0 / size;
-    var coordinates: vec3f;
-    if max(abs(local.y), abs(local.z)) < local.x {
-        let texel = min(floor((local.yz / local.x * 0.5 + 0.5) * size), vec2f(size - 1.0));
-        coordinates = vec3f(1.0, (texel + 0.5) * step - 1.0);
-    } else {
-        // Another face, in the same axes: its grid is the same, turned.
-        let face = shadows_cube_face(local, size);
-        let uv = (clamp(floor(face.texel), vec2f(0.0), vec2f(size - 1.0)) + 0.5) * step - 1.0;
-        coordinates = face.forward + uv.x * face.right + uv.y * face.down;
-    }
-    let axes = receiver.face;
-    let direction = mat3x3f(axes.forward, axes.right, axes.down) * coordinates;
+    // The faces' grids are one grid in the three axes: texel centres are symmetric about 0. So all
+    // three are rounded to it, and the one along the major axis put back, without a branch.
+    let a = abs(local);
+    let x_is_major = a.x >= a.y && a.x >= a.z;
+    let y_is_major = !x_is_major && a.y >= a.z;
+    let major = vec3<bool>(x_is_major, y_is_major, !x_is_major && !y_is_major);
+    let on_cube = local / max(a.x, max(a.y, a.z));
+    let texel = clamp(floor((on_cube * 0.5 + 0.5) * size), vec3f(0.0), vec3f(size - 1.0));
+    let direction = select((texel + 0.5) * (2.0 / size) - 1.0, sign(local), major);
     let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
-    let stored = shadows_cube_depth(receiver, found, vec4f(dot(coordinates, coordinates))).x;
-    return vec2f(clamp(dot(receiver.plane, coordinates), 0.0, receiver.bound), stored);
+    let stored = shadows_cube_depth(receiver, found, vec4f(dot(direction, direction))).x;
+    return vec2f(clamp(dot(receiver.gradient, direction), 0.0, receiver.bound), stored);
 }
 
 // How much farther from its light (a sphere) than its blocker a receiver is, as a fraction of the

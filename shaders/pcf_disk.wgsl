@@ -1,5 +1,5 @@
 // What kernels on a disk share: their parameters, the disk in the receiver's tangent plane, and
-// one tap of it.
+// its taps.
 
 struct ShadowsCubeKernel {
     // Of the disk: so many texels, plus so much in world units, at the receiver.
@@ -11,7 +11,7 @@ struct ShadowsCubeKernel {
     frame_shift: f32,
     taps: u32,
     // Taps of the blocker search; or of the first batch, after which the rest is skipped where
-    // all agree (0: never).
+    // all agree.
     first_taps: u32,
 }
 
@@ -49,4 +49,50 @@ fn shadows_cube_tap(
 ) -> vec2f {
     let local = receiver.local + offset.x * disk.across + offset.y * disk.along;
     return shadows_cube_look(map, map_sampler, receiver, size, local);
+}
+
+// The offsets of taps `i` and `i + 1`, `i` even, from the table's column at `column` (0 .. 1).
+// It is a texture: a uniform array given as a parameter is copied for every pixel. And it is sampled:
+// a load is guarded against coordinates outside by asking for the size, once a tap.
+fn shadows_cube_offset_pair(
+    offsets: texture_3d<f32>,
+    nearest: sampler,
+    column: vec2f,
+    i: u32,
+) -> vec4f {
+    let layer = (f32(i / 2u) + 0.5) / f32(textureDimensions(offsets).z);
+    return textureSampleLevel(offsets, nearest, vec3f(column, layer), 0.0);
+}
+
+// The share of taps that are lit. Where `first` of them agree, the rest is taken to agree with them
+// (0: never).
+fn shadows_cube_lit(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    receiver: ShadowsCubeReceiver,
+    size: f32,
+    disk: ShadowsCubeDisk,
+    offsets: texture_3d<f32>,
+    column: vec2f,
+    taps: u32,
+    first: u32,
+) -> f32 {
+    var lit = 0.0;
+    var i = 0u;
+    var end = taps;
+    // One loop for the first taps and the rest, with its end asked for behind the body: drivers that
+    // run both sides of a branch run every loop once at least, and once more if it asks before.
+    loop {
+        let pair = shadows_cube_offset_pair(offsets, map_sampler, column, i);
+        let a = shadows_cube_tap(map, map_sampler, receiver, size, disk, pair.xy);
+        let b = shadows_cube_tap(map, map_sampler, receiver, size, disk, pair.zw);
+        lit += select(0.0, 1.0, a.x >= a.y) + select(0.0, 1.0, b.x >= b.y && i + 1u < end);
+        i += 2u;
+        let agree = i == first && (lit == 0.0 || lit == f32(first));
+        end = select(end, first, agree);
+        continuing {
+            break if i >= end;
+        }
+    }
+    return lit / f32(end);
 }

@@ -7,10 +7,11 @@ fn shadows_cube_turn(pixel: vec2f, frame_shift: f32) -> vec2f {
     return vec2f(cos(angle), sin(angle));
 }
 
-// The offset of tap `i`, turned.
-// The table is a texture: a uniform array given as a parameter is copied for every pixel.
-fn shadows_cube_turned(offsets: texture_3d<f32>, i: u32, turn: vec2f) -> vec2f {
-    let pair = textureLoad(offsets, vec3i(0, 0, i32(i / 2u)), 0);
-    let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
-    return vec2f(dot(offset, vec2f(turn.x, -turn.y)), dot(offset, turn.yx));
+// The disk turned, rather than each of its offsets. `stretched` is how much longer it is along than
+// across: the pattern turns within it, the disk keeps its outline.
+fn shadows_cube_turned(disk: ShadowsCubeDisk, turn: vec2f) -> ShadowsCubeDisk {
+    return ShadowsCubeDisk(
+        turn.x * disk.across + turn.y * disk.along,
+        turn.x * disk.along - turn.y * disk.across,
+    );
 }

@@ -11,6 +11,21 @@ pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 /// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
+/// Any of this crate's WGSL as a module for naga_oil, which hosts name by `path`, e.g.
+/// `shadows::pcf`:
+///
+/// ```
+/// let module = shadows::wgsl::import_module("shadows::mask", shadows::wgsl::MASK);
+/// assert!(module.starts_with("#define_import_path shadows::mask\n"));
+/// ```
+///
+/// and then `#import shadows::mask::shadows_mask` in the host's shader. Two samplers for the same kind
+/// of map share their functions' names when pasted, and are two modules when imported. The text is
+/// no plain WGSL: naga itself refuses the first line.
+pub fn import_module(path: &str, wgsl: &str) -> String {
+    format!("#define_import_path {path}\n{wgsl}")
+}
+
 /// Reads an [`ExactCount`](crate::ExactCount) of one sample a pixel:
 /// `shadows_exact_visibility(counts, pixel)`, 1 lit, 0 in shadow.
 pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");

@@ -9,8 +9,8 @@ use shadows::error::{BiasError, CasterError, LightError, PcfError, ShadowMapErro
 use shadows::mesh::Bounds;
 use shadows::{
     Bias, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, DirectionalLight, FlatLight,
-    MapKind, PcfDescriptor, PcfSampler, ShadowFrame, ShadowMap, ShadowMapDescriptor, View, glam,
-    wgpu,
+    MapKind, PcfDescriptor, PcfSampler, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, View,
+    glam, wgpu,
 };
 
 fn sun() -> FlatLight {
@@ -44,6 +44,22 @@ fn sizes_and_biases_out_of_range_are_refused() {
         value: -1.0,
     };
     assert_eq!(new(&descriptor).unwrap_err(), ShadowMapError::Bias(field));
+}
+
+#[test]
+fn a_reach_out_of_range_is_refused() {
+    for reach in [
+        Radius::Texels(0.0),
+        Radius::Texels(65.0),
+        Radius::World(-1.0),
+        Radius::World(f32::INFINITY),
+    ] {
+        let descriptor = ShadowMapDescriptor {
+            reach,
+            ..Default::default()
+        };
+        assert_eq!(new(&descriptor).unwrap_err(), ShadowMapError::Reach(reach));
+    }
 }
 
 #[test]

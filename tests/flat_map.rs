@@ -8,13 +8,13 @@ mod receivers;
 
 use common::rays::Triangles;
 use common::shapes::{Random, cuboid, square};
-use glam::{Affine3A, DVec3, Mat4, Vec3, camera::rh};
+use glam::{Affine3A, DVec3, Mat4, Vec3, Vec3Swizzles as _, camera::rh};
 use host::gpu::Gpu;
 use receivers::{ask_changed, visibility};
 use shadows::{
     AnyMap, Bias, Caster, CasterSides, DepthConvention, DirectionalLight, FlatLight, Kernel,
     MapKind, PcfDescriptor, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, View,
-    glam,
+    VogelDisk, glam,
 };
 
 fn spot(position: Vec3, direction: Vec3, half_angle: f32, scale: f32) -> FlatLight {
@@ -350,6 +350,48 @@ fn the_map_covers_no_more_than_casts_receives_and_is_seen() {
     assert!((8.0..13.0).contains(&all), "{all}");
     assert!(near < 0.6 * all, "{near} of {all}");
     assert!((1.0..1.25).contains(&few), "{few}");
+}
+
+#[test]
+fn a_fitted_map_reaches_as_far_as_its_kernels() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Under a roof there is no light, wherever a tap falls.
+    let casters = [square(30.0).caster(&gpu.device, Affine3A::from_translation(Vec3::Y * 4.0))];
+    let frame = ShadowFrame {
+        receivers: Some(shadows::mesh::Bounds {
+            min: Vec3::new(-1.0, 0.0, -1.0),
+            max: Vec3::new(1.0, 0.1, 1.0),
+        }),
+        ..ShadowFrame::new(sun(Vec3::Y), &casters)
+    };
+    let mut random = Random::new(3);
+    let points: Vec<_> = (0..500)
+        .map(|i| {
+            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            let (edge, along) = (Vec3::X * side, random.next());
+            let (edge, along) = if i % 4 < 2 {
+                (edge, Vec3::Z * along)
+            } else {
+                (edge.zyx(), Vec3::X * along)
+            };
+            (edge + along, Vec3::Y)
+        })
+        .collect();
+    for radius in [Radius::Texels(40.0), Radius::World(0.6)] {
+        let kernel = Kernel::Vogel(VogelDisk { radius, taps: 64 });
+        let lit = |reach| {
+            let descriptor = ShadowMapDescriptor {
+                reach,
+                ..of_size(256, Bias::default())
+            };
+            let map = drawn(&gpu, &descriptor, &frame);
+            let seen = visibility(&gpu, &map, kernel, &points);
+            seen.into_iter().filter(|&lit| lit > 0.0).count()
+        };
+        assert_eq!(lit(kernel.radius()), 0, "{radius:?}");
+        // The broken twin: the reach of narrower kernels.
+        assert!(lit(Radius::Texels(8.0)) > 400, "{radius:?}");
+    }
 }
 
 #[test]

@@ -252,8 +252,8 @@ fn vogel(yard: &Yard, i: usize, point: DVec2, taps: u32, radius: f64) -> f64 {
         let tap = f64::from(tap);
         let offset = DVec2::from_angle(tap * golden) * ((tap + 0.5) / f64::from(taps)).sqrt();
         let offset = turn.rotate(offset) * radius;
-        // The disk's axes on the ground: first +z, then -x.
-        yard.lit(point + DVec2::new(-offset.y, offset.x))
+        // The disk's axes on the ground: first -z, then -x.
+        yard.lit(point - DVec2::new(offset.y, offset.x))
     });
     lit.sum::<f64>() / f64::from(taps)
 }

@@ -1,36 +1,12 @@
 //! The receiver's WGSL: valid in every configuration, free of bindings, free of other kernels.
 
 mod common;
+#[path = "common/pcf.rs"]
+mod pcf;
 
 use common::{noop, noop_with, to_glsl, validate, validation_error};
+use pcf::{descriptors, host, made, validate_arrays};
 use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
-
-fn made(device: &wgpu::Device, queue: &wgpu::Queue, descriptor: &PcfDescriptor<'_>) -> PcfSampler {
-    PcfSampler::new(device, queue, descriptor).unwrap()
-}
-
-/// All that a sampler can be made for.
-fn descriptors() -> Vec<PcfDescriptor<'static>> {
-    let mut all = Vec::new();
-    for kernel in Kernel::ALL {
-        for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
-            for many_lights in [false, true] {
-                all.push(PcfDescriptor {
-                    kernel,
-                    encoding,
-                    many_lights,
-                    ..Default::default()
-                });
-            }
-        }
-        all.push(PcfDescriptor {
-            kernel,
-            map: MapKind::Flat,
-            ..Default::default()
-        });
-    }
-    all
-}
 
 /// The samplers of all configurations, on devices without any feature and with borders.
 fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
@@ -48,28 +24,6 @@ fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
                 .collect::<Vec<_>>()
         })
         .collect()
-}
-
-/// A fragment shader that asks for the visibility at its position.
-fn host(descriptor: &PcfDescriptor<'_>) -> String {
-    let pixel = if descriptor.kernel.uses_pixel() {
-        ", pixel.xy"
-    } else {
-        ""
-    };
-    let light = if descriptor.many_lights { "3u, " } else { "" };
-    let name = match descriptor.map {
-        MapKind::Flat => "shadows_flat_visibility",
-        _ => "shadows_visibility",
-    };
-    format!(
-        "
-@fragment
-fn host(@builtin(position) pixel: vec4f, @location(0) position: vec3f) -> @location(0) vec4f {{
-    return vec4f({name}({light}position{pixel}));
-}}
-"
-    )
 }
 
 const VERTEX: &str = "
@@ -159,19 +113,92 @@ fn a_kernel_carries_no_code_of_another() {
     }
 }
 
-#[test]
-fn no_tap_loop_holds_a_transcendental_function() {
-    for (_, sampler) in samplers() {
-        let text = sampler.wgsl();
-        // From each loop's head to the end of its function.
-        for start in text.match_indices("for (").map(|(at, _)| at) {
-            let rest = &text[start..];
-            let body = &rest[..rest.find("\n}").unwrap()];
-            for name in [
-                "sin(", "cos(", "tan(", "exp(", "log(", "pow(", "sqrt(", "atan",
-            ] {
-                assert!(!body.contains(name), "{name} in {body}");
+/// The functions called in a block, and the expressions computed there; in its loops alone if
+/// `in_loop` is false on entry.
+fn taps(
+    block: &naga::Block,
+    in_loop: bool,
+    calls: &mut Vec<naga::Handle<naga::Function>>,
+    values: &mut Vec<naga::Handle<naga::Expression>>,
+) {
+    use naga::Statement as S;
+    for statement in block {
+        match statement {
+            S::Loop {
+                body, continuing, ..
+            } => {
+                taps(body, true, calls, values);
+                taps(continuing, true, calls, values);
             }
+            S::Block(inner) => taps(inner, in_loop, calls, values),
+            S::If { accept, reject, .. } => {
+                taps(accept, in_loop, calls, values);
+                taps(reject, in_loop, calls, values);
+            }
+            S::Call { function, .. } if in_loop => calls.push(*function),
+            S::Emit(range) if in_loop => values.extend(range.clone()),
+            _ => {}
+        }
+    }
+}
+
+/// Transcendental functions that run once a tap: in loops, and in what loops call.
+fn transcendental_taps(module: &naga::Module) -> Vec<naga::MathFunction> {
+    use naga::MathFunction as M;
+    let mut found = Vec::new();
+    let mut waiting: Vec<_> = module.functions.iter().map(|(f, _)| (f, false)).collect();
+    let mut seen = std::collections::HashSet::new();
+    while let Some((handle, in_loop)) = waiting.pop() {
+        if !seen.insert((handle, in_loop)) {
+            continue;
+        }
+        let function = &module.functions[handle];
+        let (mut calls, mut values) = (Vec::new(), Vec::new());
+        taps(&function.body, in_loop, &mut calls, &mut values);
+        waiting.extend(calls.into_iter().map(|call| (call, true)));
+        found.extend(
+            values
+                .into_iter()
+                .filter_map(|value| match function.expressions[value] {
+                    naga::Expression::Math { fun, .. } => Some(fun),
+                    _ => None,
+                }),
+        );
+    }
+    found.retain(|fun| {
+        matches!(
+            fun,
+            M::Sin
+                | M::Cos
+                | M::Tan
+                | M::Asin
+                | M::Acos
+                | M::Atan
+                | M::Atan2
+                | M::Sinh
+                | M::Cosh
+                | M::Tanh
+                | M::Exp
+                | M::Exp2
+                | M::Log
+                | M::Log2
+                | M::Pow
+        )
+    });
+    found
+}
+
+#[test]
+fn no_tap_loop_runs_a_transcendental_function() {
+    for (descriptor, sampler) in samplers() {
+        let text = sampler.wgsl();
+        let module = validate_arrays(&text).unwrap();
+        assert_eq!(transcendental_taps(&module), [], "{descriptor:?}");
+        // The broken twin: one in the function that every tap of a disk calls.
+        if descriptor.kernel.uses_pixel() {
+            let worse = text.replace("offset.x * disk.across", "cos(offset.x) * disk.across");
+            let module = validate_arrays(&worse).unwrap();
+            assert!(!transcendental_taps(&module).is_empty());
         }
     }
 }
@@ -263,16 +290,6 @@ fn ways() -> Vec<PcfDescriptor<'static>> {
         }
     }
     ways
-}
-
-/// Parses and validates WGSL as a device with cube arrays would.
-fn validate_arrays(wgsl: &str) -> Result<naga::Module, String> {
-    use naga::valid::{Capabilities, ValidationFlags, Validator};
-    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
-        .validate(&module)
-        .map_err(|e| e.emit_to_string(wgsl))?;
-    Ok(module)
 }
 
 #[test]

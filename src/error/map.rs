@@ -124,6 +124,9 @@ pub enum ShadowMapError {
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
     /// The distance up to which a view shows shadows is out of range.
     #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
     Distance(f32),

@@ -13,9 +13,9 @@ use super::flat_descriptor::{
 use super::flat_frame::{Fit, FlatFrame, fit};
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
-use crate::Bias;
 use crate::error::ShadowMapError;
 use crate::mesh::Caster;
+use crate::{Bias, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
 /// over because rows of a texture count down, and z left as it is because WebGPU's clip space has
@@ -45,6 +45,7 @@ pub fn texture_from_clip() -> Mat4 {
 pub struct ShadowMap {
     size: u32,
     bias: Bias,
+    reach: Radius,
     label: String,
     cache: bool,
     texture: wgpu::Texture,
@@ -116,6 +117,7 @@ impl ShadowMap {
         Ok(Self {
             size,
             bias,
+            reach: descriptor.reach,
             cache: descriptor.cache,
             view: texture.create_view(&wgpu::TextureViewDescriptor {
                 label: Some(&label),
@@ -268,6 +270,7 @@ impl ShadowMap {
                         view: frame.view,
                         receivers: frame.receivers,
                         size: self.size,
+                        reach: self.reach,
                         unclipped_depth: self.kind.unclipped_depth,
                         last_width: self.width,
                     },

@@ -4,7 +4,7 @@ use super::descriptor::CasterSides;
 use super::flat_frame::FlatFrame;
 use crate::error::ShadowMapError;
 use crate::mesh::{Bounds, Caster};
-use crate::{Bias, DirectionalLight, SpotLight, View};
+use crate::{Bias, DirectionalLight, Radius, SpotLight, View};
 
 /// How to make a [`ShadowMap`](crate::ShadowMap).
 #[derive(Clone, Debug)]
@@ -25,6 +25,11 @@ pub struct ShadowMapDescriptor<'a> {
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
     /// than its `near`.
     pub unclipped_depth: bool,
+    /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
+    /// that reads the map. A directional light's map is fitted that much wider than what is seen and
+    /// receives, so that no tap there falls beside it, where all is lit. Default 8 texels. Greater
+    /// than 0, at most 64 texels; of texels, no more than a quarter of the map on either side.
+    pub reach: Radius,
     /// Whether a map whose content has not changed is left alone. Default true; false draws every
     /// frame, for measuring what that is worth.
     pub cache: bool,
@@ -35,6 +40,9 @@ impl ShadowMapDescriptor<'_> {
         let (size, limit) = (self.size, device.limits().max_texture_dimension_2d);
         if size == 0 || size > limit {
             return Err(ShadowMapError::Size { size, limit });
+        }
+        if !self.reach.is_in_range() {
+            return Err(ShadowMapError::Reach(self.reach));
         }
         Ok(self.bias.validate()?)
     }
@@ -48,6 +56,7 @@ impl Default for ShadowMapDescriptor<'_> {
             bias: Bias::default(),
             sides: CasterSides::default(),
             unclipped_depth: true,
+            reach: Radius::Texels(8.0),
             cache: true,
         }
     }

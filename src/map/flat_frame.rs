@@ -4,7 +4,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec3, Vec4Swizzles};
 
 use super::scene::Record;
 use crate::mesh::Bounds;
-use crate::{DirectionalLight, SpotLight, View};
+use crate::{DirectionalLight, Radius, SpotLight, View};
 
 /// The frame of a map: origin and axes in world space, rounded to what shaders get.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,12 +88,17 @@ impl FlatFrame {
     }
 }
 
+/// No tap takes a receiver's plane for nearer to a directional light than the receiver by more widths
+/// of the map: `bound` in flat_receiver.wgsl.
+const BOUND_WIDTHS: f64 = 16.0;
+
 /// What a directional light's map is fitted to.
 pub(super) struct Fit<'a> {
     pub light: &'a DirectionalLight,
     pub view: Option<(&'a View, f32)>,
     pub receivers: Option<Bounds>,
     pub size: u32,
+    pub reach: Radius,
     pub unclipped_depth: bool,
     /// Width of the last frame's map.
     pub last_width: Option<f64>,
@@ -141,19 +146,20 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
         .view
         .map(|(view, distance)| frustum(view, f64::from(distance)));
     let received = fit.receivers.map(|bounds| corners(&bounds));
+    let (reach_texels, reach_world) = fit.reach.texels_and_world();
     for points in [seen, received].into_iter().flatten() {
         let bounds = LightBox::of(points.into_iter().map(local))?;
-        across.min = across.min.max(bounds.min);
-        across.max = across.max.min(bounds.max);
+        across.min = across.min.max(bounds.min - f64::from(reach_world));
+        across.max = across.max.min(bounds.max + f64::from(reach_world));
         nearest_receiver = nearest_receiver.max(bounds.min.z);
     }
     let extent = (across.max - across.min).truncate();
     if extent.min_element() < 0.0 {
         return None;
     }
-    // A texel for the snap on either side, and eight for kernels at the edge.
-    let slack = 1.0 + 18.0 / f64::from(fit.size);
-    let need = extent.max_element().max(f64::MIN_POSITIVE) * slack;
+    // Texels on either side: one for the snap and the tap's own texel, and what kernels reach.
+    let share = 2.0 * (f64::from(reach_texels) + 1.0) / f64::from(fit.size);
+    let need = extent.max_element().max(f64::MIN_POSITIVE) / (1.0 - share.min(0.5));
     let step = (need.log2() * 4.0).ceil() / 4.0;
     let width = match fit.last_width {
         Some(last) if last >= need && last <= (step + 0.26).exp2() => last,
@@ -162,10 +168,14 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
     let texel = width / f64::from(fit.size);
     let middle = (across.min + across.max).truncate() * 0.5;
     let centre: DVec2 = (middle / texel).round() * texel;
-    // Casters before every receiver are pulled onto the near plane where the device can.
+    // Casters so far before every receiver that no tap takes a receiver's plane for as near are pulled
+    // onto the near plane where the device can: there they are before every plane still.
     let margin = 2.0 * texel;
     let near = match fit.unclipped_depth {
-        true => casters.min.z.max(nearest_receiver.min(casters.max.z)),
+        true => casters
+            .min
+            .z
+            .max((nearest_receiver - BOUND_WIDTHS * width).min(casters.max.z)),
         false => casters.min.z,
     } - margin;
     let [right, up, forward] = basis;

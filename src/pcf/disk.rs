@@ -18,19 +18,22 @@ impl Radius {
     /// The widest radius in texels.
     pub const MAX_TEXELS: f32 = 64.0;
 
-    fn validate(self) -> Result<(), PcfError> {
+    pub(crate) fn is_in_range(self) -> bool {
         let (value, limit) = match self {
             Self::Texels(value) => (value, Self::MAX_TEXELS),
             Self::World(value) => (value, f32::MAX),
         };
-        if value > 0.0 && value <= limit {
-            Ok(())
-        } else {
-            Err(PcfError::Radius { radius: self })
+        value > 0.0 && value <= limit
+    }
+
+    fn validate(self) -> Result<(), PcfError> {
+        match self.is_in_range() {
+            true => Ok(()),
+            false => Err(PcfError::Radius { radius: self }),
         }
     }
 
-    fn texels_and_world(self) -> (f32, f32) {
+    pub(crate) fn texels_and_world(self) -> (f32, f32) {
         match self {
             Self::Texels(value) => (value, 0.0),
             Self::World(value) => (0.0, value),

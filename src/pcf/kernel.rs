@@ -1,7 +1,7 @@
 //! The kernels, and the WGSL that each of them needs.
 
 use super::disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
-use super::map_kind::MapWgsl;
+use super::weights::Weights;
 use crate::error::PcfError;
 
 /// Which texels of the map a receiver looks at, and with what weights.
@@ -9,10 +9,13 @@ use crate::error::PcfError;
 /// Whatever the kernel, every texel is compared with the depth of the receiver's own plane in that
 /// texel's direction, so wide kernels and face edges need no more bias than narrow ones. Near the
 /// plane's horizon as the light sees it that depth grows without bound: no tap takes the plane for
-/// nearer to the light than a thirty-second of the receiver's own distance (for a directional light:
-/// nearer than the receiver by more than half the map's width), so what casts from nearer casts at
-/// any grazing angle; and a texel beyond the horizon is replaced by its mirror image at the
-/// receiver.
+/// nearer to the light than a thirty-second of the receiver's own distance along the axis of the face
+/// (for a directional light: nearer than the receiver by more than sixteen times the map's width), so
+/// what casts from nearer casts at any grazing angle; and a texel beyond the horizon is replaced by
+/// its mirror image at the receiver. What is farther from the light than that is missed only where
+/// the plane itself comes as near: for a kernel of `k` texels on a face of `n`, where the light falls
+/// in at less than `2 k / (31 n)` (for the widest square, 0.015 degrees at 1024 texels). A receiver whose
+/// plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
 ///
 /// The first six are squares of texels. The last three are disks in the receiver's tangent plane,
 /// turned or jittered from pixel to pixel: they need the pixel's coordinates
@@ -116,51 +119,18 @@ impl Kernel {
         }
     }
 
-    /// The WGSL it is made of, and no other kernel's.
-    ///
-    /// It is written for one cube map; see `MapWgsl::adapt` for other maps.
-    pub(super) fn wgsl(self, own: &MapWgsl) -> String {
-        let texel = [own.receiver, own.depth, own.fetch, own.texel, TEXEL];
-        let quad = [
-            own.receiver,
-            own.depth,
-            own.fetch,
-            own.texel,
-            TEXEL,
-            own.gather,
-            own.four,
-            QUAD,
-        ];
-        let disk = [own.receiver, own.depth, own.fetch, own.tap, DISK];
-        let (base, last): (&[&str], &[&str]) = match self {
-            Self::Hard => (&texel, &[HARD]),
-            Self::Bilinear => (&quad, &[BILINEAR]),
-            Self::FourTaps => (&quad, &[FOUR_TAPS]),
-            Self::Weighted3 => (&quad, &[WEIGHTED, WEIGHTED_3]),
-            Self::Weighted5 => (&quad, &[WEIGHTED, WEIGHTED_5]),
-            Self::Weighted7 => (&quad, &[WEIGHTED, WEIGHTED_7]),
-            Self::RandomDisk(_) => (&disk, &[RANDOM_DISK]),
-            Self::Vogel(_) => (&disk, &[NOISE, VOGEL]),
-            Self::ContactHardening(_) => (&disk, &[NOISE, CONTACT]),
-        };
-        [base, last].concat().join("\n")
+    /// Its weights, if it is a square of texels with any.
+    pub(super) fn weights(self) -> Option<Weights> {
+        match self {
+            Self::Bilinear => Some(Weights::BILINEAR),
+            Self::FourTaps => Some(Weights::FOUR_TAPS),
+            Self::Weighted3 => Some(Weights::WEIGHTED_3),
+            Self::Weighted5 => Some(Weights::WEIGHTED_5),
+            Self::Weighted7 => Some(Weights::WEIGHTED_7),
+            _ => None,
+        }
     }
 }
-
-const HARD: &str = include_str!("../../shaders/pcf_hard.wgsl");
-const BILINEAR: &str = include_str!("../../shaders/pcf_bilinear.wgsl");
-const FOUR_TAPS: &str = include_str!("../../shaders/pcf_four_taps.wgsl");
-const WEIGHTED_3: &str = include_str!("../../shaders/pcf_weighted_3.wgsl");
-const WEIGHTED_5: &str = include_str!("../../shaders/pcf_weighted_5.wgsl");
-const WEIGHTED_7: &str = include_str!("../../shaders/pcf_weighted_7.wgsl");
-const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
-const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
-const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
-const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
-const QUAD: &str = include_str!("../../shaders/pcf_quad.wgsl");
-const WEIGHTED: &str = include_str!("../../shaders/pcf_weighted.wgsl");
-const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
-const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
 
 /// Parameters of a kernel; `ShadowsCubeKernel` in WGSL.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
@@ -180,20 +150,15 @@ pub(super) const MAX_TAPS: u32 = 64;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pcf::map_kind::Reads;
     use crate::wgsl_layout::assert_layout;
-    use crate::{DepthEncoding, MapKind};
 
     #[test]
     fn the_parameters_lie_in_memory_as_wgsl_has_them() {
-        let text = Kernel::Vogel(VogelDisk::default()).wgsl(&MapWgsl::new(Reads {
-            map: MapKind::Cube,
-            encoding: DepthEncoding::MajorAxis,
-            many_lights: false,
-            border: false,
-        }));
+        // Up to the functions, which need other files.
+        let text = include_str!("../../shaders/pcf_disk.wgsl");
+        let (parameters, _) = text.split_once("// The disk's axes").unwrap();
         assert_layout!(
-            text,
+            parameters,
             "ShadowsCubeKernel",
             KernelUniform,
             radius_texels,

@@ -117,6 +117,11 @@ impl MapWgsl {
         }
     }
 
+    /// Whether the map is an array with a cube for each light.
+    pub fn many_lights(&self) -> bool {
+        self.reads.many_lights
+    }
+
     /// Kernels are written for one cube map, and are WGSL as they stand. On other maps they differ
     /// in the texture's type, and on flat ones in the names.
     pub fn adapt(&self, wgsl: &str) -> String {

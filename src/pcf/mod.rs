@@ -5,6 +5,8 @@ mod kernel;
 mod map_kind;
 mod offsets;
 mod sampler;
+mod text;
+mod weights;
 
 pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 pub use kernel::Kernel;

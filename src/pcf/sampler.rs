@@ -4,7 +4,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::kernel::KernelUniform;
 use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, Kernel, MapKind, offsets};
+use super::{AnyMap, Kernel, MapKind, offsets, text};
 use crate::error::PcfError;
 use crate::map::{FlatLightUniform, LightUniform};
 use crate::{CubeShadowMap, DepthEncoding};
@@ -145,9 +145,10 @@ impl PcfSampler {
     }
 
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
-    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering), 2 the light (uniform buffer of 48
-    /// bytes, for flat maps 80; with `many_lights` a read-only storage buffer of all lights); for disks also 3, the
-    /// kernel's parameters (uniform buffer of 24 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
+    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering),
+    /// 2 the light (uniform buffer of 48 bytes, for flat maps 80; with `many_lights` a read-only
+    /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
+    /// 24 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -248,16 +249,16 @@ impl PcfSampler {
     /// ```
     ///
     /// For flat maps `flat` takes the place of `cube` in all names, and the map is a
-    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` and `offsets: texture_3d<f32>` after the light and `pixel: vec2f`, the pixel's coordinates, as the last.
+    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` and `offsets: texture_3d<f32>` after
+    /// the light and `pixel: vec2f`, the pixel's coordinates, as the last.
     ///
     /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
     pub fn wgsl(&self) -> String {
         let own = MapWgsl::new(self.reads);
-        let text = match self.textbook {
-            true => [own.receiver, own.fetch, TEXTBOOK].join("\n"),
-            false => self.kernel.wgsl(&own),
-        };
-        own.adapt(&text)
+        match self.textbook {
+            true => text::textbook(&own),
+            false => text::functions(self.kernel, &own),
+        }
     }
 
     /// WGSL with the bindings of one group declared, to paste into a host's shader:
@@ -278,55 +279,8 @@ impl PcfSampler {
     /// `shadows_flat_visibility_flat`, so that a shader may hold a cube sampler's module and a flat
     /// one's.
     pub fn wgsl_module(&self, group: u32) -> String {
-        let (lights, index, light) = match self.reads.many_lights {
-            false => ("uniform> shadows_light: ShadowsCubeLight", "", ""),
-            true => (
-                "storage, read> shadows_light: array<ShadowsCubeLight>",
-                "light: u32, ",
-                "light, ",
-            ),
-        };
-        let element = if self.reads.many_lights {
-            "[light]"
-        } else {
-            ""
-        };
-        let mut bindings = String::new();
-        let mut arguments = format!("shadows_map, shadows_map_sampler, shadows_light{element}");
-        let (mut parameter, mut pixel) = ("", "");
-        if self.takes_pixel() {
-            bindings += &format!(
-                "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsCubeKernel;\n"
-            );
-            arguments += ", shadows_kernel";
-            (parameter, pixel) = (", pixel: vec2f", ", pixel");
-            if self.offsets.is_some() {
-                bindings +=
-                    &format!("@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;\n");
-                arguments += ", shadows_offsets";
-            }
-        }
-        let function = match self.textbook {
-            true => "shadows_cube_textbook",
-            false => self.kernel.function(),
-        };
-        let module = format!(
-            "
-@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
-@group({group}) @binding(1) var shadows_map_sampler: sampler;
-@group({group}) @binding(2) var<{lights};
-{bindings}
-fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{
-    return {function}({arguments}, position, normal{pixel});
-}}
-
-fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
-    let normal = cross(dpdx(position), dpdy(position));
-    return shadows_visibility_flat({light}position, normal{pixel});
-}}
-"
-        );
-        self.wgsl() + &MapWgsl::new(self.reads).adapt_module(&module)
+        let kernel = (!self.textbook).then_some(self.kernel);
+        self.wgsl() + &text::bindings(kernel, &MapWgsl::new(self.reads), group)
     }
 
     /// Whether the functions of [`wgsl_module`](Self::wgsl_module) take the pixel's coordinates:
@@ -335,8 +289,6 @@ fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
         self.kernel.uses_pixel() && !self.textbook
     }
 }
-
-const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
 
 /// The texture of a disk's offsets; nothing for other kernels.
 fn create_offsets(

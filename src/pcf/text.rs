@@ -1,0 +1,151 @@
+//! The WGSL of a kernel on a kind of map: the files that it takes, and the function that hosts call.
+
+use super::Kernel;
+use super::map_kind::MapWgsl;
+
+const HARD: &str = include_str!("../../shaders/pcf_hard.wgsl");
+const SQUARE: &str = include_str!("../../shaders/pcf_square.wgsl");
+const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
+const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
+const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
+const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
+const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
+const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
+const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
+
+/// Name of the textbook's function.
+const TEXTBOOK_FUNCTION: &str = "shadows_cube_textbook";
+
+/// What a kernel's functions take besides map, light, position and normal: for disks the
+/// parameters, the offsets and the pixel.
+struct Extra {
+    parameters: &'static str,
+    arguments: &'static str,
+    pixel_parameter: &'static str,
+    pixel: &'static str,
+}
+
+impl Extra {
+    fn of(takes_pixel: bool) -> Self {
+        match takes_pixel {
+            false => Self {
+                parameters: "",
+                arguments: "",
+                pixel_parameter: "",
+                pixel: "",
+            },
+            true => Self {
+                parameters: "\n    kernel: ShadowsCubeKernel,\n    offsets: texture_3d<f32>,",
+                arguments: ", kernel, offsets",
+                pixel_parameter: ", pixel: vec2f",
+                pixel: ", pixel",
+            },
+        }
+    }
+}
+
+/// The functions of a kernel, and no other's.
+pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
+    let (weights, last) = match kernel {
+        Kernel::Hard => (None, vec![HARD]),
+        Kernel::RandomDisk(_) => (None, vec![DISK, RANDOM_DISK]),
+        Kernel::Vogel(_) => (None, vec![DISK, NOISE, VOGEL]),
+        Kernel::ContactHardening(_) => (None, vec![DISK, NOISE, CONTACT]),
+        _ => (kernel.weights(), vec![SQUARE]),
+    };
+    let map: &[&str] = match (kernel.uses_pixel(), &weights) {
+        (true, _) => &[own.tap],
+        (false, None) => &[own.texel, TEXEL],
+        (false, Some(_)) => &[own.texel, TEXEL, own.gather, own.four],
+    };
+    let weights = weights.map(|weights| weights.wgsl());
+    let entry = entry(kernel);
+    let text = [own.receiver, own.depth, own.fetch]
+        .into_iter()
+        .chain(map.iter().copied())
+        .chain(weights.as_deref())
+        .chain(last)
+        .chain([&entry[..]])
+        .collect::<Vec<_>>()
+        .join("\n");
+    own.adapt(&text)
+}
+
+/// The textbook's receiver.
+pub(super) fn textbook(own: &MapWgsl) -> String {
+    own.adapt(&[own.receiver, own.fetch, TEXTBOOK].join("\n"))
+}
+
+/// The function that hosts call: what every kernel does before its first tap.
+fn entry(kernel: Kernel) -> String {
+    let function = kernel.function();
+    let Extra {
+        parameters,
+        arguments,
+        pixel_parameter,
+        pixel,
+    } = Extra::of(kernel.uses_pixel());
+    format!(
+        "
+fn {function}(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    light: ShadowsCubeLight,{parameters}
+    position: vec3f,
+    normal: vec3f{pixel_parameter}
+) -> f32 {{
+    let receiver = shadows_cube_receiver(light, position, normal);
+    if receiver.known >= 0.0 {{
+        return receiver.known;
+    }}
+    return shadows_cube_filter(map, map_sampler, receiver, light.size{arguments}{pixel});
+}}
+"
+    )
+}
+
+/// The bindings of one group, and functions that read them.
+pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> String {
+    let function = kernel.map_or(TEXTBOOK_FUNCTION, Kernel::function);
+    let (lights, index, light, element) = match own.many_lights() {
+        false => ("uniform> shadows_light: ShadowsCubeLight", "", "", ""),
+        true => (
+            "storage, read> shadows_light: array<ShadowsCubeLight>",
+            "light: u32, ",
+            "light, ",
+            "[light]",
+        ),
+    };
+    let takes_pixel = kernel.is_some_and(Kernel::uses_pixel);
+    let extra = Extra::of(takes_pixel);
+    let (parameter, pixel) = (extra.pixel_parameter, extra.pixel);
+    let (disk_bindings, disk) = match takes_pixel {
+        false => (String::new(), ""),
+        true => (
+            format!(
+                "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsCubeKernel;
+@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;
+"
+            ),
+            ", shadows_kernel, shadows_offsets",
+        ),
+    };
+    own.adapt_module(&format!(
+        "
+@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
+@group({group}) @binding(1) var shadows_map_sampler: sampler;
+@group({group}) @binding(2) var<{lights};
+{disk_bindings}
+fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{
+    return {function}(
+        shadows_map, shadows_map_sampler, shadows_light{element}{disk}, position, normal{pixel}
+    );
+}}
+
+fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
+    let normal = cross(dpdx(position), dpdy(position));
+    return shadows_visibility_flat({light}position, normal{pixel});
+}}
+"
+    ))
+}

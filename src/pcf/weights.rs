@@ -1,0 +1,66 @@
+//! Weights of the square kernels.
+
+/// Weights of pairs of texels along an axis, linear in the place `s` between texels: for each pair,
+/// constants and factors of `s` for its first and its second texel. Their scale does not matter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights {
+    pairs: usize,
+    first: [f32; 4],
+    first_s: [f32; 4],
+    second: [f32; 4],
+    second_s: [f32; 4],
+}
+
+impl Weights {
+    /// One tap.
+    pub const BILINEAR: Self = Self {
+        pairs: 1,
+        first: [1.0, 0.0, 0.0, 0.0],
+        first_s: [-1.0, 0.0, 0.0, 0.0],
+        second: [0.0; 4],
+        second_s: [1.0, 0.0, 0.0, 0.0],
+    };
+    /// Four taps, one texel away on the diagonals.
+    pub const FOUR_TAPS: Self = Self {
+        pairs: 2,
+        first: [1.0, 1.0, 0.0, 0.0],
+        first_s: [-1.0, -1.0, 0.0, 0.0],
+        second: [0.0; 4],
+        second_s: [1.0, 1.0, 0.0, 0.0],
+    };
+    // What the published taps come to texel by texel (Castano 2013).
+    pub const WEIGHTED_3: Self = Self {
+        pairs: 2,
+        first: [1.0, 1.0, 0.0, 0.0],
+        first_s: [-1.0, 1.0, 0.0, 0.0],
+        second: [2.0, 0.0, 0.0, 0.0],
+        second_s: [-1.0, 1.0, 0.0, 0.0],
+    };
+    pub const WEIGHTED_5: Self = Self {
+        pairs: 3,
+        first: [1.0, 4.0, 1.0, 0.0],
+        first_s: [-1.0, -1.0, 2.0, 0.0],
+        second: [3.0, 3.0, 0.0, 0.0],
+        second_s: [-2.0, 1.0, 1.0, 0.0],
+    };
+    pub const WEIGHTED_7: Self = Self {
+        pairs: 4,
+        first: [1.0, 12.0, 12.0, 1.0],
+        first_s: [-1.0, -7.0, 4.0, 4.0],
+        second: [5.0, 16.0, 5.0, 0.0],
+        second_s: [-4.0, -4.0, 7.0, 1.0],
+    };
+
+    /// Constants for `pcf_square.wgsl`.
+    pub fn wgsl(&self) -> String {
+        let vector = |name, values: &[f32; 4]| {
+            let [a, b, c, d] = values;
+            format!("const shadows_cube_{name} = vec4f({a:?}, {b:?}, {c:?}, {d:?});\n")
+        };
+        format!("const shadows_cube_pairs = {};\n", self.pairs)
+            + &vector("first", &self.first)
+            + &vector("first_s", &self.first_s)
+            + &vector("second", &self.second)
+            + &vector("second_s", &self.second_s)
+    }
+}

@@ -1,0 +1,169 @@
+//! How near to the light a tap takes a receiver's plane for, at grazing angles: no nearer than stated.
+
+mod common;
+#[path = "../examples/host/mod.rs"]
+mod host;
+#[path = "common/receivers.rs"]
+mod receivers;
+
+use common::shapes::{Random, cuboid, square};
+use glam::{Affine3A, Vec3};
+use host::gpu::Gpu;
+use receivers::ask_changed;
+use shadows::{
+    AnyMap, Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
+    FlatLight, Kernel, PcfDescriptor, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    SpotLight, glam,
+};
+
+const SIZE: u32 = 256;
+/// Heights of the light above the plane y = 0, for receivers at distance 1.
+const HEIGHTS: [f32; 3] = [1e-3, 1e-4, 1e-6];
+
+/// Points of the plane y = 0 at distance 1 from the origin, up to an angle from the x axis.
+fn points(angle: f32) -> Vec<(Vec3, Vec3)> {
+    let mut random = Random::new(9);
+    (0..600)
+        .map(|_| angle * random.next())
+        .map(|angle| (Vec3::new(angle.cos(), 0.0, angle.sin()), Vec3::Y))
+        .collect()
+}
+
+/// How many points are lit, with the bound and with a bound that bounds nothing.
+fn lit(gpu: &Gpu, map: AnyMap<'_>, kernel: Kernel, points: &[(Vec3, Vec3)]) -> [usize; 2] {
+    let descriptor = PcfDescriptor {
+        kernel,
+        map: map.kind(),
+        ..Default::default()
+    };
+    [false, true].map(|broken| {
+        let seen = ask_changed(gpu, map, &descriptor, 0, points, |module| match broken {
+            false => module,
+            true => {
+                let far = module
+                    .replace("0.0, receiver.bound)", "0.0, 3e38)")
+                    .replace("vec4f(receiver.bound)", "vec4f(3e38)");
+                assert_ne!(far, module);
+                far
+            }
+        });
+        seen.into_iter().filter(|&lit| lit > 0.0).count()
+    })
+}
+
+/// A box around a light, whose sides are so far away.
+fn around(gpu: &Gpu, light: Vec3, half: f32) -> [Caster; 1] {
+    [cuboid(Vec3::splat(half)).caster(&gpu.device, Affine3A::from_translation(light))]
+}
+
+fn cube(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> CubeShadowMap {
+    let descriptor = CubeShadowMapDescriptor {
+        size: SIZE,
+        bias: Bias::NONE,
+        ..Default::default()
+    };
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
+    let frame = CubeFrame {
+        lights: &[PointLight::new(light, 0.002, 10.0)],
+        casters,
+        ..Default::default()
+    };
+    map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    gpu.run(|encoder| map.encode(encoder));
+    map
+}
+
+fn flat(gpu: &Gpu, frame: &ShadowFrame<'_>) -> ShadowMap {
+    let descriptor = ShadowMapDescriptor {
+        size: SIZE,
+        bias: Bias::NONE,
+        ..Default::default()
+    };
+    let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();
+    map.prepare(&gpu.device, &gpu.queue, frame).unwrap();
+    gpu.run(|encoder| map.encode(encoder));
+    map
+}
+
+fn spot(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> ShadowMap {
+    let light = FlatLight::Spot(SpotLight {
+        position: light,
+        direction: Vec3::X,
+        half_angle: 0.7,
+        near: 0.002,
+        range: 10.0,
+    });
+    flat(gpu, &ShadowFrame::new(light, casters))
+}
+
+#[test]
+fn what_is_nearer_than_a_thirty_second_of_the_distance_casts_at_any_angle() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (all_round, before) = (points(3.0), points(0.3));
+    let (mut unbounded, mut farther) = ([0; 2], [0; 2]);
+    for height in HEIGHTS {
+        let light = Vec3::Y * height;
+        // The receivers' distance along an axis is at least 0.7: a thirty-second of that is 0.022.
+        let near = around(&gpu, light, 0.02);
+        let (cube_near, spot_near) = (cube(&gpu, light, &near), spot(&gpu, light, &near));
+        let far = around(&gpu, light, 0.1);
+        let (cube_far, spot_far) = (cube(&gpu, light, &far), spot(&gpu, light, &far));
+        for kernel in Kernel::ALL {
+            for (kind, near, far, points) in [
+                (
+                    0,
+                    AnyMap::from(&cube_near),
+                    AnyMap::from(&cube_far),
+                    &all_round,
+                ),
+                (
+                    1,
+                    AnyMap::from(&spot_near),
+                    AnyMap::from(&spot_far),
+                    &before,
+                ),
+            ] {
+                let [bounded, broken] = lit(&gpu, near, kernel, points);
+                assert_eq!(bounded, 0, "{kernel:?}, {height}, map {kind}");
+                unbounded[kind] += broken;
+                farther[kind] += lit(&gpu, far, kernel, points)[0];
+            }
+        }
+    }
+    println!("lit without the bound: {unbounded:?}, beyond it: {farther:?}");
+    // The broken twin, and what the bound does not promise: a caster farther away.
+    assert!(unbounded.iter().all(|&lit| lit > 100), "{unbounded:?}");
+    assert!(farther.iter().all(|&lit| lit > 100), "{farther:?}");
+}
+
+#[test]
+fn what_is_sixteen_widths_before_a_receiver_casts_under_a_directional_light_of_any_angle() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // A wall, 80 before the receivers; the map is about 2.4 wide.
+    let wall = Affine3A::from_translation(Vec3::X * 80.0)
+        * Affine3A::from_rotation_z(std::f32::consts::FRAC_PI_2);
+    let casters = [square(30.0).caster(&gpu.device, wall)];
+    let mut random = Random::new(2);
+    let points: Vec<_> = (0..600)
+        .map(|_| (Vec3::new(random.next(), 0.0, random.next()), Vec3::Y))
+        .collect();
+    let mut unbounded = 0;
+    for height in HEIGHTS {
+        let light = FlatLight::Directional(DirectionalLight::new(Vec3::new(1.0, height, 0.0)));
+        let frame = ShadowFrame {
+            receivers: Some(shadows::mesh::Bounds {
+                min: Vec3::new(-1.0, 0.0, -1.0),
+                max: Vec3::new(1.0, 0.1, 1.0),
+            }),
+            ..ShadowFrame::new(light, &casters)
+        };
+        let map = flat(&gpu, &frame);
+        for kernel in Kernel::ALL {
+            let [bounded, broken] = lit(&gpu, AnyMap::from(&map), kernel, &points);
+            assert_eq!(bounded, 0, "{kernel:?}, {height}");
+            unbounded += broken;
+        }
+    }
+    println!("lit without the bound: {unbounded}");
+    assert!(unbounded > 100, "{unbounded}");
+}
