@@ -95,7 +95,7 @@ fn coarse_sphere(rings: u32) -> Mesh {
         let row = i / columns;
         let (sine, height) = (PI * row as f32 / rings as f32).sin_cos();
         // The poles are one point each.
-        let radius = if row % rings == 0 { 0.0 } else { sine };
+        let radius = if row.is_multiple_of(rings) { 0.0 } else { sine };
         let (z, x) = (2.0 * PI * (i % columns) as f32 / columns as f32).sin_cos();
         [radius * x, height, radius * z]
     };

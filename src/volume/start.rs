@@ -30,8 +30,9 @@
 /// leaves the terminator to shading alone. `docs/volume-start.png` in the repository shows both, drawn by
 /// `cargo run --release --example volume_debug -- --start docs/volume-start.png`.
 ///
-/// Shadows on anything but the caster itself are the same; where the caster touches another surface,
-/// but for single pixels along the line of contact, which the rasteriser decides.
+/// Shadows on anything but the caster itself are the same, but for single pixels on their edges and
+/// where the caster touches another surface, which the rasteriser decides (at most 2 of 65,536 in the
+/// pictures measured).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum StartFrom {
     /// From the triangles facing the light: those turned away are in shadow. Right for any host.

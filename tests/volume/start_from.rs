@@ -72,7 +72,14 @@ fn a_convex_caster_has_no_shadow_on_itself_and_the_same_on_others() {
             let facing = stage.draw(&gpu);
             let from_away = away(stage).draw(&gpu);
             let what = format!("{place}: {:?}, {method:?}, {silhouettes:?}", stage.light);
-            assert_eq!(compare(&seen, &from_away, &facing), (0, 0), "{what}");
+            let (own, elsewhere) = compare(&seen, &from_away, &facing);
+            assert_eq!(own, 0, "{what}");
+            // Up to two pixels of 65,536 were found to differ, on the edges of shadows, the same
+            // whatever the way and the method: sides are set off by two units of depth to one side
+            // or the other. Inside, none may.
+            assert!(elsewhere <= 2, "{what}: {elsewhere}");
+            let found = stage.truth().errors(&from_away);
+            assert_eq!(found.wrong, 0, "{what}: {found:?}");
             // From the light's side the far half is in shadow.
             let (own, elsewhere) = compare(&seen, &facing, &facing);
             assert!(own > 300 && elsewhere == 0, "{what}: {own}");
