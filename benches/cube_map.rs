@@ -12,9 +12,12 @@
 //! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
 //!   among them, moving, against none: what moves beside what does not.
 //!
-//! - `grid_vs_spheres_N`: on the CPU alone, a hundredth of N casters and 16 lights moving: keeping a
-//!   uniform grid up to date and asking it for what each light reaches, against testing every
-//!   caster's sphere for each light, as the map does.
+//! - `moved_among_1e5_vs_among_1e3`: what 100 casters that move near a light add to `prepare`, among
+//!   that many.
+//! - `culling_N_vs_linear`: on the CPU alone, a hundredth of N casters and 16 lights moving: the map's
+//!   own tree, kept up to date and asked for what each light reaches, against testing every
+//!   caster's sphere for each light. `culling_N_vs_compute`: against a compute shader that does so, its
+//!   uploads not counted.
 //!
 //! - `static_layer_vs_redraw`: a heavy part that stands still, 4,608 triangles a face of 1024
 //!   texels, with one box moving before each face: its layers copied against drawing all again.
@@ -26,6 +29,8 @@
 //! Each line `ratio NAME VALUE` compares medians of rounds in which both sides take turns, so that a
 //! machine that slows down slows both. `--quick` takes fewer rounds.
 
+#[path = "cube_map/culling.rs"]
+mod culling;
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[allow(dead_code)] // what other tests need
@@ -34,13 +39,12 @@ mod shapes;
 #[path = "cube_map/still_layers.rs"]
 mod still_layers;
 
-use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
 use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
-use shadows::glam::{Affine3A, DVec3, DVec4, Vec3, Vec3A, Vec4Swizzles as _};
+use shadows::glam::{Affine3A, Vec3, Vec3A};
 use shadows::{
     Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight, wgpu,
 };
@@ -70,10 +74,11 @@ fn main() {
     }
     still_layers::run(&gpu, if quick { 5 } else { 25 });
     prepare(&gpu, if quick { 5 } else { 25 });
-    for count in [100, 10_000, 100_000] {
+    for (name, count) in [("1e2", 100), ("1e4", 10_000), ("1e5", 100_000)] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
-        grid(count, if quick { 5 } else { 25 });
+        culling::culling(&gpu, name, count, if quick { 25 } else { 125 });
     }
+    moved(&gpu, if quick { 25 } else { 125 });
 }
 
 fn median(samples: &mut [Duration]) -> f64 {
@@ -259,87 +264,66 @@ fn one_of_many(gpu: &Gpu, count: usize, rounds: u32) {
     );
 }
 
-/// Cells of one light's range, each with the casters whose centres lie in it.
-#[derive(Default)]
-struct Grid {
-    cells: HashMap<[i32; 3], Vec<u32>>,
+/// A hundred casters moving near one light, among `count`: medians of `prepare` with and without
+/// them moving.
+struct Moved {
+    world: World,
+    nearest: Vec<usize>,
+    moved: Vec<Duration>,
+    still: Vec<Duration>,
 }
 
-const RANGE: f64 = 15.0;
-
-impl Grid {
-    fn cell(at: DVec3) -> [i32; 3] {
-        (at / RANGE).floor().as_ivec3().to_array()
-    }
-
-    fn insert(&mut self, index: u32, at: DVec3) {
-        self.cells.entry(Self::cell(at)).or_default().push(index);
-    }
-
-    fn move_to(&mut self, index: u32, from: DVec3, to: DVec3) {
-        if Self::cell(from) != Self::cell(to) {
-            if let Some(cell) = self.cells.get_mut(&Self::cell(from)) {
-                cell.retain(|&other| other != index);
-            }
-            self.insert(index, to);
-        }
-    }
-
-    /// Casters whose spheres (of one radius) reach into a light's range.
-    fn reached(&self, spheres: &[DVec4], light: DVec3) -> usize {
-        let [x, y, z] = Self::cell(light);
-        let mut found = 0;
-        // A sphere's centre may be outside the range by its radius: two cells each way hold it.
-        for dx in -2..=2 {
-            for dy in -2..=2 {
-                for dz in -2..=2 {
-                    if let Some(cell) = self.cells.get(&[x + dx, y + dy, z + dz]) {
-                        let near = |&&i: &&u32| reaches(&spheres[i as usize], light);
-                        found += cell.iter().filter(near).count();
-                    }
-                }
-            }
-        }
-        found
-    }
-}
-
-fn reaches(sphere: &DVec4, light: DVec3) -> bool {
-    let reach = RANGE + sphere.w;
-    sphere.xyz().distance_squared(light) <= reach * reach
-}
-
-fn grid(count: usize, rounds: u32) {
-    let side = (count as f64).sqrt().ceil();
-    let mut spheres: Vec<DVec4> = (0..count)
-        .map(|i| DVec4::new(i as f64 % side, 0.0, (i as f64 / side).floor(), 0.35))
-        .collect();
-    let mut grid = Grid::default();
-    for (i, sphere) in spheres.iter().enumerate() {
-        grid.insert(i as u32, sphere.xyz());
-    }
-    let (mut with, mut without) = (Vec::new(), Vec::new());
-    for round in 0..rounds as usize {
-        let lights = (0..16).map(|i| {
-            let at = |k: usize| (k as f64 + 0.5 + 0.01 * round as f64) / 4.0 * side;
-            DVec3::new(at(i % 4), 2.0, at(i / 4))
+impl Moved {
+    fn among(gpu: &Gpu, count: usize) -> Self {
+        let mut world = World::new(gpu, count, 15.0);
+        let centre = 0.5 * (count as f32).sqrt().ceil();
+        world.lights = vec![PointLight::new(Vec3::new(centre, 2.0, centre), 0.1, 15.0)];
+        let light = Vec3A::from(world.lights[0].position);
+        let mut nearest: Vec<usize> = (0..count).collect();
+        let place = |i: &usize| world.casters[*i].world_from_object.translation;
+        nearest.sort_by(|a, b| {
+            let distance = |i| place(i).distance_squared(light);
+            distance(a).total_cmp(&distance(b))
         });
-        let lights: Vec<DVec3> = lights.collect();
-        let start = Instant::now();
-        for k in 0..count.div_ceil(100) {
-            let i = (k * 7919 + round) % count;
-            let from = spheres[i].xyz();
-            let to = from + DVec3::new(0.3, 0.0, 0.2);
-            grid.move_to(i as u32, from, to);
-            spheres[i] = to.extend(spheres[i].w);
+        nearest.truncate(100);
+        world.prepare(gpu);
+        Self {
+            world,
+            nearest,
+            moved: Vec::new(),
+            still: Vec::new(),
         }
-        let sum = |one: &dyn Fn(DVec3) -> usize| lights.iter().map(|&l| one(l)).sum::<usize>();
-        let found = sum(&|light| grid.reached(&spheres, light));
-        with.push(start.elapsed());
-        let start = Instant::now();
-        let all = sum(&|light| spheres.iter().filter(|s| reaches(s, light)).count());
-        without.push(start.elapsed());
-        assert_eq!(found, all, "the grid lost some");
     }
-    ratio(&format!("grid_vs_spheres_{count}"), &mut with, &mut without);
+
+    fn round(&mut self, gpu: &Gpu) {
+        for &i in &self.nearest {
+            self.world.casters[i].world_from_object.translation.y += 0.001;
+        }
+        self.moved.push(self.world.prepare(gpu));
+        self.still.push(self.world.prepare(gpu));
+    }
+
+    /// Seconds with a hundred casters moving, and with none.
+    fn medians(&mut self) -> [f64; 2] {
+        [median(&mut self.moved), median(&mut self.still)]
+    }
+}
+
+fn moved(gpu: &Gpu, rounds: u32) {
+    let mut worlds = [1000, 100_000].map(|count| Moved::among(gpu, count));
+    for _ in 0..rounds {
+        worlds.iter_mut().for_each(|world| world.round(gpu));
+    }
+    let [few, many] = worlds.each_mut().map(Moved::medians);
+    for (name, [moved, still]) in [("1e3", few), ("1e5", many)] {
+        let cost = 1e6 * (moved - still);
+        println!(
+            "100 moved among {name}: {:.1} us, of which {cost:.1} for them",
+            1e6 * moved
+        );
+    }
+    let compared = 1e9 * (many[1] - few[1]) / 99_000.0;
+    println!("comparing a caster with the last frame's: {compared:.2} ns");
+    let ratio = (many[0] - many[1]) / (few[0] - few[1]);
+    println!("ratio moved_among_1e5_vs_among_1e3 {ratio:.4}");
 }

@@ -165,6 +165,12 @@ fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
             &volume.extrusion,
             &default.extrusion,
         )
+        .field(
+            "start_from",
+            "StartFrom::",
+            &volume.start_from,
+            &default.start_from,
+        )
         .field("culling", "", culling, &default.culling)
         .field(
             "keep_between_frames",

@@ -219,7 +219,8 @@ pub struct CubeFrame<'a> {
     /// ([`CubeShadowMap::texture_revision`](crate::CubeShadowMap::texture_revision)).
     pub lights: &'a [PointLight],
     /// Everything that may cast; what a light cannot reach is left out by the map itself. Their
-    /// order does not matter.
+    /// order does not matter, but what is found at another place in the slice than last frame counts
+    /// as moved: take casters out by `swap_remove` rather than by `remove`.
     pub casters: &'a [Caster],
     /// The host's camera: faces that can hold no visible receiver are put off until they can. `None`
     /// (default): all faces count. With several cameras pass `None`.

@@ -147,11 +147,11 @@ impl DrawLists {
         let light_from_world = DAffine3::from_translation(-light.position.as_dvec3());
         self.rows.clear();
         self.members.iter_mut().for_each(Vec::clear);
-        for at in touching(slot.masks(), mask) {
+        for at in slot.masks().touching(mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
             let lists = match self.joint {
                 true => u16::from(mask & mask.wrapping_neg()),
-                false => slot.lists(slot.masks()[at] & mask, record),
+                false => slot.lists(slot.masks().get(at) & mask, record),
             };
             if lists == 0 {
                 continue; // all on layers that are there
@@ -185,22 +185,6 @@ impl DrawLists {
             }
         }
     }
-}
-
-/// The casters that touch any face of a mask. Most casters touch none, so sixteen at a time are
-/// looked at.
-pub(super) fn touching(masks: &[u8], mask: u8) -> impl Iterator<Item = usize> + '_ {
-    masks
-        .chunks(16)
-        .enumerate()
-        .filter(move |(_, chunk)| chunk.iter().fold(0, |all, &one| all | one) & mask != 0)
-        .flat_map(move |(number, chunk)| {
-            let touches = chunk
-                .iter()
-                .enumerate()
-                .filter(move |&(_, on)| on & mask != 0);
-            touches.map(move |(at, _)| number * 16 + at)
-        })
 }
 
 pub(super) fn instance(light_from_object: &DAffine3) -> Instance {

@@ -17,8 +17,8 @@ use crate::error::CubeShadowMapError;
 
 /// In how many passes a [`CubeShadowMap`] draws the faces of a light. All give the same bits.
 ///
-/// On Mesa's software Vulkan (llvmpipe), with the 64 spheres of the example `compare` all moving, one
-/// pass takes 1.5 times as long as six at 1024 texels a face and 5 times as long at 64
+/// On Mesa's software Vulkan (llvmpipe), with the 64 spheres of the example `compare`, one pass takes
+/// 1.5 to 2.3 times as long as six at 1024 texels a face, and 2.4 to 5 times as long at 64
 /// (`multiview_vs_six_passes` of the bench `cube_map`): each caster goes through the vertex shader
 /// once for every face drawn, not only for the two or so that it touches. No GPU has been measured;
 /// run the bench on yours.

@@ -3,10 +3,12 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-use glam::{Affine3A, DVec3, DVec4};
+use glam::{Affine3A, DVec3};
 
 use super::descriptor::CasterSides;
+use super::reach::Reach;
 use super::slot::Slot;
+use crate::PointLight;
 use crate::error::CasterError;
 use crate::mesh::{Caster, CasterMesh, MeshKind};
 
@@ -67,8 +69,8 @@ pub(super) struct Group {
 pub(super) struct Scene {
     seen: Vec<Seen>,
     records: Vec<Record>,
-    /// Centre and radius of each record, by themselves: what a light that moved looks through.
-    spheres: Vec<DVec4>,
+    /// Centre and radius of each record: what a light that moved looks through.
+    reach: Reach,
     groups: Vec<Option<Group>>,
     group_of_mesh: HashMap<u64, u32>,
     changed: Vec<u32>,
@@ -101,8 +103,10 @@ impl Scene {
         &self.records
     }
 
-    pub fn spheres(&self) -> &[DVec4] {
-        &self.spheres
+    /// Appends the casters whose spheres a light reaches, in any order.
+    pub fn within(&mut self, light: &PointLight, found: &mut Vec<u32>) {
+        let centre = light.position.as_dvec3();
+        self.reach.within(centre, f64::from(light.range), found);
     }
 
     /// The last frame in which anything changed.
@@ -145,7 +149,7 @@ impl Scene {
             self.leave_group(old.group);
         }
         self.records.truncate(casters.len());
-        self.spheres.truncate(casters.len());
+        self.reach.truncate(casters.len());
         self.seen.truncate(casters.len());
         for changed in std::mem::take(&mut self.changed) {
             let index = changed as usize;
@@ -161,13 +165,13 @@ impl Scene {
                         .for_each(|slot| slot.replace(index, &old, &new));
                     self.leave_group(old.group);
                     self.records[index] = new;
-                    self.spheres[index] = new.centre.extend(new.radius);
+                    self.reach.set(index, new.centre.extend(new.radius));
                     self.seen[index] = Seen::of(caster);
                 }
                 None => {
                     slots.iter_mut().for_each(|slot| slot.push(&new));
                     self.records.push(new);
-                    self.spheres.push(new.centre.extend(new.radius));
+                    self.reach.push(new.centre.extend(new.radius));
                     self.seen.push(Seen::of(caster));
                 }
             }

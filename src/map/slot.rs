@@ -2,10 +2,8 @@
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use glam::Vec4Swizzles as _;
-
-use super::draws::touching;
 use super::face::{CubeFace, LightBounds};
+use super::masks::FaceMasks;
 use super::scene::{Record, Scene};
 use super::still::{Still, Way};
 use crate::PointLight;
@@ -86,7 +84,7 @@ pub(super) struct Slot {
     pub shown: Option<PointLight>,
     pub faces: [Face; 6],
     /// For each caster the faces it touches.
-    masks: Vec<u8>,
+    masks: FaceMasks,
     /// Casters that touch any face.
     pub casting: usize,
     pub cull: bool,
@@ -106,7 +104,7 @@ impl Slot {
         }
     }
 
-    pub fn masks(&self) -> &[u8] {
+    pub fn masks(&self) -> &FaceMasks {
         &self.masks
     }
 
@@ -132,11 +130,12 @@ impl Slot {
         self.shown = None;
     }
 
-    /// Takes another light (or none) and sorts all casters anew.
-    pub fn set_light(&mut self, light: Option<PointLight>, scene: &Scene) {
+    /// Takes another light (or none) and sorts all casters anew, of which `reached` are those that
+    /// it may reach.
+    pub fn set_light(&mut self, light: Option<PointLight>, scene: &Scene, reached: &[u32]) {
         self.light = light;
         self.casting = 0;
-        self.masks.clear();
+        self.masks.reset(scene.records().len());
         for face in &mut self.faces {
             face.content = Content::default();
             face.change = 1.0;
@@ -145,14 +144,11 @@ impl Slot {
             self.shown = None;
             return;
         };
-        let (centre, range) = (light.position.as_dvec3(), f64::from(light.range));
-        for (sphere, record) in scene.spheres().iter().zip(scene.records()) {
-            let reach = range + sphere.w;
-            if self.cull && sphere.xyz().distance_squared(centre) > reach * reach {
-                self.masks.push(0);
-            } else {
-                self.push(record);
-            }
+        for &index in reached {
+            let record = &scene.records()[index as usize];
+            let mask = self.touched_by(&light, record);
+            self.masks.set(index as usize, mask);
+            self.enter(mask, &light, record);
         }
     }
 
@@ -165,9 +161,9 @@ impl Slot {
 
     pub fn replace(&mut self, index: usize, old: &Record, new: &Record) {
         let Some(light) = self.light else { return };
-        self.leave(self.masks[index], &light, old);
+        self.leave(self.masks.get(index), &light, old);
         let mask = self.touched_by(&light, new);
-        self.masks[index] = mask;
+        self.masks.set(index, mask);
         self.enter(mask, &light, new);
     }
 
@@ -274,7 +270,8 @@ impl Slot {
                 let masks = &self.masks;
                 face.still.choose(&light, scene.frame(), least, |frame| {
                     let mut content = Content::default();
-                    touching(masks, 1 << bit)
+                    masks
+                        .touching(1 << bit)
                         .map(|at| &scene.records()[at])
                         .filter(|record| record.since <= frame)
                         .for_each(|record| content.add(record));
