@@ -32,7 +32,6 @@ impl Settings {
     fn map(&self) -> Option<ShadowMap> {
         let [normal_offset, constant, slope_scale] = self.bias.map(|number| number.0);
         let descriptor = ShadowMapDescriptor {
-            label: None,
             size: u32::from(self.size),
             bias: Bias {
                 normal_offset,
@@ -43,6 +42,7 @@ impl Settings {
                 [usize::from(self.sides % 3)],
             unclipped_depth: self.unclipped_depth,
             cache: self.cache,
+            ..Default::default()
         };
         ShadowMap::new(&device().0, &descriptor).ok()
     }
