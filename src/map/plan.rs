@@ -32,7 +32,7 @@ impl CubeShadowMap {
                 continue;
             };
             let visible = match &frustum {
-                Some(frustum) => frustum.faces(light, self.size),
+                Some(frustum) => frustum.faces(light, self.reach, self.size),
                 None => ALL_FACES,
             };
             let again = if self.cache { 0 } else { !slot.empty() };
@@ -128,10 +128,10 @@ fn state(slot: &Slot, plan: &SlotPlan, face: CubeFace) -> FaceState {
         FaceState::Rendered
     } else if has(plan.wanted) {
         FaceState::Postponed
-    } else if has(slot.empty()) {
-        FaceState::Empty
     } else if has(plan.hidden) {
         FaceState::Hidden
+    } else if has(slot.empty()) {
+        FaceState::Empty
     } else {
         FaceState::Kept
     }
