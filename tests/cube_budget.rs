@@ -272,6 +272,16 @@ fn faces_without_visible_receivers_wait_and_are_not_forgotten() {
         assert_eq!((s.faces_rendered, s.faces_hidden), (0, 18));
     }
     assert_eq!(frame(&crowd, &toward).faces_rendered, 18);
+    // So do faces that only have to be cleared.
+    let all = std::mem::take(&mut crowd.casters);
+    let s = frame(&crowd, &away);
+    assert_eq!((s.faces_hidden, s.faces_empty), (18, 0));
+    let s = frame(&crowd, &toward);
+    assert_eq!((s.faces_rendered, s.faces_empty), (18, 0));
+    let s = frame(&crowd, &away);
+    assert_eq!((s.faces_hidden, s.faces_empty), (0, 18), "clear now");
+    crowd.casters = all;
+    frame(&crowd, &toward);
     assert_eq!(differing(&gpu, &map, &crowd), 0);
 }
 

@@ -149,17 +149,21 @@ fn more_casters_than_a_buffer_holds_are_refused() {
     let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
     let one = cuboid(Vec3::splat(0.1)).caster(&device, Affine3A::from_translation(Vec3::X * 4.0));
     let casters = vec![one; 86];
-    let error = map
-        .prepare(
-            &device,
-            &queue,
-            &CubeFrame {
-                lights: &[light],
-                casters: &casters,
-                ..Default::default()
-            },
-        )
-        .unwrap_err();
+    let lights = [light];
+    let of = |count: usize| CubeFrame {
+        lights: &lights,
+        casters: &casters[..count],
+        ..Default::default()
+    };
+    let encode = |map: &CubeShadowMap| {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        map.encode(&mut encoder);
+        queue.submit([encoder.finish()]);
+    };
+    map.prepare(&device, &queue, &of(85)).unwrap();
+    encode(&map);
+    let before = map.statistics();
+    let error = map.prepare(&device, &queue, &of(86)).unwrap_err();
     assert_eq!(
         error,
         CubeShadowMapError::TooManyCasters {
@@ -168,12 +172,14 @@ fn more_casters_than_a_buffer_holds_are_refused() {
             limit: 4096
         }
     );
-    let frame = CubeFrame {
-        lights: &[light],
-        casters: &casters[..85],
-        ..Default::default()
-    };
-    map.prepare(&device, &queue, &frame).unwrap();
+    // What was drawn before still stands, and is known to.
+    assert_eq!(map.statistics(), before);
+    encode(&map);
+    map.prepare(&device, &queue, &of(85)).unwrap();
+    let after = map.statistics();
+    assert_eq!((before.faces_rendered, after.faces_rendered), (6, 0));
+    map.prepare(&device, &queue, &of(84)).unwrap();
+    assert_eq!(map.statistics().faces_rendered, 1);
 }
 
 #[test]

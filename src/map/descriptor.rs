@@ -64,7 +64,8 @@ pub enum CasterSides {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Allocation {
     /// In the first `prepare` in which a light reaches a caster; given back in the first without
-    /// any light. Bind groups made before that must be made again
+    /// any light, and in the 60th in a row in which none reaches a caster (with a cube for each
+    /// light: in which its own does not). Bind groups made before that must be made again
     /// ([`CubeShadowMap::texture_revision`](crate::CubeShadowMap::texture_revision)).
     #[default]
     WithFirstCaster,
@@ -116,8 +117,10 @@ pub struct CubeShadowMapDescriptor<'a> {
     pub cache: bool,
     /// Which sides of casters are drawn. Default [`CasterSides::Nearest`].
     pub sides: CasterSides,
-    /// The most faces drawn in one `prepare`; default none. At least 1. See
-    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order and the longest wait.
+    /// The most faces drawn in one `prepare`; default none. At least 1. A light that moved has its
+    /// faces drawn together, which may be up to five more. See
+    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order, the longest wait and
+    /// what the budget does not count.
     pub max_faces_per_frame: Option<u32>,
     /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
     pub passes: FacePasses,
