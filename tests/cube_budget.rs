@@ -286,6 +286,41 @@ fn faces_without_visible_receivers_wait_and_are_not_forgotten() {
 }
 
 #[test]
+fn faces_of_where_a_light_was_do_not_wait_once_they_show() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut crowd = Crowd::new(&gpu);
+    crowd.lights.truncate(1);
+    let budget = CubeShadowMapDescriptor {
+        size: 64,
+        reach: Radius::Texels(0.1),
+        ..descriptor(1, Some(1))
+    };
+    let mut map = CubeShadowMap::new(&gpu.device, &budget).unwrap();
+    let mut frame = |crowd: &Crowd, eye: Vec3, target: Vec3| {
+        let frame = CubeFrame {
+            view: Some(&camera(eye, target).1),
+            ..crowd.frame()
+        };
+        draw_frame(&gpu, &mut map, &frame);
+        let s = map.statistics();
+        let truth = fresh(&gpu, &budget, &crowd.lights, &crowd.casters);
+        let same = faces(&gpu, &map, 0) == faces(&gpu, &truth, 0);
+        ([s.faces_rendered, s.faces_hidden, s.faces_postponed], same)
+    };
+    let light = crowd.lights[0].position;
+    frame(&crowd, light + Vec3::X * 20.0, light);
+    crowd.lights[0].position.x += 0.5;
+    let light = crowd.lights[0].position;
+    assert_eq!(frame(&crowd, light, light + Vec3::X), ([1, 5, 0], false));
+    // Now receivers are told where it is: no other face may show where it was.
+    let all = light + Vec3::X * 20.0;
+    assert_eq!(frame(&crowd, all, light), ([5, 0, 0], true));
+    // Faces on which only casters moved keep to the budget.
+    crowd.move_casters();
+    assert_eq!(frame(&crowd, all, light), ([1, 0, 5], false));
+}
+
+#[test]
 fn what_a_view_shows_is_the_same_with_and_without_hidden_faces() {
     let Some(gpu) = Gpu::for_test() else { return };
     let wide = Kernel::RandomDisk(RandomDisk {
