@@ -46,8 +46,10 @@ pub enum CubeShadowMapError {
         /// Bytes allowed.
         limit: u64,
     },
-    /// No light at all, or more than the texture's layers can hold.
-    #[error("a map for {lights} lights is out of range; 1 to {limit} (six layers each)")]
+    /// No light at all, or more than the texture's layers or a buffer of matrices can hold.
+    #[error(
+        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in a cube array, 1536 bytes of matrices each)"
+    )]
     Slots {
         /// Lights asked for.
         lights: u32,
@@ -57,6 +59,9 @@ pub enum CubeShadowMapError {
     /// The format is none that a map can have.
     #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
     Format(wgpu::TextureFormat),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
     /// A budget of no face at all.
     #[error("max_faces_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
     Budget,
