@@ -106,7 +106,9 @@ fn shadows_flat_receiver(
     let per_depth = 1.0 / (n.x * light.range);
     let middle = 1.0 - plane_distance * per_depth + light.depth_bias + light.quantum;
     receiver.plane = vec3f(middle, across * per_depth);
-    receiver.bound = dot(receiver.plane, vec3f(1.0, uv)) + 32.0 / (light.scale * light.range);
+    // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
+    let own = dot(receiver.plane, vec3f(1.0, uv));
+    receiver.bound = max(0.0, own + 32.0 / (light.scale * light.range));
     receiver.horizon = -3e38;
     return receiver;
 }

@@ -41,7 +41,7 @@ fn lit(gpu: &Gpu, map: AnyMap<'_>, kernel: Kernel, points: &[(Vec3, Vec3)]) -> [
             false => module,
             true => {
                 let far = module
-                    .replace("0.0, receiver.bound)", "0.0, 3e38)")
+                    .replace(", receiver.bound)", ", 3e38)")
                     .replace("vec4f(receiver.bound)", "vec4f(3e38)");
                 assert_ne!(far, module);
                 far
@@ -166,4 +166,39 @@ fn what_is_sixteen_widths_before_a_receiver_casts_under_a_directional_light_of_a
     }
     println!("lit without the bound: {unbounded}");
     assert!(unbounded > 100, "{unbounded}");
+}
+
+#[test]
+fn far_below_all_casters_of_a_directional_light_only_their_shadow_is_dark() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // A box half a unit wide, up to thousands of widths of its map above the ground.
+    let points = [
+        (Vec3::ZERO, Vec3::Y),
+        (Vec3::X * 0.4, Vec3::Y),
+        (Vec3::X * 9.0, Vec3::Y),
+    ];
+    let expected = [0.0, 1.0, 1.0];
+    let light = FlatLight::Directional(DirectionalLight::new(Vec3::Y));
+    let mut below_zero = 0;
+    for height in [1.0, 40.0, 5000.0] {
+        let place = Affine3A::from_translation(Vec3::Y * height);
+        let casters = [cuboid(Vec3::splat(0.25)).caster(&gpu.device, place)];
+        let map = flat(&gpu, &ShadowFrame::new(light, &casters));
+        for kernel in Kernel::ALL {
+            let descriptor = PcfDescriptor {
+                kernel,
+                map: AnyMap::from(&map).kind(),
+                ..Default::default()
+            };
+            let asked = |change: fn(String) -> String| {
+                ask_changed(&gpu, AnyMap::from(&map), &descriptor, 0, &points, change)
+            };
+            assert_eq!(asked(|module| module), expected, "{kernel:?}, {height}");
+            // The broken twin: a bound below the depth of an empty texel.
+            let broken =
+                asked(|module| module.replace("receiver.bound = max(0.0, ", "receiver.bound = ("));
+            below_zero += usize::from(broken != expected);
+        }
+    }
+    assert!(below_zero > 9, "{below_zero}");
 }

@@ -36,9 +36,9 @@ use crate::error::PcfError;
 /// | `Weighted3` | 0.019 | 0.14 | 0.103 | 0.10 | 0.010 | 0 |
 /// | `Weighted5` | 0.013 | 0.08 | 0.081 | 0.04 | 0.005 | 0 |
 /// | `Weighted7` | 0.012 | 0.07 | 0.073 | 0.03 | 0.004 | 0 |
-/// | `RandomDisk`, 32 taps | 0.025 | 0.14 | 0.071 | 0.14 | 0.022 | 1.2 % |
-/// | `Vogel`, 16 taps | 0.029 | 0.14 | 0.071 | 0.18 | 0.027 | 4.4 % |
-/// | `ContactHardening` | 0.022 | 0.16 | 0.057 | 0.12 | 0.021 | 1.3 % |
+/// | `RandomDisk`, 32 taps | 0.023 | 0.13 | 0.070 | 0.15 | 0.022 | 0.8 % |
+/// | `Vogel`, 16 taps | 0.030 | 0.16 | 0.072 | 0.21 | 0.028 | 4.0 % |
+/// | `ContactHardening` | 0.021 | 0.14 | 0.056 | 0.12 | 0.019 | 0.9 % |
 ///
 /// `docs/kernels.png` in the repository shows all of them on the same shadows
 /// (`cargo run --release --example kernel_sheet -- docs/kernels.png`).
