@@ -19,7 +19,9 @@ fn shadows_flat_look(
     // blockers is measured to where they are. An empty texel is behind them wherever that is.
     let end = select(-3e38, 0.0, spot);
     let stored = select(end, depths.y, depths.y > 0.0);
-    return vec2f(clamp(depths.x, end, receiver.bound), stored);
+    // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
+    let plane = select(receiver.own, depths.x, depths.x > receiver.horizon);
+    return vec2f(min(plane, receiver.bound), stored);
 }
 
 // How much farther from its light than its blocker a receiver is: for a spot as a fraction of the

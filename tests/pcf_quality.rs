@@ -13,9 +13,10 @@ mod yard;
 
 use exact_kernels::{TEXEL, area_light, endless_contact, endless_disk, endless_square};
 use glam::{Affine3A, Vec2, Vec3};
-use receivers::visibility;
+use receivers::{ask_changed, visibility};
 use shadows::{
-    AnyMap, ContactHardening, CubeShadowMap, Kernel, RandomDisk, ShadowMap, VogelDisk, glam,
+    AnyMap, ContactHardening, CubeShadowMap, Kernel, PcfDescriptor, RandomDisk, ShadowMap,
+    VogelDisk, glam,
 };
 use yard::{Yard, error};
 
@@ -281,6 +282,43 @@ fn judge(
     let slipped = studio.slipped(map, kernel, 0.1);
     let [.., still] = within(endless.figures(&seen, &slipped), limits);
     assert_eq!(!still, kernel.uses_pixel(), "{name} {kernel:?}: slipped");
+}
+
+#[test]
+fn blockers_are_looked_for_as_far_as_the_widest_penumbra_reaches() {
+    let Some(studio) = Studio::new() else { return };
+    // A light so large that every penumbra is the widest.
+    let wide = ContactHardening {
+        light_size: 100.0,
+        search_taps: 16,
+        taps: 64,
+        ..contact()
+    };
+    let endless = studio
+        .yard
+        .exact(|yard, _, point| endless_contact(yard, &wide, point));
+    let points: Vec<_> = picture(0.0).iter().map(|&at| (at, Vec3::Y)).collect();
+    for (name, map) in studio.maps() {
+        let descriptor = PcfDescriptor {
+            kernel: Kernel::ContactHardening(wide),
+            map: map.kind(),
+            ..Default::default()
+        };
+        let rms = |change: fn(String) -> String| {
+            let gpu = &studio.yard.gpu;
+            let seen = ask_changed(gpu, map, &descriptor, 0, &points, change);
+            let seen: Vec<_> = seen.into_iter().map(f64::from).collect();
+            error(&seen, &endless).0
+        };
+        let right = rms(|module| module);
+        // The broken twin: the search's taps on half the disk's radius.
+        let narrow = rms(|module| module.replace("spread * widest", "widest"));
+        println!("{name}: rms {right:.4}, searched on half the radius {narrow:.4}");
+        assert!(
+            right < 0.03 && narrow > 2.0 * right,
+            "{name}: {right} {narrow}"
+        );
+    }
 }
 
 #[test]

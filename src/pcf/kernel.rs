@@ -12,7 +12,8 @@ use crate::error::PcfError;
 /// nearer to the light than a thirty-second of the receiver's own distance along the axis of the face
 /// (for a directional light: nearer than the receiver by more than sixteen times the map's width), so
 /// what casts from nearer casts at any grazing angle; and a texel beyond the horizon is replaced by
-/// its mirror image at the receiver. What is farther from the light than that is missed only where
+/// its mirror image at the receiver, or compared with the receiver's own depth where that is beyond
+/// the horizon too, as are the texels of a disk (whose taps are all on the plane). What is farther from the light than that is missed only where
 /// the plane itself comes as near: for a kernel of `k` texels on a face of `n`, where the light falls
 /// in at less than `2 k / (31 n)` (for the widest square, 0.015 degrees at 1024 texels). A receiver whose
 /// plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
