@@ -235,4 +235,19 @@ pub enum PcfError {
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
     )]
     NoCubeArray,
+    /// A bind group for a light that the map has no place for.
+    #[error(
+        "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"
+    )]
+    Light {
+        /// The place that was passed.
+        light: usize,
+        /// Lights the map was made for.
+        lights: usize,
+    },
+    /// Textbook receivers of depths that they cannot read.
+    #[error(
+        "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"
+    )]
+    Textbook(crate::DepthEncoding),
 }

@@ -293,6 +293,11 @@ impl CubeShadowMap {
         self.statistics
     }
 
+    /// How many lights it was made for.
+    pub(crate) fn most_lights(&self) -> usize {
+        self.slots.len()
+    }
+
     pub(crate) fn light_uniform(&self, light: usize) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.lights.uniforms,
