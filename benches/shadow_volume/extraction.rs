@@ -1,5 +1,5 @@
 //! How long it takes to find the volume of a closed mesh of a million triangles, beside the
-//! plainest loops that could do it, in interleaved rounds of one run.
+//! plainest loops that could do it, in interleaved rounds.
 //!
 //! Everyone has the same duty: from a light until the lists of caps and sides lie in the GPU's
 //! buffers and its queue is idle. (A list in main memory is of no use to a draw.) The light moves
@@ -12,17 +12,11 @@
 //! - `compute`: `Silhouettes::Compute`, the same two phases as plain compute passes.
 //! - `copy`: the adapter copies as many bytes as an extraction has to read, the floor.
 //!
-//! `ratio extraction_vs_best_loop` is `extraction` over the faster of `loop` and `compute`; `--quick`
-//! takes fewer rounds.
-
-#[allow(dead_code)]
-#[path = "../examples/host/gpu.rs"]
-mod gpu;
+//! `ratio extraction_vs_best_loop` is `extraction` over the faster of `loop` and `compute`.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use gpu::Gpu;
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
@@ -30,6 +24,9 @@ use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
+
+use crate::host::gpu::{self, Gpu};
+use crate::median;
 
 const RINGS: u32 = 1000;
 const SECTORS: u32 = 500;
@@ -62,15 +59,15 @@ struct Loop {
     sides: Vec<u32>,
     /// Of caps and sides, room for all there could be.
     buffers: [wgpu::Buffer; 2],
-    /// How long it took without the upload.
-    in_memory: Vec<Duration>,
+    /// Milliseconds without the upload.
+    in_memory: Vec<f64>,
 }
 
 impl Loop {
     fn upload(&mut self, gpu: &Gpu, light: Vec3) {
         let start = Instant::now();
         self.run(light);
-        self.in_memory.push(start.elapsed());
+        self.in_memory.push(milliseconds(start));
         for (buffer, words) in self.buffers.iter().zip([&self.caps, &self.sides]) {
             gpu.queue
                 .write_buffer(buffer, 0, bytemuck::cast_slice(words));
@@ -135,20 +132,12 @@ impl<'a> Extraction<'a> {
     }
 }
 
-fn median(times: &mut [Duration]) -> f64 {
-    times.sort_unstable();
-    times[times.len() / 2].as_secs_f64()
+fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
 }
 
-fn main() {
-    let Ok(gpu) = Gpu::new(None) else {
-        eprintln!("skipped: no adapter");
-        return;
-    };
-    let rounds = match std::env::args().any(|a| a == "--quick" || a == "--test") {
-        true => 5,
-        false => 25,
-    };
+/// Measures and prints.
+pub fn run(gpu: &Gpu, rounds: usize) {
     let (positions, indices) = torus();
     let adjacency = Adjacency::new(&positions, &indices).expect("a torus");
     let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a mesh");
@@ -178,18 +167,18 @@ fn main() {
         }),
         in_memory: Vec::new(),
     };
-    let mut auto = Extraction::new(&gpu, &mesh, Silhouettes::Auto);
-    let mut compute = Extraction::new(&gpu, &mesh, Silhouettes::Compute);
+    let mut auto = Extraction::new(gpu, &mesh, Silhouettes::Auto);
+    let mut compute = Extraction::new(gpu, &mesh, Silhouettes::Compute);
     let bytes = 12 * positions.len() + 12 * adjacency.triangles().len() + 16 * plain.edges.len();
     let from = buffer(bytes, wgpu::BufferUsages::COPY_SRC);
     let to = buffer(bytes, wgpu::BufferUsages::COPY_DST);
 
-    let mut times: [Vec<Duration>; 4] = Default::default();
+    let mut times: [Vec<f64>; 4] = Default::default();
     for round in 0..=rounds {
         let light = Vec3::new(-2.0 + 0.01 * round as f32, 6.0, 2.5);
         let works: [&mut dyn FnMut(); 4] = [
             &mut || auto.run(light),
-            &mut || plain.upload(&gpu, light),
+            &mut || plain.upload(gpu, light),
             &mut || compute.run(light),
             &mut || {
                 gpu.run(|encoder| {
@@ -202,12 +191,12 @@ fn main() {
             work();
             // The first round allocates.
             if round > 0 {
-                times.push(start.elapsed());
+                times.push(milliseconds(start));
             }
         }
     }
-    let in_memory = 1e3 * median(&mut plain.in_memory[1..]);
-    let [auto, looped, compute, copy] = times.map(|mut times| 1e3 * median(&mut times));
+    let in_memory = median(&mut plain.in_memory[1..]);
+    let [auto, looped, compute, copy] = times.map(|mut times| median(&mut times));
     println!(
         "{} triangles, {}",
         adjacency.triangles().len(),
