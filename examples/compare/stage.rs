@@ -2,13 +2,14 @@
 
 use anyhow::Result;
 use shadows::HomogeneousLight;
-use shadows::glam::{DAffine3, DMat3, Vec3};
+use shadows::glam::Vec3;
 use shadows::mesh::Bounds;
-use shadows::reference::{ReferenceImage, ReferenceObject, ReferenceScene};
+use shadows::reference::ReferenceImage;
 
+use crate::host::exact;
 use crate::host::gpu::Gpu;
 use crate::host::renderer::{self, Look, Renderer};
-use crate::host::scene::{Object, Scene};
+use crate::host::scene::Scene;
 use crate::host::scene_gpu::SceneGpu;
 use crate::shadow::{Shadow, ShadowInputs};
 
@@ -92,40 +93,13 @@ impl Stage {
         &self,
         progress: impl Fn(f64) + Send + Sync + 'static,
     ) -> Result<ReferenceImage> {
-        let objects: Vec<ReferenceObject<'_>> = self
-            .scene
-            .objects
-            .iter()
-            .map(|object| self.reference_object(object))
-            .collect();
         let [width, height] = self.renderer.size();
-        let scene = ReferenceScene::new(&objects)?.with_progress(progress);
+        let scene = exact::reference_scene(&self.scene)?.with_progress(progress);
         if let Some(spot) = self.inputs.spot_light() {
             return Ok(scene.render_spot(&self.inputs.view, width, height, &spot)?);
         }
         let (light, range) = (self.inputs.light, self.inputs.light_range());
         Ok(scene.render(&self.inputs.view, width, height, light, range)?)
-    }
-
-    fn reference_object(&self, object: &Object) -> ReferenceObject<'_> {
-        let mesh = &self.scene.meshes[object.mesh];
-        let transform = object.transform;
-        let linear = [
-            transform.matrix3.x_axis,
-            transform.matrix3.y_axis,
-            transform.matrix3.z_axis,
-        ]
-        .map(|column| Vec3::from(column).as_dvec3());
-        ReferenceObject {
-            positions: &mesh.positions,
-            indices: &mesh.indices,
-            // The f32 transform, its entries taken as exact.
-            transform: DAffine3 {
-                matrix3: DMat3::from_cols(linear[0], linear[1], linear[2]),
-                translation: Vec3::from(transform.translation).as_dvec3(),
-            },
-            casts: object.casts,
-        }
     }
 }
 

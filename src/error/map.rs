@@ -141,6 +141,12 @@ pub enum ShadowMapError {
         /// The largest corner passed.
         max: [f32; 3],
     },
+    /// The map lies so far from the origin, or is so large or so narrow, that its matrix is not
+    /// finite in `f32`.
+    #[error(
+        "the map's matrix is not finite in f32: the light or a caster is too far away, or the cone too narrow; place all nearer the origin, or widen the cone"
+    )]
+    BeyondF32,
     /// More casters than one buffer of the device can hold.
     #[error("{casters} casters need {size} bytes, max_buffer_size is {limit}")]
     TooManyCasters {
