@@ -1,5 +1,5 @@
-//! What choosing costs and saves: the renderer's own choices beside the textbook's volumes, and the
-//! price of a caster that is skipped.
+//! What choosing costs and saves: the renderer's own choices beside the textbook's volumes, the price
+//! of a caster that is skipped, and the search for silhouettes beside plain loops.
 //!
 //! On the scene `spheres`, 1280 x 720, per frame: prepare, extraction and stencil pass, in
 //! interleaved rounds so that a machine that slows down slows both.
@@ -11,16 +11,21 @@
 //! - `ratio infinite_vs_textbook`: the default with volumes that end at infinity.
 //! - `ratio nothing_vs_textbook`: the pass without any caster, a floor that all of them stand on.
 //!
-//! Then the camera moves while light and casters stand still: `extracted` counts the silhouettes
-//! searched, which must be none.
+//! Then the camera moves while light and casters stand still:
+//! - `ratio extracted_vs_drawn`: silhouettes searched over casters drawn, which must be 0.
 //!
 //! Then `prepare` with ten thousand casters, all of them beside the view:
 //! - `ratio skipped_vs_drawn`: a skipped caster over one that is drawn, both on the CPU.
+//!
+//! Then a closed mesh of a million triangles: `ratio extraction_vs_best_loop` and what else
+//! `shadow_volume/extraction.rs` says.
 //!
 //! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
 //! `--quick` takes fewer rounds.
 
+#[path = "shadow_volume/extraction.rs"]
+mod extraction;
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[path = "shared/mod.rs"]
@@ -140,18 +145,22 @@ fn walk(scene: &host::scene::Scene) -> anyhow::Result<Vec<View>> {
     (0..10).map(step).collect()
 }
 
-/// Silhouettes searched after the first frame while only the camera moves.
-fn extracted_on_the_walk(studio: &Studio) -> anyhow::Result<u32> {
+/// Silhouettes searched, and casters drawn, after the first frame while only the camera moves.
+fn extracted_on_the_walk(studio: &Studio) -> anyhow::Result<[u32; 2]> {
     let mut volumes = studio.volumes(ShadowVolumeDescriptor::default())?;
-    let mut extracted = 0;
+    let [mut extracted, mut drawn] = [0; 2];
     for (place, view) in studio.walk.iter().enumerate() {
         let frame = studio.told(view, &studio.scene.casters);
         studio.frame(&mut volumes, &frame);
-        let searched = volumes.statistics().casters_extracted;
-        assert_eq!(searched > 0, place == 0, "frame {place}: {searched}");
-        extracted += if place == 0 { 0 } else { searched };
+        let found = volumes.statistics();
+        if place > 0 {
+            extracted += found.casters_extracted;
+            drawn += found.casters_drawn;
+        } else {
+            assert!(found.casters_extracted > 0, "{found:?}");
+        }
     }
-    Ok(extracted)
+    Ok([extracted, drawn])
 }
 
 /// Microseconds a caster on the CPU, round by round: skipped, and drawn.
@@ -260,10 +269,9 @@ fn main() -> anyhow::Result<()> {
         1e3 * median(skipped.iter().copied()),
         1e3 * median(drawn.iter().copied())
     );
-    println!(
-        "extracted {} while the camera moves",
-        extracted_on_the_walk(&studio)?
-    );
+    let [extracted, moved] = extracted_on_the_walk(&studio)?;
+    println!("extracted {extracted} while the camera moves, drawn {moved}");
+    extraction::run(&studio.gpu, rounds);
     let [auto, zfail, infinite, textbook, unbounded, nothing] = &times;
     for (name, ours) in [
         ("auto", auto),
@@ -275,5 +283,9 @@ fn main() -> anyhow::Result<()> {
         println!("ratio {name}_vs_textbook {:.3}", paired(ours, textbook));
     }
     println!("ratio skipped_vs_drawn {:.3}", paired(&skipped, &drawn));
+    println!(
+        "ratio extracted_vs_drawn {:.3}",
+        f64::from(extracted) / f64::from(moved)
+    );
     Ok(())
 }

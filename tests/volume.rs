@@ -6,6 +6,10 @@ mod chain;
 mod choices;
 #[path = "volume/combinations.rs"]
 mod combinations;
+#[path = "volume/count_bound.rs"]
+mod count_bound;
+#[path = "volume/count_errors.rs"]
+mod count_errors;
 #[path = "volume/counts.rs"]
 mod counts;
 #[path = "volume/debug_errors.rs"]

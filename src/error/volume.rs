@@ -38,8 +38,10 @@ pub enum ShadowVolumeError {
         /// What the device has.
         available: u64,
     },
-    /// A colour format that no colour target can have.
-    #[error("color_formats[{place}] is {format:?}, which is no colour format")]
+    /// A colour format that no target of the pass can have.
+    #[error(
+        "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can (with 4 samples, one that is multisampled)"
+    )]
     ColorFormat {
         /// Place in the list of colour formats.
         place: usize,
@@ -125,8 +127,10 @@ pub enum ScreenPassError {
         "{0:?} does not fit; pass Depth24PlusStencil8, or Depth32FloatStencil8 on a device with the feature of that name"
     )]
     Format(wgpu::TextureFormat),
-    /// The colour format cannot be drawn into and blended on this device.
-    #[error("{0:?} does not blend on this device; pass a colour format that does")]
+    /// The colour format cannot be drawn into and blended on this device, with as many samples.
+    #[error(
+        "{0:?} does not blend on this device with as many samples; pass a colour format that does"
+    )]
     ColorFormat(wgpu::TextureFormat),
     /// The sample count is neither 1 nor 4.
     #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
@@ -146,6 +150,16 @@ pub enum ScreenPassError {
         found: u32,
         /// Samples of the target.
         needed: u32,
+    },
+    /// Shaders cannot read the source as they have to.
+    #[error(
+        "the source is {format:?} with {usage:?}; pass a format that shaders read as float, made with TEXTURE_BINDING"
+    )]
+    Unreadable {
+        /// Its format.
+        format: wgpu::TextureFormat,
+        /// What it was made for.
+        usage: wgpu::TextureUsages,
     },
     /// There is no layer for this light.
     #[error("light {light} has no layer; the mask was made for {lights}")]

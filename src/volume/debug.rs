@@ -374,7 +374,7 @@ fn validate(
         descriptor.depth_stencil_format,
         descriptor.sample_count,
     )?;
-    check_color(device, descriptor.color_format)?;
+    check_color(device, descriptor.color_format, descriptor.sample_count)?;
     check_depth(device, descriptor.depth)?;
     // The volume's own parameters, and the colour.
     limits::check_one(

@@ -1,6 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
 use super::method::{Caps, Extrusion, Method};
+use super::targets::{bytes_a_sample, is_drawable};
 use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::mesh::Bounds;
@@ -108,20 +109,29 @@ impl ShadowVolumeDescriptor<'_> {
     fn validate_colors(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
         for (place, format) in self.color_formats.iter().enumerate() {
             let Some(format) = *format else { continue };
-            if !format.has_color_aspect() || format.is_compressed() {
+            if format.has_color_aspect() && !format.is_compressed() {
+                check_feature(device, format.required_features(), || format!("{format:?}"))?;
+            }
+            let also = wgpu::TextureFormatFeatureFlags::empty();
+            if !is_drawable(device, format, self.sample_count, also) {
                 return Err(ShadowVolumeError::ColorFormat { place, format });
             }
-            check_feature(device, format.required_features(), || format!("{format:?}"))?;
         }
-        let mut targets = self.color_formats.len() as u64;
-        if self.counter == Counter::Exact {
+        let counts = self.counter == Counter::Exact;
+        if counts {
             check_feature(device, counter::FEATURE, || "Counter::Exact".to_owned())?;
-            targets += 1;
         }
+        let available = device.limits();
         limits::check_one(
             "max_color_attachments",
-            targets,
-            u64::from(device.limits().max_color_attachments),
+            self.color_formats.len() as u64 + u64::from(counts),
+            available.max_color_attachments.into(),
+        )?;
+        let formats = self.color_formats.iter().copied().flatten();
+        limits::check_one(
+            "max_color_attachment_bytes_per_sample",
+            bytes_a_sample(formats.chain(counts.then_some(counter::FORMAT))).into(),
+            available.max_color_attachment_bytes_per_sample.into(),
         )
     }
 }

@@ -2,6 +2,7 @@
 
 use super::mask::check_target;
 use super::screen::{On, SCREEN, ScreenPipeline};
+use super::targets::is_drawable;
 use crate::error::ScreenPassError;
 
 const JOIN: &str = include_str!("../../shaders/volume_join.wgsl");
@@ -64,7 +65,7 @@ impl LightJoin {
             descriptor.depth_stencil_format,
             descriptor.sample_count,
         )?;
-        check_color(device, descriptor.color_format)?;
+        check_color(device, descriptor.color_format, descriptor.sample_count)?;
         let label = match descriptor.label {
             Some(name) => format!("shadows join {name}"),
             None => "shadows join".to_owned(),
@@ -100,11 +101,12 @@ impl LightJoin {
         })
     }
 
-    /// Binds a picture of the target's size to read from: any format that a shader reads as float,
-    /// with the usage `TEXTURE_BINDING`.
+    /// Binds a picture of the target's size to read from, a view of one layer: any format that a
+    /// shader reads as float, with the usage `TEXTURE_BINDING`.
     ///
     /// # Errors
-    /// [`ScreenPassError::Source`] if it has another number of samples than the target.
+    /// [`ScreenPassError::Source`] if it has another number of samples than the target,
+    /// [`ScreenPassError::Unreadable`] if its format or usage does not fit.
     pub fn bind(&self, source: &wgpu::TextureView) -> Result<wgpu::BindGroup, ScreenPassError> {
         let samples = source.texture().sample_count();
         if samples != self.sample_count {
@@ -112,6 +114,12 @@ impl LightJoin {
                 found: samples,
                 needed: self.sample_count,
             });
+        }
+        let (format, usage) = (source.texture().format(), source.texture().usage());
+        let read_as = format.sample_type(None, Some(self.device.features()));
+        let is_float = matches!(read_as, Some(wgpu::TextureSampleType::Float { .. }));
+        if !(is_float && usage.contains(wgpu::TextureUsages::TEXTURE_BINDING)) {
+            return Err(ScreenPassError::Unreadable { format, usage });
         }
         Ok(bind(&self.device, &self.label, &self.layout, source))
     }
@@ -193,16 +201,13 @@ pub(super) fn bind(
 pub(super) fn check_color(
     device: &wgpu::Device,
     format: wgpu::TextureFormat,
+    sample_count: u32,
 ) -> Result<(), ScreenPassError> {
-    let features = device.features();
-    let usable = features.contains(format.required_features());
-    let found = format.guaranteed_format_features(features);
-    let target = wgpu::TextureUsages::RENDER_ATTACHMENT;
     let blends = wgpu::TextureFormatFeatureFlags::BLENDABLE;
-    if usable && found.allowed_usages.contains(target) && found.flags.contains(blends) {
-        return Ok(());
+    match is_drawable(device, format, sample_count, blends) {
+        true => Ok(()),
+        false => Err(ScreenPassError::ColorFormat(format)),
     }
-    Err(ScreenPassError::ColorFormat(format))
 }
 
 #[cfg(test)]

@@ -43,6 +43,7 @@ mod start;
 mod statistics;
 mod subject;
 mod survey;
+mod targets;
 mod world_box;
 
 pub use counter::Counter;

@@ -40,10 +40,11 @@ impl Counted {
 
 /// Whether every triangle has to count, turned toward the light, or the light-facing ones suffice.
 ///
-/// They, or those turned away alone, suffice for a closed, consistently wound mesh if the light and the near rectangle are both
-/// outside it. Proof: along the segment from a visible point P to the light L, let f triangles be
-/// crossed that face the light and b that do not. A crossing changes the mesh's winding number by
-/// one, in opposite directions for the two kinds, so w(P) - w(L) = ±(f - b). L is outside: w(L) = 0.
+/// They, or those turned away alone, suffice for a closed, consistently wound mesh if the light and
+/// the near rectangle are both outside it. Proof: along the segment from a visible point P to the
+/// light L, let f triangles be crossed that face the light and b that do not. A crossing changes the
+/// mesh's winding number by one, in opposite directions for the two kinds, so
+/// w(P) - w(L) = ±(f - b). L is outside: w(L) = 0.
 /// The sight line from the near rectangle to P crosses no surface (P is what is visible), so w(P)
 /// is that of the near rectangle, 0. Hence f = b, and both are above 0 exactly if
 /// anything is crossed at all.

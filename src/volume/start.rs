@@ -47,8 +47,9 @@ pub enum StartFrom {
     /// Holds for closed meshes wound counter-clockwise seen from outside (positions in the host's own
     /// buffer are believed to be), while light and near rectangle are outside the caster's box. All
     /// others start as with `LightFacing` (a mesh with a cavity, too), and the ragged line stays;
-    /// [`VolumeStatistics::casters_away_facing`](crate::VolumeStatistics::casters_away_facing) says how many of the casters drawn start as asked. Vertices of the same position must be
-    /// known as one (as [`Adjacency`](crate::mesh::Adjacency) welds them).
+    /// [`VolumeStatistics::casters_away_facing`](crate::VolumeStatistics::casters_away_facing) says how
+    /// many of the casters drawn start as asked. Vertices of the same position must be known as one
+    /// (as [`Adjacency`](crate::mesh::Adjacency) welds them).
     ///
     /// Costs a draw more for the sides of each caster, each with half of the faces culled, and the
     /// light caps in z-pass. A surface of the host's that lies on the far side of a caster, nearer to

@@ -7,9 +7,7 @@ use crate::choices::depths;
 use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
-use crate::stage::{Body, Savings, Stage};
-
-const WAYS: [Silhouettes; 3] = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+use crate::stage::{Body, Savings, Stage, WAYS};
 
 /// z-pass throughout is right in `stages`, whose casters are all beside the way to the light.
 const CHOICES: [(Method, Caps); 4] = [
@@ -63,7 +61,7 @@ fn every_way_counts_the_same_with_every_method_and_cap() {
                     silhouettes,
                     ..Default::default()
                 };
-                let [cpu, compute, vertex] = WAYS.map(|way| counts(&gpu, &stage, savings(way)));
+                let [compute, cpu, vertex] = WAYS.map(|way| counts(&gpu, &stage, savings(way)));
                 let what = format!("stage {place}, {depth:?}, {method:?}, {caps:?}");
                 assert!(
                     cpu.iter().filter(|&&count| count > 0).count() > 500,

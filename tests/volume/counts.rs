@@ -1,22 +1,20 @@
 //! More volumes around one point than a byte can count.
 
-use shadows::error::{ScreenPassError, ShadowVolumeError};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::{
-    Caps, Counter, ExactCount, ExactCountDescriptor, HomogeneousLight, Method, ShadowMask,
-    ShadowMaskDescriptor, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes, wgpu,
+    Caps, Counter, HomogeneousLight, Method, ShadowMask, ShadowMaskDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, wgpu,
 };
 
 use crate::choices::depths;
 use crate::host::gpu::Gpu;
 use crate::passes::{HostPipelines, LightPass, begin, clear, view_of};
 use crate::pictures::{assert_exact, at, lamp, mixed};
-use crate::random;
 use crate::shapes::{self, Shape};
-use crate::stage::{Body, SIDE, Savings, Stage};
+use crate::stage::{Body, SIDE, Savings, Stage, WAYS};
 
 /// A device that counts in floats.
-fn gpu() -> Option<Gpu> {
+pub fn gpu() -> Option<Gpu> {
     let gpu = Gpu::for_test()?;
     if !gpu.support.float32_blending {
         eprintln!("skipped: no FLOAT32_BLENDABLE");
@@ -36,24 +34,24 @@ fn stack(shape: &Shape, flat: f32, count: u32) -> Stage {
     Stage::new(HomogeneousLight::directional(Vec3::Y), bodies.collect())
 }
 
-fn sheets(count: u32) -> Stage {
+pub fn sheets(count: u32) -> Stage {
     stack(&shapes::square(1.0), 1.0, count)
 }
 
 /// Boxes wound without a plan: both of a box's faces on the way to the light count.
-fn boxes(count: u32) -> Stage {
+pub fn boxes(count: u32) -> Stage {
     let shape = shapes::cube().turned(|triangle| triangle % 3 == 0);
     stack(&shape, 5e-6, count)
 }
 
-fn with(stage: &Stage, savings: Savings) -> Stage {
+pub fn with(stage: &Stage, savings: Savings) -> Stage {
     Stage {
         savings,
         ..stage.clone()
     }
 }
 
-fn exact() -> Savings {
+pub fn exact() -> Savings {
     Savings {
         counter: Counter::Exact,
         ..Default::default()
@@ -61,7 +59,7 @@ fn exact() -> Savings {
 }
 
 /// The counts themselves.
-fn exact_counts(gpu: &Gpu, stage: &Stage) -> Vec<f32> {
+pub fn exact_counts(gpu: &Gpu, stage: &Stage) -> Vec<f32> {
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
     stage.prepare(gpu, &mut renderer, &stage.casters(gpu));
     let depth = view_of(&gpu.target([stage.side; 2], stage.format, 1));
@@ -123,7 +121,7 @@ fn every_way_method_and_convention_counts_alike() {
             ..stage.clone()
         };
         let truth = stage.truth();
-        for silhouettes in [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex] {
+        for silhouettes in WAYS {
             for (method, caps) in [(Method::ZFail, Caps::Full), (Method::Auto, Caps::AsNeeded)] {
                 let stage = with(
                     &stage,
@@ -402,178 +400,4 @@ fn counts_come_after_the_hosts_own_targets() {
     assert!(found.contains(&256.0));
     let color = gpu.read_texture(&color, 0, wgpu::TextureAspect::All);
     assert!(color.chunks(4).all(|texel| texel == [255, 0, 0, 255]));
-}
-
-#[test]
-fn exact_counts_that_do_not_fit_are_refused() {
-    let feature = wgpu::Features::FLOAT32_BLENDABLE;
-    let device = |required_features| {
-        wgpu::Device::noop(&wgpu::DeviceDescriptor {
-            required_features,
-            ..Default::default()
-        })
-    };
-    let ok = ExactCountDescriptor {
-        size: [64, 32],
-        ..Default::default()
-    };
-    let (bare, _queue) = device(wgpu::Features::empty());
-    assert_eq!(
-        ExactCount::new(&bare, &ok).unwrap_err(),
-        ScreenPassError::MissingFeature {
-            feature,
-            needed_by: "ExactCount"
-        }
-    );
-    let descriptor = ShadowVolumeDescriptor {
-        counter: Counter::Exact,
-        ..Default::default()
-    };
-    let error = ShadowVolumeRenderer::new(&bare, &descriptor).unwrap_err();
-    assert_eq!(
-        error,
-        ShadowVolumeError::MissingFeature {
-            feature,
-            needed_by: "Counter::Exact".to_owned()
-        }
-    );
-
-    let (device, _queue) = device(feature);
-    let eight = [Some(wgpu::TextureFormat::R8Unorm); 8];
-    let crowded = ShadowVolumeDescriptor {
-        color_formats: &eight,
-        ..descriptor
-    };
-    assert!(matches!(
-        ShadowVolumeRenderer::new(&device, &crowded),
-        Err(ShadowVolumeError::Limit {
-            name: "max_color_attachments",
-            needed: 9,
-            ..
-        })
-    ));
-    ShadowVolumeRenderer::new(&device, &descriptor).unwrap();
-    let none = ExactCountDescriptor { size: [0, 1], ..ok };
-    assert!(matches!(
-        ExactCount::new(&device, &none),
-        Err(ScreenPassError::Range { what: "width", .. })
-    ));
-    let two = ExactCountDescriptor {
-        sample_count: 2,
-        ..ok
-    };
-    assert_eq!(
-        ExactCount::new(&device, &two).unwrap_err(),
-        ScreenPassError::SampleCount(2)
-    );
-    let counts = ExactCount::new(&device, &ok).unwrap();
-    let buffer = |width| {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
-            size: wgpu::Extent3d {
-                width,
-                height: 32,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Depth24PlusStencil8,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-            view_formats: &[],
-        });
-        view_of(&texture)
-    };
-    let mut encoder = device.create_command_encoder(&Default::default());
-    let refused = |result| assert!(matches!(result, Err(ScreenPassError::Buffer { .. })));
-    refused(counts.begin(&mut encoder, &buffer(65)).map(drop));
-    refused(counts.encode(&mut encoder, &buffer(65)));
-    counts.begin(&mut encoder, &buffer(64)).map(drop).unwrap();
-    counts.encode(&mut encoder, &buffer(64)).unwrap();
-}
-
-/// A renderer of the stage that has prepared its frame.
-fn prepared(gpu: &Gpu, stage: &Stage) -> ShadowVolumeRenderer {
-    let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
-    stage.prepare(gpu, &mut renderer, &stage.casters(gpu));
-    renderer
-}
-
-#[test]
-fn a_count_that_could_wrap_is_announced() {
-    let Some(gpu) = gpu() else { return };
-    for (stage, count) in [
-        (sheets(1), 1),
-        (sheets(255), 255),
-        (sheets(256), 256),
-        (sheets(257), 257),
-        (sheets(512), 512),
-        (boxes(127), 254),
-        (boxes(128), 256),
-    ] {
-        let mut stencil = prepared(&gpu, &stage);
-        assert_eq!(stencil.count_bound(), count);
-        assert_eq!(stencil.may_wrap(), count > 255);
-        assert!(!prepared(&gpu, &with(&stage, exact())).may_wrap());
-    }
-}
-
-#[test]
-fn no_pixel_counts_more_than_the_bound() {
-    let Some(gpu) = gpu() else { return };
-    let (mut overlaps, mut deeper_than_casters) = (0, 0);
-    for seed in 0..60 {
-        let stage = Stage {
-            samples: 1,
-            savings: exact(),
-            ..random::scene(seed, &gpu)
-        };
-        let counts = exact_counts(&gpu, &stage);
-        let deepest = counts
-            .iter()
-            .fold(0.0, |most: f32, count| most.max(count.abs()));
-        let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
-        let savings = Savings {
-            silhouettes: ways[seed as usize % 3],
-            ..Default::default()
-        };
-        let bound = prepared(&gpu, &with(&stage, savings)).count_bound();
-        assert!(deepest <= bound as f32, "seed {seed}: {deepest}, {bound}");
-        overlaps += i32::from(deepest > 1.0);
-        // The broken twin: one for each caster.
-        let casters = stage.bodies.iter().filter(|body| body.casts).count();
-        deeper_than_casters += i32::from(deepest > casters as f32);
-    }
-    assert!(overlaps > 20, "{overlaps}");
-    assert!(deeper_than_casters > 5, "{deeper_than_casters}");
-}
-
-#[test]
-fn the_bound_is_near_where_casters_are_simple() {
-    let Some(gpu) = gpu() else { return };
-    let sphere = |x: f32| Body::caster(shapes::sphere(24), at(x, 1.2, 0.0));
-    let mut apart = prepared(&gpu, &Stage::new(lamp(), vec![sphere(-2.0), sphere(2.0)]));
-    assert_eq!(apart.count_bound(), 1);
-    let mut together = prepared(&gpu, &Stage::new(lamp(), vec![sphere(0.0), sphere(0.2)]));
-    assert_eq!(together.count_bound(), 2);
-    // Inside, every way out leads through the wall: no silhouette says so.
-    let inside = HomogeneousLight::point(Vec3::new(0.1, 1.3, 0.2));
-    let mut around = prepared(&gpu, &Stage::new(inside, vec![sphere(0.0)]));
-    assert_eq!(around.count_bound(), 1);
-}
-
-#[test]
-fn the_bound_follows_what_moves() {
-    let Some(gpu) = gpu() else { return };
-    let stage = sheets(2);
-    let mut renderer = prepared(&gpu, &stage);
-    assert_eq!(renderer.count_bound(), 2);
-    let mut casters = stage.casters(&gpu);
-    stage.prepare(&gpu, &mut renderer, &casters);
-    assert_eq!(renderer.count_bound(), 2);
-    casters[1].world_from_object = at(0.0, 1.0, 5.0);
-    stage.prepare(&gpu, &mut renderer, &casters);
-    assert_eq!(renderer.count_bound(), 1);
-    stage.prepare(&gpu, &mut renderer, &[]);
-    assert_eq!(renderer.count_bound(), 0);
 }

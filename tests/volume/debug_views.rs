@@ -3,16 +3,14 @@
 use shadows::glam::{Affine3A, DVec2, Vec3, Vec4};
 use shadows::{
     Caster, CasterState, DebugColors, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, VolumeDebug, VolumeDebugDescriptor, wgpu,
+    ShadowVolumeRenderer, VolumeDebug, VolumeDebugDescriptor, wgpu,
 };
 
 use crate::host::gpu::Gpu;
 use crate::passes::{HostPipelines, attach, begin, clear, view_of};
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
-use crate::stage::{Body, Stage};
-
-pub const WAYS: [Silhouettes; 3] = [Silhouettes::Compute, Silhouettes::Cpu, Silhouettes::Vertex];
+use crate::stage::{Body, Stage, WAYS};
 
 /// A stage, drawn once and ready for its debug views.
 pub struct Shown<'a> {

@@ -5,7 +5,7 @@ use shadows::glam::camera::rh::proj::directx as proj;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
-    Caster, CasterMesh, DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor,
+    Caster, CasterMesh, Counter, DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
@@ -114,7 +114,88 @@ fn a_descriptor_that_does_not_fit_is_refused() {
     };
     let limit = "max_color_attachments";
     assert!(matches!(new(&device, descriptor), Err(Error::Limit { name, .. }) if name == limit));
+    // 3 times 16 bytes; and with the counts' 4, one more than twice 16 would be.
+    let wide = [Some(wgpu::TextureFormat::Rgba32Float); 3];
+    let limit = |needed| Error::Limit {
+        name: "max_color_attachment_bytes_per_sample",
+        needed,
+        available: 32,
+    };
+    let descriptor = ShadowVolumeDescriptor {
+        color_formats: &wide,
+        ..ok
+    };
+    assert_eq!(new(&device, descriptor), Err(limit(48)));
+    let (counting, _) = noop(wgpu::Features::FLOAT32_BLENDABLE, wgpu::Limits::defaults());
+    let descriptor = ShadowVolumeDescriptor {
+        color_formats: &wide[..2],
+        ..ok
+    };
+    assert_eq!(new(&counting, descriptor), Ok(()));
+    let descriptor = ShadowVolumeDescriptor {
+        counter: Counter::Exact,
+        ..descriptor
+    };
+    assert_eq!(new(&counting, descriptor), Err(limit(36)));
     assert_eq!(new(&device, ok), Ok(()));
+}
+
+/// Whether wgpu itself takes what `make` does.
+fn is_valid(device: &wgpu::Device, make: impl FnOnce()) -> bool {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    make();
+    pollster::block_on(scope.pop()).is_none()
+}
+
+#[test]
+fn colour_formats_are_refused_where_wgpu_would_refuse_them_and_nowhere_else() {
+    use wgpu::TextureFormat as F;
+    let (device, _) = bare();
+    let formats = [
+        F::R8Unorm,
+        F::R8Snorm,
+        F::Rg8Snorm,
+        F::R32Uint,
+        F::R32Float,
+        F::Rg32Float,
+        F::Rgba32Float,
+        F::Rgba8Snorm,
+        F::Rgba8UnormSrgb,
+        F::Rgba16Float,
+        F::Rgb10a2Unorm,
+        F::Rg11b10Ufloat,
+        F::Rgb9e5Ufloat,
+    ];
+    let mut taken = 0;
+    for (format, sample_count) in formats.into_iter().flat_map(|f| [(f, 1), (f, 4)]) {
+        let descriptor = ShadowVolumeDescriptor {
+            sample_count,
+            color_formats: &[Some(format)],
+            ..Default::default()
+        };
+        let mut result = Ok(());
+        let silent = is_valid(&device, || result = new(&device, descriptor));
+        assert!(silent, "{format:?}, {sample_count}x: {result:?}");
+        let drawable = is_valid(&device, || {
+            let _ = device.create_texture(&wgpu::TextureDescriptor {
+                label: None,
+                size: Default::default(),
+                mip_level_count: 1,
+                sample_count,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
+            });
+        });
+        let right = match drawable {
+            true => Ok(()),
+            false => Err(Error::ColorFormat { place: 0, format }),
+        };
+        assert_eq!(result, right, "{sample_count}x");
+        taken += i32::from(drawable);
+    }
+    assert!(taken > 10 && taken < 20, "{taken}");
 }
 
 #[test]

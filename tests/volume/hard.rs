@@ -10,9 +10,7 @@ use shadows::{
 use crate::host::gpu::Gpu;
 use crate::pictures::{assert_exact, at, lamp, mixed, sun};
 use crate::shapes;
-use crate::stage::{Body, Stage};
-
-const WAYS: [Silhouettes; 3] = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+use crate::stage::{Body, Stage, WAYS};
 
 /// The stage with its silhouettes found in this way.
 fn by(stage: &Stage, silhouettes: Silhouettes) -> Stage {

@@ -1,14 +1,12 @@
 //! A light at a caster's skin: a millionth of the caster's size from it, or exactly on it.
 
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{Caps, HomogeneousLight, Method, Silhouettes};
+use shadows::{Caps, HomogeneousLight, Method};
 
 use crate::host::gpu::Gpu;
 use crate::pictures::at;
 use crate::shapes::{self, Shape};
-use crate::stage::{Body, Savings, Stage};
-
-const WAYS: [Silhouettes; 3] = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
+use crate::stage::{Body, Savings, Stage, WAYS};
 
 /// A light at a place of the shape's own space, and beside the shape a small sphere.
 fn stage(shape: &Shape, turn: Quat, light: Vec3) -> Stage {

@@ -8,6 +8,17 @@ use crate::host::gpu::Gpu;
 use crate::shapes::Shape;
 use crate::stage::Stage;
 
+/// In which order the host multiplies: other orders have other last bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arithmetic {
+    /// `(p * v) * (m * x)`, as `wgsl::POSITION` has it.
+    Ours,
+    /// `(p * v * m) * x`.
+    Premultiplied,
+    /// `p * (v * (m * x))`.
+    OneByOne,
+}
+
 /// One body's geometry as the host draws it.
 pub struct Surface {
     pub vertices: wgpu::Buffer,
@@ -16,8 +27,8 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Its vertices: position, and two matrices of which the second is applied first.
-    pub fn new(gpu: &Gpu, shape: &Shape, [first, second]: [Mat4; 2]) -> Self {
+    /// Its vertices: position, and three matrices of which the last is applied first.
+    pub fn new(gpu: &Gpu, shape: &Shape, matrices: [Mat4; 3]) -> Self {
         let buffer = |contents, usage| {
             gpu.device
                 .create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -29,8 +40,7 @@ impl Surface {
         let mut vertices: Vec<f32> = Vec::new();
         for position in &shape.positions {
             vertices.extend(position);
-            vertices.extend(first.to_cols_array());
-            vertices.extend(second.to_cols_array());
+            vertices.extend(matrices.iter().flat_map(Mat4::to_cols_array));
         }
         Self {
             vertices: buffer(bytes_of(&vertices[..]), wgpu::BufferUsages::VERTEX),
@@ -142,10 +152,12 @@ struct Vertex {
     @location(0) position: vec3f,
     @location(1) a: vec4f, @location(2) b: vec4f, @location(3) c: vec4f, @location(4) d: vec4f,
     @location(5) e: vec4f, @location(6) f: vec4f, @location(7) g: vec4f, @location(8) h: vec4f,
+    @location(9) i: vec4f, @location(10) j: vec4f, @location(11) k: vec4f, @location(12) l: vec4f,
 }
 @vertex fn surface(v: Vertex) -> @invariant @builtin(position) vec4f {
-    let first = mat4x4f(v.a, v.b, v.c, v.d);
-    return shadows_clip_position(first, mat4x4f(v.e, v.f, v.g, v.h), v.position);
+    let middle = mat4x4f(v.e, v.f, v.g, v.h);
+    let inner = mat4x4f(v.i, v.j, v.k, v.l);
+    return mat4x4f(v.a, v.b, v.c, v.d) * shadows_clip_position(middle, inner, v.position);
 }
 @vertex fn screen(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
     return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.5, 1.0);
@@ -168,10 +180,11 @@ impl HostPipelines {
             });
         let attributes = wgpu::vertex_attr_array![
             0 => Float32x3, 1 => Float32x4, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4,
-            5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4
+            5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4,
+            9 => Float32x4, 10 => Float32x4, 11 => Float32x4, 12 => Float32x4
         ];
         let layout = wgpu::VertexBufferLayout {
-            array_stride: 35 * 4,
+            array_stride: 51 * 4,
             step_mode: wgpu::VertexStepMode::Vertex,
             attributes: &attributes,
         };

@@ -4,6 +4,7 @@ use shadows::glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
 use shadows::{DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor, wgpu};
 
 use crate::host::gpu::Gpu;
+use crate::passes::Arithmetic;
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Lens, Stage};
 
@@ -184,35 +185,46 @@ pub fn mixed(light: HomogeneousLight) -> Stage {
     )
 }
 
+/// A ball, drawn by a host that multiplies in this order.
+fn ball(arithmetic: Arithmetic, axis: Vec3) -> Stage {
+    let turned = Affine3A::from_rotation_translation(
+        Quat::from_axis_angle(axis.normalize(), 1.1),
+        Vec3::new(0.37, 1.9, -0.23),
+    );
+    Stage {
+        arithmetic,
+        ..Stage::new(lamp(), vec![Body::caster(shapes::sphere(24), turned)])
+    }
+}
+
+const OTHER_ARITHMETIC: [Arithmetic; 2] = [Arithmetic::Premultiplied, Arithmetic::OneByOne];
+
 #[test]
 fn caps_do_not_fight_with_a_host_of_other_arithmetic() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let turned = Affine3A::from_rotation_translation(
-        Quat::from_axis_angle(Vec3::new(3.0, 1.0, 2.0).normalize(), 1.1),
-        Vec3::new(0.37, 1.9, -0.23),
-    );
     // In 24-bit depth the other arithmetic does not show here: float depth is finer.
     let format = wgpu::TextureFormat::Depth32FloatStencil8;
     if !gpu.device.features().contains(format.required_features()) {
         return;
     }
-    let mut stage = Stage {
-        premultiplied: true,
-        format,
-        ..Stage::new(lamp(), vec![Body::caster(shapes::sphere(24), turned)])
-    };
-    // z-pass has no caps.
-    stage.savings.method = Method::ZFail;
-    assert_exact(&gpu, &stage, "premultiplied");
-    let unbiased = Stage {
-        cap_bias_ulps: 0,
-        ..stage
-    };
-    let found = unbiased.truth().errors(&unbiased.draw(&gpu));
-    assert!(
-        found.wrong > 0,
-        "the bias has nothing to do here: {found:?}"
-    );
+    for arithmetic in OTHER_ARITHMETIC {
+        let mut stage = Stage {
+            format,
+            ..ball(arithmetic, Vec3::new(3.0, 1.0, 2.0))
+        };
+        // z-pass has no caps.
+        stage.savings.method = Method::ZFail;
+        assert_exact(&gpu, &stage, &format!("{arithmetic:?}"));
+        let unbiased = Stage {
+            cap_bias_ulps: 0,
+            ..stage
+        };
+        let found = unbiased.truth().errors(&unbiased.draw(&gpu));
+        assert!(
+            found.wrong > 0,
+            "{arithmetic:?}: the bias has nothing to do here: {found:?}"
+        );
+    }
 }
 
 #[test]
@@ -228,18 +240,16 @@ fn every_format_and_convention_bears_a_host_of_other_arithmetic() {
                 continue;
             }
             for (axis, method) in axes.into_iter().zip([Method::ZFail, Method::Auto]) {
-                let turned = Affine3A::from_rotation_translation(
-                    Quat::from_axis_angle(axis.normalize(), 1.1),
-                    Vec3::new(0.37, 1.9, -0.23),
-                );
-                let mut stage = Stage {
-                    premultiplied: true,
-                    depth,
-                    format,
-                    ..Stage::new(lamp(), vec![Body::caster(shapes::sphere(24), turned)])
-                };
-                stage.savings.method = method;
-                assert_exact(&gpu, &stage, &format!("{depth:?}, {format:?}, {method:?}"));
+                for arithmetic in OTHER_ARITHMETIC {
+                    let mut stage = Stage {
+                        depth,
+                        format,
+                        ..ball(arithmetic, axis)
+                    };
+                    stage.savings.method = method;
+                    let what = format!("{depth:?}, {format:?}, {method:?}, {arithmetic:?}");
+                    assert_exact(&gpu, &stage, &what);
+                }
             }
         }
     }

@@ -1,14 +1,16 @@
 //! Five hundred random scenes: meshes of both kinds, lights near and inside, eyes inside volumes,
 //! fields of view from 20 to 150 degrees, every depth convention and format, 1x and 4x.
 
+use std::collections::HashMap;
+
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{Extrusion, HomogeneousLight, Method, Silhouettes, StartFrom, wgpu};
+use shadows::{Extrusion, HomogeneousLight, Method, StartFrom, wgpu};
 
 use crate::choices::{TEXTBOOK, depths};
 use crate::host::gpu::Gpu;
 use crate::host::random::Random;
 use crate::shapes::{self, Shape};
-use crate::stage::{Body, Savings, Stage};
+use crate::stage::{Body, Savings, Stage, WAYS};
 use crate::truth::Errors;
 
 const SCENES: u64 = 500;
@@ -122,9 +124,8 @@ fn place_camera(stage: &mut Stage, random: &mut Random) {
     stage.near = [0.02, 0.1, 0.5][random.below(3)];
 }
 
-fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
-    let stage = scene(seed, gpu);
-    let truth = stage.truth();
+/// The three ways in which a scene is drawn.
+fn choices(seed: u64) -> [Savings; 3] {
     let z_fail = Savings {
         method: Method::ZFail,
         ..Default::default()
@@ -138,18 +139,24 @@ fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
     } else {
         infinite
     };
-    let ways = [Silhouettes::Cpu, Silhouettes::Compute, Silhouettes::Vertex];
-    for (savings, turn) in [Savings::default(), z_fail, third].into_iter().zip(0..) {
-        let silhouettes = ways[(seed / 4 + turn) as usize % 3];
-        let start_from = match (seed / 3 + turn) % 2 {
-            0 => StartFrom::LightFacing,
-            _ => StartFrom::AwayFacing,
-        };
-        let savings = Savings {
-            silhouettes,
-            start_from,
+    let mut turn = 0;
+    [Savings::default(), z_fail, third].map(|savings| {
+        turn += 1;
+        Savings {
+            silhouettes: WAYS[(seed / 4 + turn) as usize % 3],
+            start_from: match (seed / 3 + turn) % 2 {
+                0 => StartFrom::AwayFacing,
+                _ => StartFrom::LightFacing,
+            },
             ..savings
-        };
+        }
+    })
+}
+
+fn assert_exact(gpu: &Gpu, seed: u64, total: &mut Errors) {
+    let stage = scene(seed, gpu);
+    let truth = stage.truth();
+    for savings in choices(seed) {
         let picture = Stage {
             savings,
             ..stage.clone()
@@ -214,13 +221,29 @@ fn a_forced_z_pass_is_wrong_in_some_of_them() {
 }
 
 #[test]
-fn all_conventions_are_among_them() {
+fn every_way_method_convention_format_and_sample_count_is_among_them() {
     let Some(gpu) = Gpu::for_test() else { return };
-    for depth in depths(&gpu) {
-        for samples in [1, 4] {
-            let like = |stage: &Stage| stage.depth == depth && stage.samples == samples;
-            let count = (0..SCENES).filter(|seed| like(&scene(*seed, &gpu))).count();
-            assert!(count > 10, "{depth:?}, {samples}x: {count}");
+    let mut drawn: HashMap<_, u32> = HashMap::new();
+    for seed in 0..SCENES {
+        let stage = scene(seed, &gpu);
+        for Savings {
+            silhouettes,
+            method,
+            ..
+        } in choices(seed)
+        {
+            let made = (stage.depth, stage.format, stage.samples);
+            *drawn.entry((silhouettes, method, made)).or_default() += 1;
         }
     }
+    let float = wgpu::TextureFormat::Depth32FloatStencil8;
+    let has_float = gpu.device.features().contains(float.required_features());
+    let formats = if has_float { 2 } else { 1 };
+    // Two methods, one sample or four.
+    assert_eq!(
+        drawn.len(),
+        WAYS.len() * 2 * depths(&gpu).len() * formats * 2
+    );
+    // Not the same few times over.
+    assert!(drawn.values().all(|times| *times < 100), "{drawn:?}");
 }

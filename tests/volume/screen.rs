@@ -330,5 +330,29 @@ fn masks_and_joins_that_do_not_fit_are_refused() {
         join(descriptor).unwrap_err(),
         Error::ColorFormat(color_format)
     );
+    let join = join(LightJoinDescriptor::default()).unwrap();
+    let source = |format, usage| {
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: Default::default(),
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        });
+        join.bind(&view_of(&texture)).map(drop)
+    };
+    use wgpu::{TextureFormat as F, TextureUsages as U};
+    for (format, usage) in [
+        (F::Rgba8Unorm, U::RENDER_ATTACHMENT),
+        (F::Rgba8Uint, U::TEXTURE_BINDING),
+        (F::Depth32Float, U::TEXTURE_BINDING),
+    ] {
+        let error = Error::Unreadable { format, usage };
+        assert_eq!(source(format, usage), Err(error));
+    }
+    assert_eq!(source(F::Rgba32Float, U::TEXTURE_BINDING), Ok(()));
     assert_eq!(pollster::block_on(scope.pop()).map(|e| e.to_string()), None);
 }

@@ -12,11 +12,16 @@ use shadows::{
 use wgpu::util::DeviceExt as _;
 
 use crate::host::gpu::Gpu;
-use crate::passes::{HostPipelines, LightPass, Surface, attach, begin, bytes_of, clear, view_of};
+use crate::passes::{
+    Arithmetic, HostPipelines, LightPass, Surface, attach, begin, bytes_of, clear, view_of,
+};
 use crate::shapes::Shape;
 use crate::truth::Truth;
 
 pub const SIDE: u32 = 256;
+
+/// Every way to find silhouettes.
+pub const WAYS: [Silhouettes; 3] = [Silhouettes::Compute, Silhouettes::Cpu, Silhouettes::Vertex];
 
 /// A shape somewhere in the world.
 #[derive(Clone, Debug)]
@@ -65,8 +70,8 @@ pub struct Stage {
     pub format: wgpu::TextureFormat,
     pub samples: u32,
     pub cap_bias_ulps: u32,
-    /// Whether the host multiplies its matrices before the positions: other last bits.
-    pub premultiplied: bool,
+    /// How the host multiplies.
+    pub arithmetic: Arithmetic,
     /// Bytes between positions and before the first, in a buffer of the host's.
     pub host_layout: Option<(usize, usize)>,
     pub light_pass: LightPass,
@@ -109,7 +114,7 @@ impl Stage {
             format: wgpu::TextureFormat::Depth24PlusStencil8,
             samples: 1,
             cap_bias_ulps: ShadowVolumeDescriptor::default().cap_bias_ulps,
-            premultiplied: false,
+            arithmetic: Arithmetic::Ours,
             host_layout: None,
             light_pass: LightPass::Screen,
             lens: Lens::Perspective,
@@ -134,6 +139,11 @@ impl Stage {
         if let Some(view) = self.placed_view {
             return view;
         }
+        let [projection, camera] = self.projection_and_camera();
+        View::new(projection * camera, self.depth).unwrap()
+    }
+
+    fn projection_and_camera(&self) -> [Mat4; 2] {
         let far = 1000.0 * self.near;
         let (fov, near) = (self.field_of_view, self.near);
         let projection = match self.depth {
@@ -158,7 +168,7 @@ impl Stage {
                 proj::orthographic(-5.0, 5.0, -5.0, 5.0, zero, one)
             }
         };
-        View::new(projection * camera, self.depth).unwrap()
+        [projection, camera]
     }
 
     /// The exact answer at the centres of the pixels and, with several samples, at those.
@@ -407,14 +417,16 @@ impl Stage {
         gpu.read_texture(&depth, 0, wgpu::TextureAspect::StencilOnly)
     }
 
-    /// Each body as position and matrices for every corner, and its indices.
+    /// Each body's corners with the matrices that they go through, and its indices.
     pub fn surfaces(&self, gpu: &Gpu) -> Vec<Surface> {
         let clip = self.view().clip_from_world();
         let surface = |body: &Body| {
             let world = Mat4::from(body.transform);
-            let matrices = match self.premultiplied {
-                true => [clip * world, Mat4::IDENTITY],
-                false => [clip, world],
+            let [projection, camera] = self.projection_and_camera();
+            let matrices = match self.arithmetic {
+                Arithmetic::Ours => [Mat4::IDENTITY, clip, world],
+                Arithmetic::Premultiplied => [Mat4::IDENTITY, clip * world, Mat4::IDENTITY],
+                Arithmetic::OneByOne => [projection, camera, world],
             };
             Surface::new(gpu, &body.shape, matrices)
         };

@@ -7,11 +7,12 @@ use shadows::{
 };
 
 use crate::choices::depths;
-use crate::debug_views::{Shown, WAYS};
+use crate::debug_views::Shown;
 use crate::host::gpu::Gpu;
+use crate::passes::Arithmetic;
 use crate::pictures::{assert_exact, at, lamp, mixed, sun};
 use crate::shapes::{self, Shape};
-use crate::stage::{Body, Stage};
+use crate::stage::{Body, Stage, WAYS};
 
 const METHODS: [Method; 2] = [Method::ZFail, Method::Auto];
 
@@ -198,7 +199,7 @@ fn a_host_of_other_arithmetic_sees_no_fighting() {
     }
     for method in METHODS {
         let mut stage = Stage {
-            premultiplied: true,
+            arithmetic: Arithmetic::Premultiplied,
             format,
             ..alone(shapes::sphere(24), lamp())
         };

@@ -3,11 +3,11 @@
 use shadows::glam::Vec3;
 use shadows::{Caps, HomogeneousLight, Method, ShadowVolumeRenderer, Silhouettes, VolumeSurvey};
 
-use crate::debug_views::{WAYS, layers, nested};
+use crate::debug_views::{layers, nested};
 use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
-use crate::stage::{Body, Stage};
+use crate::stage::{Body, Stage, WAYS};
 
 fn survey(gpu: &Gpu, stage: &Stage) -> VolumeSurvey {
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();

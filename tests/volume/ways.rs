@@ -12,9 +12,7 @@ use wgpu::util::DeviceExt as _;
 use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
-use crate::stage::{Body, Stage};
-
-const WAYS: [Silhouettes; 3] = [Silhouettes::Compute, Silhouettes::Cpu, Silhouettes::Vertex];
+use crate::stage::{Body, Stage, WAYS};
 
 fn renderer(gpu: &Gpu, stage: &Stage, silhouettes: Silhouettes) -> ShadowVolumeRenderer {
     let descriptor = ShadowVolumeDescriptor {
@@ -101,7 +99,7 @@ fn what_stands_still_is_not_searched_again() {
             assert_eq!(found.casters_drawn, count);
             assert_eq!(
                 found.dispatches > 0,
-                found.casters_extracted > 0 && way == WAYS[0]
+                found.casters_extracted > 0 && way == Silhouettes::Compute
             );
             found.casters_extracted
         };

@@ -1,5 +1,5 @@
 //! How long it takes to find the volume of a closed mesh of a million triangles, beside the
-//! plainest loops that could do it, in interleaved rounds of one run.
+//! plainest loops that could do it, in interleaved rounds.
 //!
 //! Everyone has the same duty: from a light until the lists of caps and sides lie in the GPU's
 //! buffers and its queue is idle. (A list in main memory is of no use to a draw.) The light moves
@@ -12,19 +12,11 @@
 //! - `compute`: `Silhouettes::Compute`, the same two phases as plain compute passes.
 //! - `copy`: the adapter copies as many bytes as an extraction has to read, the floor.
 //!
-//! `ratio extraction_vs_best_loop` is `extraction` over the faster of `loop` and `compute`; `--quick`
-//! takes fewer rounds.
-
-#[allow(dead_code)]
-#[path = "../examples/host/gpu.rs"]
-mod gpu;
-#[path = "shared/mod.rs"]
-mod shared;
+//! `ratio extraction_vs_best_loop` is `extraction` over the faster of `loop` and `compute`.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use gpu::Gpu;
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
@@ -32,8 +24,10 @@ use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
-use shared::torus::torus;
-use shared::{median, paired, seconds};
+
+use crate::host::gpu::{self, Gpu};
+use crate::shared::torus::torus;
+use crate::shared::{median, paired, seconds};
 
 /// The plain loop and its memory.
 struct Loop {
@@ -46,7 +40,7 @@ struct Loop {
     sides: Vec<u32>,
     /// Of caps and sides, room for all there could be.
     buffers: [wgpu::Buffer; 2],
-    /// How long it took without the upload.
+    /// Milliseconds without the upload.
     in_memory: Vec<Duration>,
 }
 
@@ -119,12 +113,8 @@ impl<'a> Extraction<'a> {
     }
 }
 
-fn main() {
-    let Ok(gpu) = Gpu::new(None) else {
-        eprintln!("skipped: no adapter");
-        return;
-    };
-    let rounds = if shared::quick() { 5 } else { 25 };
+/// Measures and prints.
+pub fn run(gpu: &Gpu, rounds: usize) {
     let (positions, indices) = torus(1000, 500);
     let adjacency = Adjacency::new(&positions, &indices).expect("a torus");
     let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a mesh");
@@ -154,8 +144,8 @@ fn main() {
         }),
         in_memory: Vec::new(),
     };
-    let mut auto = Extraction::new(&gpu, &mesh, Silhouettes::Auto);
-    let mut compute = Extraction::new(&gpu, &mesh, Silhouettes::Compute);
+    let mut auto = Extraction::new(gpu, &mesh, Silhouettes::Auto);
+    let mut compute = Extraction::new(gpu, &mesh, Silhouettes::Compute);
     let bytes = 12 * positions.len() + 12 * adjacency.triangles().len() + 16 * plain.edges.len();
     let from = buffer(bytes, wgpu::BufferUsages::COPY_SRC);
     let to = buffer(bytes, wgpu::BufferUsages::COPY_DST);
@@ -165,7 +155,7 @@ fn main() {
         let light = Vec3::new(-2.0 + 0.01 * round as f32, 6.0, 2.5);
         let works: [&mut dyn FnMut(); 4] = [
             &mut || auto.run(light),
-            &mut || plain.upload(&gpu, light),
+            &mut || plain.upload(gpu, light),
             &mut || compute.run(light),
             &mut || {
                 gpu.run(|encoder| {
