@@ -7,11 +7,12 @@ use shadows::reference::Interior;
 use shadows::{
     Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
     ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
-    PcfSampler, PointLight, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, SpotLight, View, wgpu,
+    PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    ShadowVolumeFrame, ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
 use crate::host::gpu::Gpu;
+use crate::host::interior::{self, radius_in_texels};
 use crate::host::pipelines::visibility_module;
 use crate::host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene::Cone;
@@ -279,21 +280,10 @@ impl Shadow {
 
     /// Where resolution is no excuse for this technique's errors in the last prepared frame.
     pub fn interior(&self) -> Interior {
-        let kernel_radius = self.technique.config.kernel().map_or(0.0, radius_in_texels);
+        let kernel = self.technique.config.kernel().unwrap_or_default();
         match &self.means {
-            Means::Cube { map, .. } => Interior::Map {
-                face_size: map.size(),
-                kernel_radius,
-            },
-            Means::Flat { map, .. } => match map.clip_from_world() {
-                Some(clip_from_world) => Interior::FlatMap {
-                    clip_from_world,
-                    size: map.size(),
-                    kernel_radius,
-                },
-                // Nothing casts.
-                None => Interior::Screen,
-            },
+            Means::Cube { map, .. } => interior::of_cube(map, kernel),
+            Means::Flat { map, .. } => interior::of_flat(map, kernel),
             Means::Volume { .. } => Interior::Screen,
         }
     }
@@ -390,14 +380,4 @@ fn sampled(gpu: &Gpu, renderer: &Renderer, sampler: &PcfSampler) -> LitPipeline 
 /// The number as one would write it: 0.1 rather than the f64 nearest to the f32 nearest to 0.1.
 fn decimal(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::from(value))
-}
-
-/// How many texels a kernel reaches, at most: disks are measured on the surface, where texels are
-/// up to `sqrt(3)` smaller than straight ahead, and reach to the centre of the texel they hit.
-fn radius_in_texels(kernel: Kernel) -> f32 {
-    match kernel.radius() {
-        Radius::Texels(radius) if kernel.uses_pixel() => radius * 3.0_f32.sqrt() + 0.5,
-        Radius::Texels(radius) => radius,
-        Radius::World(_) => f32::INFINITY, // no pixel is safely interior
-    }
 }

@@ -4,6 +4,7 @@
 pub mod exact;
 pub mod gpu;
 pub mod image;
+pub mod interior;
 pub mod pipelines;
 pub mod ply;
 pub mod random;

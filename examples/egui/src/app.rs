@@ -16,7 +16,7 @@ use shadows::wgpu;
 
 use crate::host::image;
 use crate::host::scene::Scene;
-use crate::measure::{self, Job, Measured, STRIDE};
+use crate::measure::{self, Job, Measured, STRIDE, Shot};
 use crate::panel::{Controls, error_ui, table};
 use crate::viewport::{Paint, Show, Viewport};
 
@@ -107,7 +107,7 @@ impl App {
         self.controls.light.extend(w)
     }
 
-    fn paint(&self, ui: &Ui, rect: Rect, size: [u32; 2], read: Option<Sender<Vec<u8>>>) {
+    fn paint(&self, ui: &Ui, rect: Rect, size: [u32; 2], read: Option<Sender<Shot>>) {
         let Controls { settings, show, .. } = self.controls;
         let paint = Paint {
             settings,
@@ -149,13 +149,12 @@ impl App {
     }
 
     /// Has the picture that is about to be drawn judged; gives where its pixels are to be sent.
-    fn send_job(&mut self, size: [u32; 2]) -> Option<Sender<Vec<u8>>> {
-        let (pixels, visibility) = channel();
+    fn send_job(&mut self, size: [u32; 2]) -> Option<Sender<Shot>> {
+        let (pixels, shot) = channel();
         let job = Job {
             light: self.light(),
-            settings: self.controls.settings,
             size,
-            visibility,
+            shot,
         };
         self.jobs.send(job).ok()?;
         self.pending = Some(true);

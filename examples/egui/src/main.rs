@@ -18,6 +18,7 @@ mod host;
 mod measure;
 mod panel;
 mod shadow;
+mod statistics;
 mod viewport;
 
 use panel::Controls;

@@ -5,14 +5,13 @@ use std::thread;
 
 use anyhow::{Context as _, Result};
 use eframe::egui::{Color32, ColorImage, Context};
+use shadows::HomogeneousLight;
 use shadows::glam::Vec4;
 use shadows::reference::{Comparison, Interior, ReferenceImage, ReferenceScene, Verdict};
-use shadows::{HomogeneousLight, Kernel, Radius};
 
 use crate::host::exact::reference_scene;
 use crate::host::renderer;
 use crate::host::scene::Scene;
-use crate::shadow::{Settings, Technique};
 
 /// The reference looks at every third pixel of every third row: at the very same points of the
 /// picture, with a ninth of the rays.
@@ -21,18 +20,23 @@ pub const STRIDE: u32 = 3;
 /// A picture that is to be judged.
 pub struct Job {
     pub light: Vec4,
-    pub settings: Settings,
     /// Pixels of the picture: multiples of [`STRIDE`].
     pub size: [u32; 2],
+    /// Its pixels, once they are drawn.
+    pub shot: Receiver<Shot>,
+}
+
+/// What was drawn.
+pub struct Shot {
     /// One byte a pixel.
-    pub visibility: Receiver<Vec<u8>>,
+    pub visibility: Vec<u8>,
+    /// Where resolution is no excuse.
+    pub interior: Interior,
 }
 
 /// How wrong it is.
 pub struct Measured {
     pub error: Comparison,
-    /// Whether the interior counts are of use: there is no such measure for flat maps.
-    pub interior: bool,
     /// Wall-clock seconds that the reference took, this time or earlier.
     pub seconds: f64,
     /// Of the pixels looked at: wrong ones in colour.
@@ -74,22 +78,20 @@ struct Judge {
 
 impl Judge {
     fn measure(&mut self, job: &Job) -> Result<Measured> {
-        let visibility = job.visibility.recv().context("the picture was not drawn")?;
+        let shot = job.shot.recv().context("the picture was not drawn")?;
         let [width, height] = job.size.map(|side| side / STRIDE);
         let pixel = |x: u32, y: u32| {
             let [x, y] = [x, y].map(|at| at * STRIDE + STRIDE / 2);
-            visibility[(y * job.size[0] + x) as usize]
+            shot.visibility[(y * job.size[0] + x) as usize]
         };
         let seen: Vec<u8> = (0..height)
             .flat_map(|y| (0..width).map(move |x| pixel(x, y)))
             .collect();
-        let interior = interior(&job.settings);
         let reference = self.reference(job)?;
-        let error = reference.compare(&seen, interior.unwrap_or(Interior::Screen))?;
+        let error = reference.compare(&seen, shot.interior)?;
         Ok(Measured {
             picture: picture([width, height], &seen, &error.verdicts),
             error,
-            interior: interior.is_some(),
             seconds: reference.seconds(),
         })
     }
@@ -111,28 +113,6 @@ impl Judge {
             }
         };
         Ok(&self.known.insert(known).2)
-    }
-}
-
-/// Where resolution is no excuse; `None` for flat maps.
-fn interior(settings: &Settings) -> Option<Interior> {
-    match (settings.technique, settings.directional) {
-        (Technique::Map, true) => None,
-        (Technique::Map, false) => Some(Interior::Map {
-            face_size: settings.size,
-            kernel_radius: radius_in_texels(settings.kernel),
-        }),
-        (Technique::Volumes | Technique::None, _) => Some(Interior::Screen),
-    }
-}
-
-/// How far a kernel reaches on a face: disks lie on the surface, where texels are up to `sqrt(3)`
-/// smaller than straight ahead, and reach to the centre of the texel they hit.
-fn radius_in_texels(kernel: Kernel) -> f32 {
-    match kernel.radius() {
-        Radius::Texels(radius) if kernel.uses_pixel() => radius * 3.0_f32.sqrt() + 0.5,
-        Radius::Texels(radius) => radius,
-        Radius::World(_) => Radius::MAX_TEXELS,
     }
 }
 

@@ -52,6 +52,11 @@ impl Controls {
             if settings.technique == Technique::Map && !settings.directional {
                 ui.selectable_value(&mut self.show, Show::Cross, "cube cross");
             }
+            if settings.technique == Technique::Volumes {
+                ui.selectable_value(&mut self.show, Show::Surfaces, "surfaces");
+                ui.selectable_value(&mut self.show, Show::Counts, "counts");
+                ui.selectable_value(&mut self.show, Show::Casters, "casters");
+            }
         });
     }
 }
@@ -137,10 +142,7 @@ pub fn error_ui(ui: &mut Ui, measured: Option<&anyhow::Result<Measured>>, proble
     let error = &measured.error;
     let wrong = error.false_lit + error.false_shadow;
     let share = 100.0 * wrong as f64 / error.lit_facing.max(1) as f64;
-    let interior = match measured.interior {
-        true => (error.false_lit_interior + error.false_shadow_interior).to_string(),
-        false => "not for flat maps".into(),
-    };
+    let interior = error.false_lit_interior + error.false_shadow_interior;
     table(
         ui,
         "Error",
@@ -149,7 +151,7 @@ pub fn error_ui(ui: &mut Ui, measured: Option<&anyhow::Result<Measured>>, proble
             ("wrong", format!("{wrong} ({share:.4} %)")),
             ("false lit", error.false_lit.to_string()),
             ("false shadow", error.false_shadow.to_string()),
-            ("in the interior", interior),
+            ("in the interior", interior.to_string()),
             ("rays cast in", format!("{:.2} s", measured.seconds)),
         ],
     );

@@ -2,18 +2,22 @@
 //! settings, and the same three verbs each frame whatever was chosen.
 
 use anyhow::Result;
+use shadows::reference::Interior;
 use shadows::wgpu;
 use shadows::{
     Bias, Caster, CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap,
     CubeShadowMapDescriptor, DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind,
     PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeDebug,
+    VolumeDebugDescriptor, VolumeSurvey,
 };
 
 use crate::host::gpu::Gpu;
-use crate::host::pipelines::{DEPTH, ShadowAccess, visibility_module};
+use crate::host::interior;
+use crate::host::pipelines::{DEPTH, SHADED, ShadowAccess, visibility_module};
 use crate::host::renderer::{LitPipeline, Renderer};
 use crate::host::scene_gpu::SceneGpu;
+use crate::statistics::{self, Rows};
 
 /// How shadows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -39,6 +43,19 @@ pub struct Settings {
     pub size: u32,
 }
 
+/// What may be shown of how shadows come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DebugView {
+    /// The cube map, unfolded.
+    Cross,
+    /// Surfaces of the volumes, with their silhouette edges.
+    Surfaces,
+    /// Stencil counts as colours.
+    Counts,
+    /// Casters by what was decided for them.
+    Casters,
+}
+
 /// What is told each frame.
 pub struct Frame<'a> {
     pub view: View,
@@ -48,6 +65,8 @@ pub struct Frame<'a> {
     pub casters: &'a [Caster],
     /// Pixels of the picture.
     pub size: [u32; 2],
+    /// What is to be shown, if the technique has it.
+    pub debug: Option<DebugView>,
 }
 
 /// Shadows of one light, by one technique.
@@ -59,7 +78,7 @@ pub struct Shadows {
 enum Means {
     Cube(Box<Cube>),
     Flat(Box<ShadowMap>, wgpu::BindGroup),
-    Volumes(Box<ShadowVolumeRenderer>),
+    Volumes(Box<Volumes>),
     None,
 }
 
@@ -69,6 +88,14 @@ struct Cube {
     cross: CubeCross,
     /// For this revision of the map's texture: what the lit pass reads, and what the cross does.
     groups: Option<(u64, wgpu::BindGroup, wgpu::BindGroup)>,
+}
+
+struct Volumes {
+    renderer: ShadowVolumeRenderer,
+    debug: VolumeDebug,
+    shown: Option<DebugView>,
+    /// Of the last frame that had a debug view: it takes too long for every frame.
+    survey: Option<(View, HomogeneousLight, [u32; 2], VolumeSurvey)>,
 }
 
 impl Shadows {
@@ -143,16 +170,24 @@ impl Shadows {
             depth: DEPTH,
             ..Default::default()
         };
+        let debug = VolumeDebugDescriptor {
+            color_format: SHADED,
+            depth_stencil_format: descriptor.depth_stencil_format,
+            depth: DEPTH,
+            ..Default::default()
+        };
         let access = ShadowAccess {
             stencil: Some(ShadowVolumeRenderer::light_pass_stencil()),
             ..Default::default()
         };
         Ok(Self {
             lit: renderer.lit_pipeline(gpu, &access),
-            means: Means::Volumes(Box::new(ShadowVolumeRenderer::new(
-                &gpu.device,
-                &descriptor,
-            )?)),
+            means: Means::Volumes(Box::new(Volumes {
+                renderer: ShadowVolumeRenderer::new(&gpu.device, &descriptor)?,
+                debug: VolumeDebug::new(&gpu.device, &debug)?,
+                shown: None,
+                survey: None,
+            })),
         })
     }
 
@@ -180,15 +215,7 @@ impl Shadows {
                 let light = FlatLight::Directional(DirectionalLight::new(position));
                 map.prepare(device, queue, &ShadowFrame::new(light, casters))?;
             }
-            Means::Volumes(volumes) => {
-                let range = (!frame.light.is_directional()).then_some(frame.range);
-                let frame = ShadowVolumeFrame {
-                    range,
-                    target_size: Some(frame.size),
-                    ..ShadowVolumeFrame::new(&frame.view, frame.light, casters)
-                };
-                volumes.prepare(device, queue, &frame)?;
-            }
+            Means::Volumes(volumes) => volumes.prepare(gpu, frame)?,
             Means::None => {}
         }
         Ok(())
@@ -200,26 +227,46 @@ impl Shadows {
             Means::Cube(cube) => cube.map.encode(encoder),
             Means::Flat(map, _) => map.encode(encoder),
             Means::Volumes(volumes) => {
-                volumes.encode(encoder);
-                volumes.render(&mut renderer.begin_stencil_pass(encoder));
+                volumes.renderer.encode(encoder);
+                volumes
+                    .renderer
+                    .render(&mut renderer.begin_stencil_pass(encoder));
             }
             Means::None => {}
         }
     }
 
-    /// Third verb: the lit pass, with the map bound or the stencil tested.
+    /// Third verb: the lit pass, with the map bound or the stencil tested, and what is to be shown of
+    /// the volumes.
     pub fn shade(&self, renderer: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
         let group = match &self.means {
             Means::Cube(cube) => cube.groups.as_ref().map(|(_, lit, _)| lit),
             Means::Flat(_, group) => Some(group),
             Means::Volumes(_) | Means::None => None,
         };
+        // The light pass changes counts, and adds nothing where there are any.
+        self.draw_over(renderer, encoder, &[DebugView::Counts]);
         renderer.draw_lit(encoder, scene, &self.lit, group);
+        let after = [DebugView::Surfaces, DebugView::Casters];
+        self.draw_over(renderer, encoder, &after);
+    }
+
+    /// Draws the volumes' view, if it is one of these, into the host's picture: it takes the scene's
+    /// depth and stencil, which egui's pass does not have.
+    fn draw_over(
+        &self,
+        renderer: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        views: &[DebugView],
+    ) {
+        if let Means::Volumes(volumes) = &self.means
+            && let Some(view) = volumes.shown.filter(|view| views.contains(view))
+        {
+            volumes.draw_debug(&mut renderer.begin_overlay_pass(encoder), view);
+        }
     }
 
     /// Draws the cube map, unfolded, into egui's pass; false if there is none.
-    ///
-    /// A view of the volumes belongs here, too: another arm, another pipeline.
     pub fn draw_debug(&self, pass: &mut wgpu::RenderPass<'_>) -> bool {
         let Means::Cube(cube) = &self.means else {
             return false;
@@ -231,54 +278,26 @@ impl Shadows {
         true
     }
 
-    /// What the last frame came to: names and values.
-    pub fn statistics(&self) -> Vec<(&'static str, String)> {
+    /// Where resolution is no excuse for errors of the last prepared frame.
+    pub fn interior(&self, kernel: Kernel) -> Interior {
         match &self.means {
-            Means::Cube(cube) => {
-                let s = cube.map.statistics();
-                let faces = s.faces_rendered + s.faces_kept;
-                vec![
-                    (
-                        "faces drawn",
-                        format!("{} of {faces} with casters", s.faces_rendered),
-                    ),
-                    ("faces hidden", s.faces_hidden.to_string()),
-                    ("casters in range", s.casters_in_range.to_string()),
-                    ("draws", s.draws.to_string()),
-                    ("triangles", s.triangles.to_string()),
-                    ("memory", mebibytes(s.bytes)),
-                    (
-                        "prepare",
-                        format!("{:.0} µs", s.prepare.as_secs_f64() * 1e6),
-                    ),
-                ]
-            }
-            Means::Flat(map, _) => {
-                let s = map.statistics();
-                vec![
-                    ("drawn again", if s.rendered { "yes" } else { "no" }.into()),
-                    ("casters", s.casters_drawn.to_string()),
-                    ("draws", s.draws.to_string()),
-                    ("triangles", s.triangles.to_string()),
-                    ("memory", mebibytes(s.bytes)),
-                ]
-            }
+            Means::Cube(cube) => interior::of_cube(&cube.map, kernel),
+            Means::Flat(map, _) => interior::of_flat(map, kernel),
+            Means::Volumes(_) | Means::None => Interior::Screen,
+        }
+    }
+
+    /// What the last frame came to: names and values.
+    pub fn statistics(&self) -> Rows {
+        match &self.means {
+            Means::Cube(cube) => statistics::of_cube(&cube.map.statistics()),
+            Means::Flat(map, _) => statistics::of_flat(&map.statistics()),
             Means::Volumes(volumes) => {
-                let s = volumes.statistics();
-                let of = s.casters_drawn + s.casters_skipped;
-                vec![
-                    ("casters drawn", format!("{} of {of}", s.casters_drawn)),
-                    (
-                        "z-pass, z-fail",
-                        format!("{}, {}", s.casters_z_pass, s.casters_z_fail),
-                    ),
-                    ("searched again", s.casters_extracted.to_string()),
-                    ("out of range", s.skipped_out_of_range.to_string()),
-                    ("out of view", s.skipped_out_of_view.to_string()),
-                    ("draws", s.draws.to_string()),
-                    ("triangles", s.triangles.to_string()),
-                    ("memory", mebibytes(s.gpu_bytes)),
-                ]
+                let mut rows = statistics::of_volumes(&volumes.renderer.statistics());
+                if let Some((.., size, survey)) = &volumes.survey {
+                    rows.extend(statistics::of_survey(survey, *size));
+                }
+                rows
             }
             Means::None => Vec::new(),
         }
@@ -304,6 +323,43 @@ impl Cube {
     }
 }
 
+impl Volumes {
+    fn prepare(&mut self, gpu: &Gpu, frame: &Frame<'_>) -> Result<()> {
+        let (view, light, size) = (frame.view, frame.light, frame.size);
+        let volumes = ShadowVolumeFrame {
+            range: (!light.is_directional()).then_some(frame.range),
+            target_size: Some(size),
+            ..ShadowVolumeFrame::new(&frame.view, light, frame.casters)
+        };
+        self.renderer.prepare(&gpu.device, &gpu.queue, &volumes)?;
+        self.shown = frame.debug;
+        if self.shown.is_none() {
+            self.survey = None;
+            return Ok(());
+        }
+        self.debug.prepare(&gpu.device, &volumes, &self.renderer)?;
+        if self
+            .survey
+            .is_none_or(|(v, l, s, _)| (v, l, s) != (view, light, size))
+        {
+            self.survey = Some((view, light, size, self.renderer.survey(size)));
+        }
+        Ok(())
+    }
+
+    fn draw_debug(&self, pass: &mut wgpu::RenderPass<'_>, view: DebugView) {
+        match view {
+            DebugView::Surfaces => {
+                self.debug.draw_surfaces(pass, &self.renderer);
+                self.debug.draw_edges(pass, &self.renderer);
+            }
+            DebugView::Counts => self.debug.draw_counts(pass),
+            DebugView::Casters => self.debug.draw_casters(pass),
+            DebugView::Cross => {}
+        }
+    }
+}
+
 fn sampler(gpu: &Gpu, settings: &Settings, map: MapKind) -> Result<PcfSampler> {
     let descriptor = PcfDescriptor {
         kernel: settings.kernel,
@@ -323,8 +379,4 @@ fn sampled(gpu: &Gpu, renderer: &Renderer, sampler: &PcfSampler) -> LitPipeline 
             ..Default::default()
         },
     )
-}
-
-fn mebibytes(bytes: u64) -> String {
-    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }

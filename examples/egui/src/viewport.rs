@@ -7,6 +7,7 @@ use anyhow::Result;
 use eframe::egui::PaintCallbackInfo;
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, ScreenDescriptor};
 use shadows::glam::Vec4;
+use shadows::reference::Interior;
 use shadows::{HomogeneousLight, Support, wgpu};
 
 use crate::blit::Blit;
@@ -14,7 +15,9 @@ use crate::host::gpu::Gpu;
 use crate::host::renderer::{self, Renderer};
 use crate::host::scene::Scene;
 use crate::host::scene_gpu::SceneGpu;
-use crate::shadow::{Frame, Settings, Shadows};
+use crate::measure::Shot;
+use crate::shadow::{DebugView, Frame, Settings, Shadows};
+use crate::statistics::Rows;
 
 /// What the window shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -27,6 +30,24 @@ pub enum Show {
     Error,
     /// The cube map, unfolded.
     Cross,
+    /// Surfaces and silhouette edges of the volumes.
+    Surfaces,
+    /// How many volumes a pixel is in, as colours.
+    Counts,
+    /// Casters by how their volumes are counted, or why they have none.
+    Casters,
+}
+
+impl Show {
+    fn debug(self) -> Option<DebugView> {
+        match self {
+            Self::Picture | Self::Visibility | Self::Error => None,
+            Self::Cross => Some(DebugView::Cross),
+            Self::Surfaces => Some(DebugView::Surfaces),
+            Self::Counts => Some(DebugView::Counts),
+            Self::Casters => Some(DebugView::Casters),
+        }
+    }
 }
 
 /// One frame: the callback that egui calls while it paints.
@@ -38,7 +59,7 @@ pub struct Paint {
     pub size: [u32; 2],
     pub show: Show,
     /// Where the visibility is to be sent, if it is wanted.
-    pub read: Option<Sender<Vec<u8>>>,
+    pub read: Option<Sender<Shot>>,
 }
 
 impl CallbackTrait for Paint {
@@ -135,7 +156,7 @@ impl Viewport {
     }
 
     /// What the last frame came to.
-    pub fn statistics(&self) -> Vec<(&'static str, String)> {
+    pub fn statistics(&self) -> Rows {
         let shadows = self.shadows.as_ref();
         shadows.map_or_else(Vec::new, |(_, shadows)| shadows.statistics())
     }
@@ -167,6 +188,7 @@ impl Viewport {
             range: self.scene.range,
             casters: &self.scene_gpu.casters,
             size: paint.size,
+            debug: paint.show.debug(),
         };
         match &mut self.shadows {
             Some((_, shadows)) => shadows.prepare(&self.gpu, &frame),
@@ -183,7 +205,7 @@ impl Viewport {
     }
 
     /// Sends the visibility of the frame being recorded, one byte a pixel, once it is drawn.
-    fn read_visibility(&self, encoder: &mut wgpu::CommandEncoder, read: Sender<Vec<u8>>) {
+    fn read_visibility(&self, encoder: &mut wgpu::CommandEncoder, read: Sender<Shot>) {
         let texture = self.renderer.visibility();
         let [width, height] = self.renderer.size();
         let row = width.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -202,6 +224,10 @@ impl Viewport {
             },
         };
         encoder.copy_texture_to_buffer(texture.as_image_copy(), destination, texture.size());
+        let shadows = self.shadows.as_ref();
+        let interior = shadows.map_or(Interior::Screen, |(made, shadows)| {
+            shadows.interior(made.kernel)
+        });
         let mapped = buffer.clone();
         encoder.map_buffer_on_submit(&buffer, wgpu::MapMode::Read, .., move |result| {
             if result.is_ok()
@@ -210,7 +236,10 @@ impl Viewport {
                 let rows = bytes.chunks(row as usize);
                 let pixels = rows.flat_map(|bytes| &bytes[..width as usize]).copied();
                 // Nobody listens any more if the window has been closed.
-                let _ = read.send(pixels.collect());
+                let _ = read.send(Shot {
+                    visibility: pixels.collect(),
+                    interior,
+                });
             }
         });
     }
