@@ -1,5 +1,5 @@
-//! What choosing costs and saves: the renderer's own choices beside the textbook's volumes, the price
-//! of a caster that is skipped, and the search for silhouettes beside plain loops.
+//! What choosing costs and saves: the renderer's own choices beside the textbook's volumes, and the
+//! price of a caster that is skipped.
 //!
 //! On the scene `spheres`, 1280 x 720, per frame: prepare, extraction and stencil pass, in
 //! interleaved rounds so that a machine that slows down slows both.
@@ -11,21 +11,20 @@
 //! - `ratio infinite_vs_textbook`: the default with volumes that end at infinity.
 //! - `ratio nothing_vs_textbook`: the pass without any caster, a floor that all of them stand on.
 //!
-//! Then the camera moves while light and casters stand still:
-//! - `ratio extracted_vs_drawn`: silhouettes searched over casters drawn, which must be 0.
+//! Then the camera moves while light and casters stand still: `extracted` counts the silhouettes
+//! searched, which must be none.
 //!
 //! Then `prepare` with ten thousand casters, all of them beside the view:
 //! - `ratio skipped_vs_drawn`: a skipped caster over one that is drawn, both on the CPU.
 //!
-//! Then a closed mesh of a million triangles: `ratio extraction_vs_best_loop` and what else
-//! `shadow_volume/extraction.rs` says.
-//!
+//! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
+//! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
 //! `--quick` takes fewer rounds.
 
-#[path = "shadow_volume/extraction.rs"]
-mod extraction;
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[path = "shared/mod.rs"]
+mod shared;
 
 use std::time::Instant;
 
@@ -39,14 +38,10 @@ use shadows::{
     Caster, Extrusion, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
     ShadowVolumeRenderer, View,
 };
+use shared::{median, paired};
 
 const SIZE: [u32; 2] = [1280, 720];
 const SKIPPED: usize = 10_000;
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
 
 /// The scene, its targets and what a renderer is told.
 struct Studio {
@@ -63,8 +58,7 @@ struct Studio {
 }
 
 impl Studio {
-    fn new() -> anyhow::Result<Self> {
-        let gpu = Gpu::new(None)?;
+    fn new(gpu: Gpu) -> anyhow::Result<Self> {
         let scene = host::scene::spheres();
         let scene_gpu = SceneGpu::new(&gpu, &scene)?;
         let light = HomogeneousLight(scene.light);
@@ -146,26 +140,22 @@ fn walk(scene: &host::scene::Scene) -> anyhow::Result<Vec<View>> {
     (0..10).map(step).collect()
 }
 
-/// Silhouettes searched, and casters drawn, after the first frame while only the camera moves.
-fn extracted_on_the_walk(studio: &Studio) -> anyhow::Result<[u32; 2]> {
+/// Silhouettes searched after the first frame while only the camera moves.
+fn extracted_on_the_walk(studio: &Studio) -> anyhow::Result<u32> {
     let mut volumes = studio.volumes(ShadowVolumeDescriptor::default())?;
-    let [mut extracted, mut drawn] = [0; 2];
+    let mut extracted = 0;
     for (place, view) in studio.walk.iter().enumerate() {
         let frame = studio.told(view, &studio.scene.casters);
         studio.frame(&mut volumes, &frame);
-        let found = volumes.statistics();
-        if place > 0 {
-            extracted += found.casters_extracted;
-            drawn += found.casters_drawn;
-        } else {
-            assert!(found.casters_extracted > 0, "{found:?}");
-        }
+        let searched = volumes.statistics().casters_extracted;
+        assert_eq!(searched > 0, place == 0, "frame {place}: {searched}");
+        extracted += if place == 0 { 0 } else { searched };
     }
-    Ok([extracted, drawn])
+    Ok(extracted)
 }
 
-/// Microseconds a caster on the CPU: skipped, and drawn.
-fn skipped_and_drawn(studio: &Studio, rounds: usize) -> anyhow::Result<[f64; 2]> {
+/// Microseconds a caster on the CPU, round by round: skipped, and drawn.
+fn skipped_and_drawn(studio: &Studio, rounds: usize) -> anyhow::Result<[Vec<f64>; 2]> {
     // Behind the camera, on the side away from the light: nothing of their shadows is in view.
     let [near, ..] = studio.view.near_corners();
     let behind = (near.as_vec3() - studio.light.0.truncate()).normalize_or_zero() * 1e4;
@@ -195,13 +185,21 @@ fn skipped_and_drawn(studio: &Studio, rounds: usize) -> anyhow::Result<[f64; 2]>
     let [skipped, drawn] = renderers.map(|renderer| renderer.statistics());
     assert_eq!(skipped.skipped_out_of_view as usize, SKIPPED, "{skipped:?}");
     assert_eq!(drawn.casters_drawn as usize, SKIPPED, "{drawn:?}");
-    Ok(times.map(|mut times| median(&mut times)))
+    Ok(times)
 }
 
 fn main() -> anyhow::Result<()> {
-    let quick = std::env::args().any(|argument| argument == "--quick");
-    let rounds = if quick { 5 } else { 21 };
-    let studio = Studio::new()?;
+    let rounds = if shared::quick() { 7 } else { 31 };
+    let Ok(gpu) = Gpu::new(None) else {
+        eprintln!("skipped: no adapter");
+        return Ok(());
+    };
+    let studio = Studio::new(gpu)?;
+    println!(
+        "adapter {}, clock {} and the CPU's",
+        host::gpu::describe(&studio.gpu.info),
+        studio.timer.clock().name()
+    );
     let mut contestants = [
         ("auto", studio.volumes(ShadowVolumeDescriptor::default())?),
         (
@@ -252,28 +250,30 @@ fn main() -> anyhow::Result<()> {
             }
         }
     }
-    let medians = times.map(|mut times| median(&mut times));
-    for ((name, volumes), median) in contestants.iter().zip(medians) {
+    for ((name, volumes), times) in contestants.iter().zip(&times) {
+        let median = median(times.iter().copied());
         println!("{name}: {median:.2} ms; {:?}", volumes.statistics());
     }
     let [skipped, drawn] = skipped_and_drawn(&studio, rounds.min(7))?;
     println!(
         "a caster skipped {:.0} ns, drawn {:.0} ns, of {SKIPPED}",
-        1e3 * skipped,
-        1e3 * drawn
+        1e3 * median(skipped.iter().copied()),
+        1e3 * median(drawn.iter().copied())
     );
-    let [extracted, moved] = extracted_on_the_walk(&studio)?;
-    println!("extracted {extracted} while the camera moves, drawn {moved}");
-    extraction::run(&studio.gpu, rounds);
-    println!("ratio auto_vs_textbook {:.3}", medians[0] / medians[3]);
-    println!("ratio zfail_vs_textbook {:.3}", medians[1] / medians[3]);
-    println!("ratio infinite_vs_textbook {:.3}", medians[2] / medians[3]);
-    println!("ratio unbounded_vs_textbook {:.3}", medians[4] / medians[3]);
-    println!("ratio nothing_vs_textbook {:.3}", medians[5] / medians[3]);
-    println!("ratio skipped_vs_drawn {:.3}", skipped / drawn);
     println!(
-        "ratio extracted_vs_drawn {:.3}",
-        f64::from(extracted) / f64::from(moved)
+        "extracted {} while the camera moves",
+        extracted_on_the_walk(&studio)?
     );
+    let [auto, zfail, infinite, textbook, unbounded, nothing] = &times;
+    for (name, ours) in [
+        ("auto", auto),
+        ("zfail", zfail),
+        ("infinite", infinite),
+        ("unbounded", unbounded),
+        ("nothing", nothing),
+    ] {
+        println!("ratio {name}_vs_textbook {:.3}", paired(ours, textbook));
+    }
+    println!("ratio skipped_vs_drawn {:.3}", paired(&skipped, &drawn));
     Ok(())
 }

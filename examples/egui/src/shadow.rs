@@ -102,6 +102,7 @@ impl Shadows {
         let map = CubeShadowMapDescriptor {
             size: settings.size,
             bias: settings.bias,
+            reach: settings.kernel.radius(),
             ..Default::default()
         };
         let sampler = sampler(gpu, settings, MapKind::Cube)?;
@@ -124,6 +125,7 @@ impl Shadows {
         let map = ShadowMapDescriptor {
             size: settings.size,
             bias: settings.bias,
+            reach: settings.kernel.radius(),
             ..Default::default()
         };
         let map = ShadowMap::new(&gpu.device, &map)?;

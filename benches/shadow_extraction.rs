@@ -1,5 +1,5 @@
 //! How long it takes to find the volume of a closed mesh of a million triangles, beside the
-//! plainest loops that could do it, in interleaved rounds.
+//! plainest loops that could do it, in interleaved rounds of one run.
 //!
 //! Everyone has the same duty: from a light until the lists of caps and sides lie in the GPU's
 //! buffers and its queue is idle. (A list in main memory is of no use to a draw.) The light moves
@@ -12,11 +12,19 @@
 //! - `compute`: `Silhouettes::Compute`, the same two phases as plain compute passes.
 //! - `copy`: the adapter copies as many bytes as an extraction has to read, the floor.
 //!
-//! `ratio extraction_vs_best_loop` is `extraction` over the faster of `loop` and `compute`.
+//! `ratio extraction_vs_best_loop` is `extraction` over the faster of `loop` and `compute`; `--quick`
+//! takes fewer rounds.
+
+#[allow(dead_code)]
+#[path = "../examples/host/gpu.rs"]
+mod gpu;
+#[path = "shared/mod.rs"]
+mod shared;
 
 use std::hint::black_box;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use gpu::Gpu;
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
@@ -24,29 +32,8 @@ use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
-
-use crate::host::gpu::{self, Gpu};
-use crate::median;
-
-const RINGS: u32 = 1000;
-const SECTORS: u32 = 500;
-
-fn torus() -> (Vec<[f32; 3]>, Vec<u32>) {
-    let angle = |i: u32, n: u32| (i as f32 / n as f32 * std::f32::consts::TAU).sin_cos();
-    let (mut positions, mut indices) = (Vec::new(), Vec::new());
-    for ring in 0..RINGS {
-        for sector in 0..SECTORS {
-            let ((sr, cr), (ss, cs)) = (angle(ring, RINGS), angle(sector, SECTORS));
-            let radius = 3.0 + cs;
-            positions.push([radius * cr, ss, radius * sr]);
-            let at = |r: u32, s: u32| (r % RINGS) * SECTORS + s % SECTORS;
-            let [a, b] = [at(ring, sector), at(ring, sector + 1)];
-            let [c, d] = [at(ring + 1, sector), at(ring + 1, sector + 1)];
-            indices.extend([a, b, c, b, d, c]);
-        }
-    }
-    (positions, indices)
-}
+use shared::torus::torus;
+use shared::{median, paired, seconds};
 
 /// The plain loop and its memory.
 struct Loop {
@@ -59,15 +46,15 @@ struct Loop {
     sides: Vec<u32>,
     /// Of caps and sides, room for all there could be.
     buffers: [wgpu::Buffer; 2],
-    /// Milliseconds without the upload.
-    in_memory: Vec<f64>,
+    /// How long it took without the upload.
+    in_memory: Vec<Duration>,
 }
 
 impl Loop {
     fn upload(&mut self, gpu: &Gpu, light: Vec3) {
         let start = Instant::now();
         self.run(light);
-        self.in_memory.push(milliseconds(start));
+        self.in_memory.push(start.elapsed());
         for (buffer, words) in self.buffers.iter().zip([&self.caps, &self.sides]) {
             gpu.queue
                 .write_buffer(buffer, 0, bytemuck::cast_slice(words));
@@ -132,13 +119,13 @@ impl<'a> Extraction<'a> {
     }
 }
 
-fn milliseconds(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
-}
-
-/// Measures and prints.
-pub fn run(gpu: &Gpu, rounds: usize) {
-    let (positions, indices) = torus();
+fn main() {
+    let Ok(gpu) = Gpu::new(None) else {
+        eprintln!("skipped: no adapter");
+        return;
+    };
+    let rounds = if shared::quick() { 5 } else { 25 };
+    let (positions, indices) = torus(1000, 500);
     let adjacency = Adjacency::new(&positions, &indices).expect("a torus");
     let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a mesh");
     let buffer = |bytes: usize, usage| {
@@ -167,18 +154,18 @@ pub fn run(gpu: &Gpu, rounds: usize) {
         }),
         in_memory: Vec::new(),
     };
-    let mut auto = Extraction::new(gpu, &mesh, Silhouettes::Auto);
-    let mut compute = Extraction::new(gpu, &mesh, Silhouettes::Compute);
+    let mut auto = Extraction::new(&gpu, &mesh, Silhouettes::Auto);
+    let mut compute = Extraction::new(&gpu, &mesh, Silhouettes::Compute);
     let bytes = 12 * positions.len() + 12 * adjacency.triangles().len() + 16 * plain.edges.len();
     let from = buffer(bytes, wgpu::BufferUsages::COPY_SRC);
     let to = buffer(bytes, wgpu::BufferUsages::COPY_DST);
 
-    let mut times: [Vec<f64>; 4] = Default::default();
+    let mut times: [Vec<Duration>; 4] = Default::default();
     for round in 0..=rounds {
         let light = Vec3::new(-2.0 + 0.01 * round as f32, 6.0, 2.5);
         let works: [&mut dyn FnMut(); 4] = [
             &mut || auto.run(light),
-            &mut || plain.upload(gpu, light),
+            &mut || plain.upload(&gpu, light),
             &mut || compute.run(light),
             &mut || {
                 gpu.run(|encoder| {
@@ -191,25 +178,35 @@ pub fn run(gpu: &Gpu, rounds: usize) {
             work();
             // The first round allocates.
             if round > 0 {
-                times.push(milliseconds(start));
+                times.push(start.elapsed());
             }
         }
     }
-    let in_memory = median(&mut plain.in_memory[1..]);
-    let [auto, looped, compute, copy] = times.map(|mut times| median(&mut times));
+    let in_memory = seconds(&plain.in_memory[1..]);
+    let [auto, looped, compute, copy] = times.map(|times| seconds(&times));
+    let milliseconds = |times: &[f64]| 1e3 * median(times.iter().copied());
+    let [loop_time, compute_time] = [&looped, &compute].map(|times| milliseconds(times));
     println!(
-        "{} triangles, {}",
+        "{} triangles, adapter {}, clock wall",
         adjacency.triangles().len(),
         gpu::describe(&gpu.info)
     );
     println!(
-        "extraction {auto:.2} ms, loop {looped:.2} ms ({in_memory:.2} in memory), compute {compute:.2} ms"
+        "extraction {:.2} ms, loop {loop_time:.2} ms ({:.2} in memory), compute {compute_time:.2} ms",
+        milliseconds(&auto),
+        milliseconds(&in_memory),
     );
-    println!("copy of {bytes} bytes {copy:.2} ms");
-    println!(
-        "ratio extraction_vs_best_loop {:.3}",
-        auto / looped.min(compute)
-    );
-    println!("ratio extraction_vs_loop_in_memory {:.3}", auto / in_memory);
-    println!("ratio extraction_vs_copy {:.3}", auto / copy);
+    println!("copy of {bytes} bytes {:.2} ms", milliseconds(&copy));
+    let best = match loop_time < compute_time {
+        true => &looped,
+        false => &compute,
+    };
+    let others = [
+        ("best_loop", best),
+        ("loop_in_memory", &in_memory),
+        ("copy", &copy),
+    ];
+    for (name, other) in others {
+        println!("ratio extraction_vs_{name} {:.3}", paired(&auto, other));
+    }
 }
