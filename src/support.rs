@@ -175,15 +175,43 @@ impl Support {
     }
 }
 
-/// Whether a device takes shaders with cube array textures, which none of its features or limits
-/// tells. The answer comes at once from wgpu's own validation; WebGPU gives it later, and has them.
+/// Whether a device takes shaders with cube array textures.
 pub(crate) fn has_cube_arrays(device: &wgpu::Device) -> bool {
-    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let source = "@group(0) @binding(0) var map: texture_cube_array<f32>;";
-    drop(device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("shadows cube array"),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    }));
+    takes(device, || {
+        drop(device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("shadows cube array"),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        }));
+    })
+}
+
+/// Whether a device takes storage buffers in vertex shaders.
+pub(crate) fn has_vertex_storage(device: &wgpu::Device) -> bool {
+    takes(device, || {
+        drop(
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("shadows vertex storage"),
+                entries: &[wgpu::BindGroupLayoutEntry {
+                    binding: 0,
+                    visibility: wgpu::ShaderStages::VERTEX,
+                    ty: wgpu::BindingType::Buffer {
+                        ty: wgpu::BufferBindingType::Storage { read_only: true },
+                        has_dynamic_offset: false,
+                        min_binding_size: None,
+                    },
+                    count: None,
+                }],
+            }),
+        );
+    })
+}
+
+/// Whether a device takes what none of its features or limits tells. The answer comes at once from
+/// wgpu's own validation; WebGPU gives it later, and has what is asked for here.
+fn takes(device: &wgpu::Device, make: impl FnOnce()) -> bool {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    make();
     let answer = pin!(scope.pop()).poll(&mut Context::from_waker(Waker::noop()));
     !matches!(answer, Poll::Ready(Some(_)))
 }
@@ -212,6 +240,19 @@ mod tests {
         assert_eq!(support.limits().max_multiview_view_count, 6);
         assert!(support.features().contains(Features::MULTIVIEW));
         assert!(!support.features().contains(Features::TIMESTAMP_QUERY));
+    }
+
+    #[test]
+    fn a_device_is_asked_for_storage_in_vertex_shaders() {
+        let with = |required_limits| {
+            let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor {
+                required_limits,
+                ..Default::default()
+            });
+            has_vertex_storage(&device)
+        };
+        assert!(with(Limits::defaults()));
+        assert!(!with(Limits::downlevel_webgl2_defaults()));
     }
 
     #[test]

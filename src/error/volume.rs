@@ -38,6 +38,11 @@ pub enum ShadowVolumeError {
         /// What the device has.
         available: u64,
     },
+    /// The device has storage buffers, but none in vertex shaders.
+    #[error(
+        "the device has no storage buffers in vertex shaders, which Silhouettes::Compute and Silhouettes::Cpu need; pass Silhouettes::Auto or Silhouettes::Vertex"
+    )]
+    VertexStorage,
     /// A colour format that no target of the pass can have.
     #[error(
         "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can (with 4 samples, one that is multisampled)"

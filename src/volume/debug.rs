@@ -110,7 +110,7 @@ impl VolumeDebug {
             label: &label,
             colors: &layout,
         };
-        let pulls = limits::check(limits::PULL, &device.limits()).is_ok();
+        let pulls = limits::check_pulling(device).is_ok();
         let colors = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(&label),
             contents: &spread(&descriptor.colors.list(), device),

@@ -2,6 +2,7 @@
 
 use crate::error::ShadowVolumeError;
 use crate::support::STORAGE_BUFFERS;
+use crate::support::has_vertex_storage;
 
 /// Invocations in a workgroup of the extraction passes.
 pub(super) const WORKGROUP: u32 = 256;
@@ -29,7 +30,7 @@ pub(super) const COMPUTE: &[Need] = &[
 ];
 
 /// For vertex shaders that pull positions, edges and sides.
-pub(super) const PULL: &[Need] = &[("max_storage_buffers_per_shader_stage", 3, |l| {
+const PULL: &[Need] = &[("max_storage_buffers_per_shader_stage", 3, |l| {
     l.max_storage_buffers_per_shader_stage
 })];
 
@@ -44,6 +45,15 @@ pub(super) fn check(needs: &[Need], limits: &wgpu::Limits) -> Result<(), ShadowV
     needs.iter().try_for_each(|&(name, needed, available)| {
         check_one(name, needed.into(), available(limits).into())
     })
+}
+
+/// Whether vertex shaders can pull positions, edges and sides.
+pub(super) fn check_pulling(device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+    check(PULL, &device.limits())?;
+    match has_vertex_storage(device) {
+        true => Ok(()),
+        false => Err(ShadowVolumeError::VertexStorage),
+    }
 }
 
 /// One limit.

@@ -227,6 +227,57 @@ fn caps_do_not_fight_with_a_host_of_other_arithmetic() {
     }
 }
 
+/// The same, so far from the origin.
+fn moved(mut stage: Stage, by: f32) -> Stage {
+    let offset = Vec3::new(0.6, 0.0, -0.8) * by;
+    for body in &mut stage.bodies {
+        body.transform.translation += Vec3A::from(offset);
+    }
+    stage.light.0 += offset.extend(0.0);
+    stage.eye += offset;
+    stage.target += offset;
+    stage
+}
+
+#[test]
+fn far_from_the_origin_other_arithmetic_takes_a_larger_bias() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let format = wgpu::TextureFormat::Depth32FloatStencil8;
+    if !gpu.device.features().contains(format.required_features()) {
+        return;
+    }
+    let wrong = |arithmetic, distance, cap_bias_ulps| {
+        let mut stage = Stage {
+            format,
+            cap_bias_ulps,
+            ..moved(ball(arithmetic, Vec3::new(3.0, 1.0, 2.0)), distance)
+        };
+        stage.savings.method = Method::ZFail;
+        stage.truth().errors(&stage.draw(&gpu)).wrong
+    };
+    let orders = [
+        Arithmetic::Ours,
+        Arithmetic::Premultiplied,
+        Arithmetic::OneByOne,
+    ];
+    for (distance, needed, too_little) in [(0.0, 16, 0), (100.0, 64, 4), (1000.0, 1024, 64)] {
+        assert_eq!(wrong(Arithmetic::Ours, distance, 0), 0, "{distance}");
+        for arithmetic in orders {
+            assert_eq!(
+                wrong(arithmetic, distance, needed),
+                0,
+                "{distance}, {arithmetic:?}"
+            );
+        }
+        for arithmetic in OTHER_ARITHMETIC {
+            assert!(
+                wrong(arithmetic, distance, too_little) > 0,
+                "{distance}, {arithmetic:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn every_format_and_convention_bears_a_host_of_other_arithmetic() {
     let Some(gpu) = Gpu::for_test() else { return };

@@ -72,11 +72,29 @@ fn stages() -> Vec<(&'static str, Stage)> {
 #[test]
 fn every_way_is_exact() {
     let Some(gpu) = Gpu::for_test() else { return };
-    for (what, stage) in stages() {
+    assert_every_way_is_exact(&gpu, stages());
+}
+
+#[test]
+fn every_way_is_exact_on_gl_too() {
+    let Some(_) = Gpu::for_test() else { return };
+    let Ok(gl) = Gpu::new(Some("(gl,")) else {
+        eprintln!("skipped: no GL adapter");
+        return;
+    };
+    assert_eq!(gl.info.backend, wgpu::Backend::Gl);
+    let chosen = ["mixed", "four fins", "closed, mirrored"];
+    let stages = stages().into_iter();
+    let stages = stages.filter(|(what, _)| chosen.contains(what));
+    assert_every_way_is_exact(&gl, stages.collect());
+}
+
+fn assert_every_way_is_exact(gpu: &Gpu, stages: Vec<(&str, Stage)>) {
+    for (what, stage) in stages {
         let truth = stage.truth();
         for way in WAYS {
-            let mut renderer = renderer(&gpu, &stage, way);
-            let picture = stage.draw_with(&gpu, &mut renderer, &stage.casters(&gpu));
+            let mut renderer = renderer(gpu, &stage, way);
+            let picture = stage.draw_with(gpu, &mut renderer, &stage.casters(gpu));
             let found = truth.errors(&picture);
             assert!(found.shadowed > 300, "{what}: {found:?}");
             assert_eq!(found.wrong, 0, "{what}, {way:?}: {found:?}");

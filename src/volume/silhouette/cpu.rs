@@ -223,6 +223,22 @@ mod tests {
         MeshData::of(&positions, &indices.into_iter().collect::<Vec<u32>>())
     }
 
+    /// An open, bumpy sheet of `n` times `n` squares: from far above, all of it faces alike.
+    fn sheet(n: u32) -> (MeshData, MeshKind) {
+        let mut state = 3;
+        let at = |x, z| z * (n + 1) + x;
+        let mut positions = Vec::new();
+        let mut indices = Vec::new();
+        for (z, x) in (0..=n).flat_map(|z| (0..=n).map(move |x| (z, x))) {
+            positions.push([x as f32, 0.1 * random(&mut state), z as f32]);
+            if x < n && z < n {
+                let [a, b, c, d] = [at(x, z), at(x, z + 1), at(x + 1, z + 1), at(x + 1, z)];
+                indices.extend([a, b, c, a, c, d]);
+            }
+        }
+        MeshData::of(&positions, &indices)
+    }
+
     /// Triangles anywhere, a third of them slivers, and edges that many of them share.
     fn soup(size: f32) -> (MeshData, MeshKind) {
         let mut state = 11;
@@ -240,6 +256,7 @@ mod tests {
             ball(24, 1.0, 1e3),
             soup(1.0),
             soup(1e15),
+            sheet(40),
         ]
     }
 
@@ -327,6 +344,30 @@ mod tests {
                 assert_eq!(volume.sides, sides, "mesh {place}, {instance:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_border_is_extruded_though_all_around_it_faces_alike() {
+        let (mesh, kind) = sheet(40);
+        let mut volume = CpuVolume::default();
+        let above = InstanceParams {
+            light: [0.1, 1.0, 0.2, 0.0],
+            both_sides: Counted::All as u32,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        volume.extract(&mesh, kind, &above);
+        assert_eq!(volume.sides.len(), 4 * 40);
+        // Most of them lie where skipping what faces alike would lose them.
+        let is_alike = |words: &[u32]| {
+            let mut words = words.iter().map(|&word| volume.facings[word as usize]);
+            words.all(|word| word.front == u64::MAX)
+        };
+        let blocks: Vec<_> = mesh.blocks(kind).iter().collect();
+        let lost = volume.sides.iter().filter(|side| {
+            let block = &blocks[(**side >> 1) as usize / BLOCK];
+            !block.balanced && block.words.is_some_and(is_alike)
+        });
+        assert!(lost.count() > 80);
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub enum Silhouettes {
     /// the edges near those that differ. Needs storage buffers in vertex shaders, and positions that
     /// were uploaded by [`CasterMesh::new`]. A million triangles on a grid take no longer than a
     /// plain loop over triangles and edges whose lists are never uploaded
-    /// (`cargo bench --bench shadow_volume`).
+    /// (`cargo bench --bench shadow_extraction`).
     Cpu,
     /// The vertex shader alone: every triangle and every edge is drawn every frame, and those that
     /// are not part of the volume are degenerate. Runs at WebGL2's limits; needs positions that
@@ -43,7 +43,7 @@ pub(in super::super) enum Way {
 }
 
 /// The ways open to one renderer, the best first.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(in super::super) struct Ways {
     first: Way,
     second: Option<Way>,
@@ -54,32 +54,34 @@ impl Ways {
     pub fn new(asked: Silhouettes, device: &wgpu::Device) -> Result<Self, ShadowVolumeError> {
         let limits = &device.limits();
         limits::check(limits::EVERY_WAY, limits)?;
+        let pulling = limits::check_pulling(device);
+        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+        Self::choose(asked, limits, pulling, software)
+    }
+
+    fn choose(
+        asked: Silhouettes,
+        limits: &wgpu::Limits,
+        pulling: Result<(), ShadowVolumeError>,
+        software: bool,
+    ) -> Result<Self, ShadowVolumeError> {
         let only = |first| Self {
             first,
             second: None,
         };
-        let compute = || limits::check(limits::COMPUTE, limits);
-        match asked {
-            Silhouettes::Auto => {}
-            Silhouettes::Compute => return compute().map(|()| only(Way::Compute)),
-            Silhouettes::Cpu => {
-                return limits::check(limits::PULL, limits).map(|()| only(Way::Cpu));
-            }
-            Silhouettes::Vertex => return Ok(only(Way::Vertex)),
-        }
-        if limits::check(limits::PULL, limits).is_err() {
-            return Ok(only(Way::Vertex));
-        }
-        if compute().is_err() {
-            return Ok(only(Way::Cpu));
-        }
-        if device.adapter_info().device_type == wgpu::DeviceType::Cpu {
-            return Ok(Self {
+        let compute = limits::check(limits::COMPUTE, limits).and(pulling.clone());
+        Ok(match asked {
+            Silhouettes::Compute => compute.map(|()| only(Way::Compute))?,
+            Silhouettes::Cpu => pulling.map(|()| only(Way::Cpu))?,
+            Silhouettes::Vertex => only(Way::Vertex),
+            Silhouettes::Auto if pulling.is_err() => only(Way::Vertex),
+            Silhouettes::Auto if compute.is_err() => only(Way::Cpu),
+            Silhouettes::Auto if software => Self {
                 first: Way::Cpu,
                 second: Some(Way::Compute),
-            });
-        }
-        Ok(only(Way::Compute))
+            },
+            Silhouettes::Auto => only(Way::Compute),
+        })
     }
 
     /// Whether any mesh may go this way.
@@ -93,5 +95,47 @@ impl Ways {
             .into_iter()
             .flatten()
             .find(|way| *way == Way::Compute || mesh.data().is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_without_vertex_storage_is_left_to_the_vertex_shader() {
+        let limits = wgpu::Limits::defaults();
+        let vertex = Ways {
+            first: Way::Vertex,
+            second: None,
+        };
+        // Some GLES 3.1 devices have storage buffers in all shaders but these.
+        let none = Err(ShadowVolumeError::VertexStorage);
+        let chosen = |asked, pulling| Ways::choose(asked, &limits, pulling, false);
+        assert_eq!(chosen(Silhouettes::Auto, none.clone()), Ok(vertex));
+        assert_eq!(chosen(Silhouettes::Vertex, none.clone()), Ok(vertex));
+        for asked in [Silhouettes::Compute, Silhouettes::Cpu] {
+            let refused = chosen(asked, none.clone());
+            assert_eq!(refused, Err(ShadowVolumeError::VertexStorage));
+            assert_ne!(chosen(asked, Ok(())), Ok(vertex));
+        }
+        assert_ne!(chosen(Silhouettes::Auto, Ok(())), Ok(vertex));
+    }
+
+    #[test]
+    fn a_device_without_compute_is_left_to_the_cpu() {
+        let limits = wgpu::Limits {
+            max_compute_workgroup_size_x: 0,
+            ..wgpu::Limits::defaults()
+        };
+        let auto = |limits| Ways::choose(Silhouettes::Auto, limits, Ok(()), false);
+        let only = |first| {
+            Ok(Ways {
+                first,
+                second: None,
+            })
+        };
+        assert_eq!(auto(&limits), only(Way::Cpu));
+        assert_eq!(auto(&wgpu::Limits::defaults()), only(Way::Compute));
     }
 }
