@@ -2,7 +2,7 @@
 //! light and writes its visibility beside it.
 
 use anyhow::{Result, ensure};
-use shadows::glam::Vec3;
+use shadows::glam::{Mat4, Vec3};
 use shadows::{View, wgpu};
 
 use super::gpu::Gpu;
@@ -46,6 +46,7 @@ pub struct Renderer {
     visibility: Target,
     host_layout: wgpu::BindGroupLayout,
     host_group: wgpu::BindGroup,
+    frame: wgpu::Buffer,
     ambient: wgpu::RenderPipeline,
     unshadowed: LitPipeline,
 }
@@ -103,7 +104,7 @@ impl Renderer {
         );
         let depth_stencil_format = depth_stencil_format(gpu);
         let depth_stencil = gpu.target(size, depth_stencil_format, look.samples);
-        let frame = frame_uniform(scene, size, look);
+        let frame = frame_buffer(gpu, &frame_uniform(scene, matrix(scene, size, look), look));
         let host_layout = host_layout(&gpu.device);
         let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
         Ok(Self {
@@ -123,7 +124,15 @@ impl Renderer {
             ),
             host_layout,
             host_group,
+            frame,
         })
+    }
+
+    /// Draws from now on what the scene's camera and light have become, through a matrix of its own.
+    pub fn show(&self, gpu: &Gpu, scene: &Scene, clip_from_world: Mat4) {
+        let frame = frame_uniform(scene, clip_from_world, self.look);
+        gpu.queue
+            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
     }
 
     /// Width and height in pixels.
@@ -303,9 +312,13 @@ pub fn view(scene: &Scene, size: [u32; 2]) -> Result<View> {
 /// # Errors
 /// As [`view`].
 pub fn view_as(scene: &Scene, size: [u32; 2], look: Look) -> Result<View> {
+    Ok(View::new(matrix(scene, size, look), look.depth)?)
+}
+
+/// Clip from world space.
+pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     let aspect = size[0] as f32 / size[1] as f32;
-    let matrix = scene.camera.clip_from_world_as(aspect, look.depth);
-    Ok(View::new(matrix, look.depth)?)
+    scene.camera.clip_from_world_as(aspect, look.depth)
 }
 
 fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
@@ -320,9 +333,8 @@ fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     }
 }
 
-fn frame_uniform(scene: &Scene, size: [u32; 2], look: Look) -> FrameUniform {
+fn frame_uniform(scene: &Scene, clip_from_world: Mat4, look: Look) -> FrameUniform {
     let camera = &scene.camera;
-    let aspect = size[0] as f32 / size[1] as f32;
     // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
     // whatever the scene's scale.
     let reach = scene.light.truncate().distance(camera.target);
@@ -333,9 +345,7 @@ fn frame_uniform(scene: &Scene, size: [u32; 2], look: Look) -> FrameUniform {
             reach * reach
         };
     FrameUniform {
-        clip_from_world: camera
-            .clip_from_world_as(aspect, look.depth)
-            .to_cols_array_2d(),
+        clip_from_world: clip_from_world.to_cols_array_2d(),
         eye: camera.eye.extend(1.0).to_array(),
         light: scene.light.to_array(),
         // Direction and cosine; without a cone every angle's cosine is above the -1.
@@ -367,20 +377,22 @@ fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn host_group(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    frame: &FrameUniform,
-    scene: &SceneGpu,
-) -> wgpu::BindGroup {
+fn frame_buffer(gpu: &Gpu, frame: &FrameUniform) -> wgpu::Buffer {
     use wgpu::util::DeviceExt as _;
-    let frame = gpu
-        .device
+    gpu.device
         .create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("frame"),
             contents: bytemuck::bytes_of(frame),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        })
+}
+
+fn host_group(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    frame: &wgpu::Buffer,
+    scene: &SceneGpu,
+) -> wgpu::BindGroup {
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("host"),
         layout,
