@@ -11,49 +11,23 @@
 //!   without area and duplicates, counts parts and reports.
 //!
 //! The last lines compare them in interleaved rounds, so that a machine that slows down slows
-//! both: `ratio build_vs_meshopt` is the largest of the meshes' ratios of medians.
+//! both: `ratio build_vs_meshopt` is the largest of the meshes' medians of rounds.
 //! `--quick` takes fewer rounds.
+
+#[path = "shared/mod.rs"]
+mod shared;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use criterion::Criterion;
+use criterion::{Criterion, SamplingMode};
 use shadows::mesh::{Adjacency, MeshKind};
-
-const RINGS: u32 = 1000;
-const SECTORS: u32 = 500;
+use shared::torus::torus;
 
 struct Mesh {
     name: &'static str,
     positions: Vec<[f32; 3]>,
     indices: Vec<u32>,
-}
-
-fn torus() -> Mesh {
-    let angle = |i: u32, n: u32| i as f32 / n as f32 * std::f32::consts::TAU;
-    let mut positions = Vec::new();
-    let mut indices = Vec::new();
-    for ring in 0..RINGS {
-        for sector in 0..SECTORS {
-            let ((sr, cr), (ss, cs)) = (
-                angle(ring, RINGS).sin_cos(),
-                angle(sector, SECTORS).sin_cos(),
-            );
-            let radius = 3.0 + cs;
-            positions.push([radius * cr, ss, radius * sr]);
-            let at = |r: u32, s: u32| (r % RINGS) * SECTORS + s % SECTORS;
-            let a = at(ring, sector);
-            let b = at(ring, sector + 1);
-            let c = at(ring + 1, sector);
-            let d = at(ring + 1, sector + 1);
-            indices.extend([a, b, c, b, d, c]);
-        }
-    }
-    Mesh {
-        name: "shared",
-        positions,
-        indices,
-    }
 }
 
 fn split(mesh: &Mesh) -> Mesh {
@@ -109,7 +83,7 @@ fn theirs(mesh: &Mesh) -> Vec<u32> {
     meshopt::generate_adjacency_indices(black_box(&mesh.indices), &vertices)
 }
 
-/// Medians of both in rounds that take turns.
+/// One over the other, in rounds that take turns.
 fn compare(mesh: &Mesh, rounds: usize) -> f64 {
     let time = |work: &mut dyn FnMut()| {
         let start = Instant::now();
@@ -121,28 +95,37 @@ fn compare(mesh: &Mesh, rounds: usize) -> f64 {
         own.push(time(&mut || drop(black_box(ours(mesh)))));
         other.push(time(&mut || drop(black_box(theirs(mesh)))));
     }
-    let median = |times: &mut Vec<Duration>| {
-        times.sort_unstable();
-        times[times.len() / 2].as_secs_f64() * 1e3
-    };
-    let (own, other) = (median(&mut own), median(&mut other));
+    let [own, other] = [own, other].map(|times| shared::seconds(&times));
+    let ratio = shared::paired(&own, &other);
+    let median = |times| 1e3 * shared::median(times);
     println!(
-        "{} vertices: ours {own:.1} ms, meshopt {other:.1} ms, {:.3} times",
+        "{} vertices: ours {:.1} ms, meshopt {:.1} ms, {ratio:.3} times",
         mesh.name,
-        own / other
+        median(own),
+        median(other)
     );
-    own / other
+    ratio
 }
 
 fn main() {
-    let shared = torus();
+    let (positions, indices) = torus(1000, 500);
+    let shared = Mesh {
+        name: "shared",
+        positions,
+        indices,
+    };
     let meshes = [split(&shared), shuffled(&shared), shared];
     for mesh in &meshes {
         assert_eq!(ours(mesh).kind(), MeshKind::Closed);
         assert_eq!(ours(mesh).indices(), theirs(mesh), "both find the same");
     }
-    let mut criterion = Criterion::default().sample_size(10).configure_from_args();
+    let mut criterion = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(3))
+        .configure_from_args();
     let mut group = criterion.benchmark_group("adjacency of a million triangles");
+    group.sampling_mode(SamplingMode::Flat);
     for mesh in &meshes {
         group.bench_function(format!("ours, {}", mesh.name), |b| b.iter(|| ours(mesh)));
         group.bench_function(format!("meshopt, {}", mesh.name), |b| {
@@ -151,8 +134,7 @@ fn main() {
     }
     group.finish();
     criterion.final_summary();
-    let quick = std::env::args().any(|argument| argument == "--quick");
-    let rounds = if quick { 5 } else { 21 };
+    let rounds = if shared::quick() { 5 } else { 21 };
     let ratios = meshes.iter().map(|mesh| compare(mesh, rounds));
     println!("ratio build_vs_meshopt {:.3}", ratios.fold(0.0, f64::max));
 }

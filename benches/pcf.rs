@@ -12,21 +12,26 @@
 //! Positions and normals of all pixels are kept in a buffer; what is timed is one full-screen pass
 //! that reads them and asks for the visibility, less the same pass that asks nothing: the kernel and
 //! nothing else. Both sides of a ratio, and the bare pass, take turns; a ratio is the median of those
-//! of the rounds, so that a machine that slows down slows all. `--quick` takes fewer rounds, and
-//! only the kernels of the ratios.
+//! of the rounds, so that a machine that slows down slows all. Passes are timed between two
+//! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
+//! `--quick` takes fewer rounds, and only the kernels of the ratios.
 
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[path = "shared/mod.rs"]
+mod shared;
 
 use host::gpu::Gpu;
 use host::pipelines::{LitPipeline, ShadowAccess, visibility_module};
 use host::renderer::Renderer;
 use host::scene::courtyard;
 use host::scene_gpu::SceneGpu;
+use host::timer::Timer;
 use shadows::{
     CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, PcfDescriptor, PcfSampler,
     PointLight, Radius, RandomDisk, VogelDisk, wgpu,
 };
+use shared::median;
 
 const SIZE: [u32; 2] = [1280, 720];
 
@@ -54,6 +59,7 @@ fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
 /// The courtyard with its map drawn.
 struct Yard {
     gpu: Gpu,
+    timer: Timer,
     renderer: Renderer,
     scene: SceneGpu,
     map: CubeShadowMap,
@@ -136,6 +142,7 @@ impl Yard {
         let target = gpu.target(SIZE, wgpu::TextureFormat::R8Unorm, 1);
         Ok(Self {
             target: target.create_view(&Default::default()),
+            timer: Timer::new(&gpu),
             gpu,
             renderer,
             scene: scene_gpu,
@@ -222,7 +229,7 @@ impl Yard {
 
     /// Milliseconds of one pass.
     fn time(&self, way: &Way) -> f64 {
-        let time = self.gpu.run(|encoder| {
+        self.timer.time(&self.gpu, |encoder| {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("ask"),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -242,8 +249,7 @@ impl Yard {
                 pass.set_bind_group(1, group, &[]);
             }
             pass.draw(0..3, 0..1);
-        });
-        time.as_secs_f64() * 1e3
+        })
     }
 
     fn picture(&self, way: &Way) -> Vec<u8> {
@@ -307,12 +313,6 @@ fn keep_points(
     read
 }
 
-fn median(values: impl IntoIterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.into_iter().collect();
-    values.sort_unstable_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
 fn disk(rings: u32, early_out: bool) -> Kernel {
     Kernel::RandomDisk(RandomDisk {
         around: 8,
@@ -350,7 +350,7 @@ fn early_out_error(early: &[u8], full: &[u8]) {
 }
 
 fn main() -> anyhow::Result<()> {
-    let quick = std::env::args().any(|arg| arg == "--quick");
+    let quick = shared::quick();
     let gpu = match Gpu::new(None) {
         Ok(gpu) => gpu,
         Err(error) => {
@@ -358,8 +358,12 @@ fn main() -> anyhow::Result<()> {
             return Ok(());
         }
     };
-    println!("adapter {}", host::gpu::describe(&gpu.info));
     let yard = Yard::new(gpu)?;
+    println!(
+        "adapter {}, clock {}",
+        host::gpu::describe(&yard.gpu.info),
+        yard.timer.clock().name()
+    );
     let mut ways = vec![
         yard.bare(),
         yard.way("four taps", Kernel::FourTaps, asking)?,

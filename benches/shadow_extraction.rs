@@ -18,6 +18,8 @@
 #[allow(dead_code)]
 #[path = "../examples/host/gpu.rs"]
 mod gpu;
+#[path = "shared/mod.rs"]
+mod shared;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -30,26 +32,8 @@ use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
-
-const RINGS: u32 = 1000;
-const SECTORS: u32 = 500;
-
-fn torus() -> (Vec<[f32; 3]>, Vec<u32>) {
-    let angle = |i: u32, n: u32| (i as f32 / n as f32 * std::f32::consts::TAU).sin_cos();
-    let (mut positions, mut indices) = (Vec::new(), Vec::new());
-    for ring in 0..RINGS {
-        for sector in 0..SECTORS {
-            let ((sr, cr), (ss, cs)) = (angle(ring, RINGS), angle(sector, SECTORS));
-            let radius = 3.0 + cs;
-            positions.push([radius * cr, ss, radius * sr]);
-            let at = |r: u32, s: u32| (r % RINGS) * SECTORS + s % SECTORS;
-            let [a, b] = [at(ring, sector), at(ring, sector + 1)];
-            let [c, d] = [at(ring + 1, sector), at(ring + 1, sector + 1)];
-            indices.extend([a, b, c, b, d, c]);
-        }
-    }
-    (positions, indices)
-}
+use shared::torus::torus;
+use shared::{median, paired, seconds};
 
 /// The plain loop and its memory.
 struct Loop {
@@ -135,21 +119,13 @@ impl<'a> Extraction<'a> {
     }
 }
 
-fn median(times: &mut [Duration]) -> f64 {
-    times.sort_unstable();
-    times[times.len() / 2].as_secs_f64()
-}
-
 fn main() {
     let Ok(gpu) = Gpu::new(None) else {
         eprintln!("skipped: no adapter");
         return;
     };
-    let rounds = match std::env::args().any(|a| a == "--quick" || a == "--test") {
-        true => 5,
-        false => 25,
-    };
-    let (positions, indices) = torus();
+    let rounds = if shared::quick() { 5 } else { 25 };
+    let (positions, indices) = torus(1000, 500);
     let adjacency = Adjacency::new(&positions, &indices).expect("a torus");
     let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency).expect("a mesh");
     let buffer = |bytes: usize, usage| {
@@ -206,21 +182,31 @@ fn main() {
             }
         }
     }
-    let in_memory = 1e3 * median(&mut plain.in_memory[1..]);
-    let [auto, looped, compute, copy] = times.map(|mut times| 1e3 * median(&mut times));
+    let in_memory = seconds(&plain.in_memory[1..]);
+    let [auto, looped, compute, copy] = times.map(|times| seconds(&times));
+    let milliseconds = |times: &[f64]| 1e3 * median(times.iter().copied());
+    let [loop_time, compute_time] = [&looped, &compute].map(|times| milliseconds(times));
     println!(
-        "{} triangles, {}",
+        "{} triangles, adapter {}, clock wall",
         adjacency.triangles().len(),
         gpu::describe(&gpu.info)
     );
     println!(
-        "extraction {auto:.2} ms, loop {looped:.2} ms ({in_memory:.2} in memory), compute {compute:.2} ms"
+        "extraction {:.2} ms, loop {loop_time:.2} ms ({:.2} in memory), compute {compute_time:.2} ms",
+        milliseconds(&auto),
+        milliseconds(&in_memory),
     );
-    println!("copy of {bytes} bytes {copy:.2} ms");
-    println!(
-        "ratio extraction_vs_best_loop {:.3}",
-        auto / looped.min(compute)
-    );
-    println!("ratio extraction_vs_loop_in_memory {:.3}", auto / in_memory);
-    println!("ratio extraction_vs_copy {:.3}", auto / copy);
+    println!("copy of {bytes} bytes {:.2} ms", milliseconds(&copy));
+    let best = match loop_time < compute_time {
+        true => &looped,
+        false => &compute,
+    };
+    let others = [
+        ("best_loop", best),
+        ("loop_in_memory", &in_memory),
+        ("copy", &copy),
+    ];
+    for (name, other) in others {
+        println!("ratio extraction_vs_{name} {:.3}", paired(&auto, other));
+    }
 }

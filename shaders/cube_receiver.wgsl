@@ -36,6 +36,9 @@ struct ShadowsCubeReceiver {
     // Along the face's axes (forward, right, down), and along the world's.
     plane: vec3f,
     gradient: vec3f,
+    // The receiver's own depth: stands in for the plane's where a texel does not see the plane, so that
+    // nothing behind the receiver shadows it.
+    own: f32,
     // No tap takes the plane for nearer than this depth, a thirty-second of the receiver's distance:
     // what casts from nearer casts at any grazing angle.
     bound: f32,
@@ -116,7 +119,8 @@ fn shadows_cube_receiver(
     receiver.ray = from_light / distance;
     receiver.gradient = light.near * light.depth_scale / plane_distance * n;
     receiver.plane = receiver.gradient * axes;
-    receiver.bound = 32.0 * light.near * light.depth_scale / major;
+    receiver.own = light.near * light.depth_scale / major;
+    receiver.bound = 32.0 * receiver.own;
     receiver.horizon = 0.0;
     receiver.width = 2.0 * major / light.size;
     receiver.known = -1.0;

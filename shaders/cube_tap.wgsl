@@ -20,7 +20,10 @@ fn shadows_cube_look(
     let direction = select((texel + 0.5) * (2.0 / size) - 1.0, sign(local), major);
     let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
     let stored = shadows_cube_depth(receiver, found, vec4f(dot(direction, direction))).x;
-    return vec2f(clamp(dot(receiver.gradient, direction), 0.0, receiver.bound), stored);
+    // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
+    let depth = dot(receiver.gradient, direction);
+    let plane = select(receiver.own, depth, depth > receiver.horizon);
+    return vec2f(min(plane, receiver.bound), stored);
 }
 
 // How much farther from its light (a sphere) than its blocker a receiver is, as a fraction of the

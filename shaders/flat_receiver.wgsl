@@ -30,6 +30,9 @@ struct ShadowsFlatLight {
 struct ShadowsFlatReceiver {
     texel: vec2f,
     plane: vec3f,
+    // The receiver's own depth: stands in for the plane's where a texel does not see the plane, so that
+    // nothing behind the receiver shadows it.
+    own: f32,
     // No tap takes the plane for nearer to the light than this depth: a thirty-second of the
     // receiver's distance (spot), or 16 widths of the map before the receiver (directional).
     bound: f32,
@@ -95,6 +98,7 @@ fn shadows_flat_receiver(
         let near = light.near * light.depth_bias;
         receiver.plane = near / plane_distance * vec3f(n.x, across);
         receiver.plane.x += light.quantum;
+        receiver.own = near / local.x + light.quantum;
         receiver.bound = 32.0 * near / local.x + light.quantum;
         receiver.horizon = light.quantum;
         return receiver;
@@ -106,7 +110,9 @@ fn shadows_flat_receiver(
     let per_depth = 1.0 / (n.x * light.range);
     let middle = 1.0 - plane_distance * per_depth + light.depth_bias + light.quantum;
     receiver.plane = vec3f(middle, across * per_depth);
-    receiver.bound = dot(receiver.plane, vec3f(1.0, uv)) + 32.0 / (light.scale * light.range);
+    // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
+    receiver.own = dot(receiver.plane, vec3f(1.0, uv));
+    receiver.bound = max(0.0, receiver.own + 32.0 / (light.scale * light.range));
     receiver.horizon = -3e38;
     return receiver;
 }

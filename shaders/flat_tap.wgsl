@@ -15,7 +15,13 @@ fn shadows_flat_look(
     let uv = point.yz * receiver.scale / select(1.0, point.x, spot);
     let texel = floor((uv * 0.5 + 0.5) * size);
     let depths = shadows_flat_depths(map, map_sampler, receiver, size, texel);
-    return vec2f(clamp(depths.x, 0.0, receiver.bound), depths.y);
+    // A directional light's receivers may be behind the map's end (depth 0), and the gap to their
+    // blockers is measured to where they are. An empty texel is behind them wherever that is.
+    let end = select(-3e38, 0.0, spot);
+    let stored = select(end, depths.y, depths.y > 0.0);
+    // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
+    let plane = select(receiver.own, depths.x, depths.x > receiver.horizon);
+    return vec2f(min(plane, receiver.bound), stored);
 }
 
 // How much farther from its light than its blocker a receiver is: for a spot as a fraction of the

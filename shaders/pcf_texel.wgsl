@@ -1,6 +1,7 @@
 // 1 where a texel sees the receiver's plane, 0 where a caster is nearer. A texel that does not see
 // the plane at all (it lies beyond the plane's horizon) says nothing of the receiver; the one that
-// mirrors it at the receiver surely sees the plane, and stands in.
+// mirrors it at the receiver stands in. Within half a texel of the horizon that may not see it either,
+// and is compared with the receiver's own depth.
 fn shadows_cube_texel(
     map: texture_cube<f32>,
     map_sampler: sampler,
@@ -12,5 +13,6 @@ fn shadows_cube_texel(
     let behind = shadows_cube_plane(receiver, size, texel) <= receiver.horizon;
     let at = select(texel, mirrored, behind);
     let depths = shadows_cube_depths(map, map_sampler, receiver, size, at);
-    return select(0.0, 1.0, clamp(depths.x, 0.0, receiver.bound) >= depths.y);
+    let plane = select(receiver.own, depths.x, depths.x > receiver.horizon);
+    return select(0.0, 1.0, clamp(plane, 0.0, receiver.bound) >= depths.y);
 }

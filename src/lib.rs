@@ -130,6 +130,10 @@
 //! shows, and are as exact as their texels are small. `compare`, the example, measures both on your
 //! own scene: time beside error.
 //!
+//! Longer, in the repository: `docs/choosing.md` (which technique, and what each costs and gets
+//! wrong), `docs/adding.md` (this crate in an engine, step by step) and `docs/numerics.md` (why it is
+//! right).
+//!
 //! # Features
 //!
 //! - `reference` (off): exact visibility in f64 for measuring error. Not for frames.

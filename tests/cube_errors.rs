@@ -8,7 +8,7 @@ use glam::{Affine3A, Vec3};
 use shadows::error::{CasterError, CubeShadowMapError, LightError};
 use shadows::{
     Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, PointLight,
-    glam, wgpu,
+    Radius, glam, wgpu,
 };
 
 fn descriptor(size: u32) -> CubeShadowMapDescriptor<'static> {
@@ -113,30 +113,57 @@ fn bad_frames_are_refused_and_the_map_goes_on() {
     queue.submit([encoder.finish()]);
 }
 
-#[test]
-fn more_casters_than_a_buffer_holds_are_refused() {
+/// A device whose buffers hold 4096 bytes.
+fn small_buffers() -> (wgpu::Device, wgpu::Queue) {
     let limits = wgpu::Limits {
         max_buffer_size: 4096,
         max_storage_buffer_binding_size: 4096,
         max_uniform_buffer_binding_size: 4096,
         ..wgpu::Limits::defaults()
     };
-    let (device, queue) = noop_with(wgpu::Features::empty(), limits);
+    noop_with(wgpu::Features::empty(), limits)
+}
+
+#[test]
+fn more_lights_than_a_buffer_of_matrices_holds_are_refused() {
+    let (device, _) = small_buffers();
+    let new = |lights| {
+        let descriptor = CubeShadowMapDescriptor {
+            lights,
+            ..descriptor(64)
+        };
+        CubeShadowMap::new(&device, &descriptor)
+    };
+    for lights in [3, u32::MAX] {
+        let expected = CubeShadowMapError::Slots { lights, limit: 2 };
+        assert_eq!(new(lights).unwrap_err(), expected);
+    }
+    let refused = common::validation_error(&device, || drop(new(2).unwrap()));
+    assert_eq!(refused, None);
+}
+
+#[test]
+fn more_casters_than_a_buffer_holds_are_refused() {
+    let (device, queue) = small_buffers();
     let mut map = CubeShadowMap::new(&device, &descriptor(64)).unwrap();
     let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
     let one = cuboid(Vec3::splat(0.1)).caster(&device, Affine3A::from_translation(Vec3::X * 4.0));
     let casters = vec![one; 86];
-    let error = map
-        .prepare(
-            &device,
-            &queue,
-            &CubeFrame {
-                lights: &[light],
-                casters: &casters,
-                ..Default::default()
-            },
-        )
-        .unwrap_err();
+    let lights = [light];
+    let of = |count: usize| CubeFrame {
+        lights: &lights,
+        casters: &casters[..count],
+        ..Default::default()
+    };
+    let encode = |map: &CubeShadowMap| {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        map.encode(&mut encoder);
+        queue.submit([encoder.finish()]);
+    };
+    map.prepare(&device, &queue, &of(85)).unwrap();
+    encode(&map);
+    let before = map.statistics();
+    let error = map.prepare(&device, &queue, &of(86)).unwrap_err();
     assert_eq!(
         error,
         CubeShadowMapError::TooManyCasters {
@@ -145,12 +172,14 @@ fn more_casters_than_a_buffer_holds_are_refused() {
             limit: 4096
         }
     );
-    let frame = CubeFrame {
-        lights: &[light],
-        casters: &casters[..85],
-        ..Default::default()
-    };
-    map.prepare(&device, &queue, &frame).unwrap();
+    // What was drawn before still stands, and is known to.
+    assert_eq!(map.statistics(), before);
+    encode(&map);
+    map.prepare(&device, &queue, &of(85)).unwrap();
+    let after = map.statistics();
+    assert_eq!((before.faces_rendered, after.faces_rendered), (6, 0));
+    map.prepare(&device, &queue, &of(84)).unwrap();
+    assert_eq!(map.statistics().faces_rendered, 1);
 }
 
 #[test]
@@ -186,6 +215,19 @@ fn descriptors_out_of_range_are_refused() {
             ..good.clone()
         };
         assert_eq!(refused(wrong), CubeShadowMapError::Format(format));
+    }
+    for reach in [
+        Radius::Texels(0.0),
+        Radius::Texels(64.5),
+        Radius::World(f32::NAN),
+        Radius::World(-1.0),
+    ] {
+        let wrong = CubeShadowMapDescriptor {
+            reach,
+            ..good.clone()
+        };
+        let told = refused(wrong).to_string();
+        assert!(told.starts_with(&format!("the reach {reach:?}")), "{told}");
     }
     let idle = CubeShadowMapDescriptor {
         max_faces_per_frame: Some(0),

@@ -226,6 +226,33 @@ fn no_texture_without_a_casting_light() {
 }
 
 #[test]
+fn lights_that_reach_no_caster_for_a_while_give_their_texels_back() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (casters, lights) = (casters(&gpu), lights());
+    let lights = &lights[..2];
+    for array in arrays(&gpu) {
+        let mut map = fresh(&gpu, &descriptor(array), lights, &casters);
+        // The frame, counted from 1, in which there are texels for so many lights only.
+        let mut frame_of = |left: usize, lights: &[PointLight], casters: &[Caster]| {
+            (1..=100).find(|_| {
+                draw(&gpu, &mut map, lights, casters);
+                (0..2).filter(|&at| map.texture(at).is_some()).count() == left
+            })
+        };
+        let far = PointLight::new(Vec3::splat(90.0), 0.1, 5.0);
+        let one_casts = [lights[0], far];
+        let one_left = frame_of(1, &one_casts, &casters);
+        assert_eq!(one_left, (!array).then_some(60), "an array stays whole");
+        assert_eq!(frame_of(0, &one_casts, &[]), Some(60));
+        assert_eq!(frame_of(2, lights, &casters), Some(1), "casters came back");
+        for (place, light) in lights.iter().enumerate() {
+            let alone = fresh(&gpu, &one_light(), &[*light], &casters);
+            assert_eq!(faces(&gpu, &map, place), faces(&gpu, &alone, 0), "{place}");
+        }
+    }
+}
+
+#[test]
 fn samplers_refuse_maps_that_they_cannot_read() {
     let Some(gpu) = Gpu::for_test() else { return };
     if !gpu.support.cube_arrays {

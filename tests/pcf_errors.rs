@@ -4,7 +4,10 @@ mod common;
 
 use common::noop;
 use shadows::error::PcfError;
-use shadows::{ContactHardening, Kernel, PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk};
+use shadows::{
+    ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
+    PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
+};
 
 fn make(kernel: Kernel) -> Result<PcfSampler, PcfError> {
     let (device, queue) = noop();
@@ -150,4 +153,41 @@ fn a_light_without_a_size_is_refused() {
             PcfError::LightSize(light_size)
         );
     }
+}
+
+#[test]
+fn textbook_receivers_of_another_encoding_are_refused() {
+    let (device, queue) = noop();
+    let made = |encoding, map, textbook| {
+        let descriptor = PcfDescriptor {
+            encoding,
+            map,
+            textbook,
+            ..Default::default()
+        };
+        PcfSampler::new(&device, &queue, &descriptor).map(drop)
+    };
+    let (major, linear) = (DepthEncoding::MajorAxis, DepthEncoding::LinearDistance);
+    let error = made(major, MapKind::Cube, true);
+    assert_eq!(error, Err(PcfError::Textbook(major)));
+    assert_eq!(made(linear, MapKind::Cube, true), Ok(()));
+    assert_eq!(made(major, MapKind::Cube, false), Ok(()));
+    // Flat maps have neither encodings nor textbook receivers.
+    assert_eq!(made(major, MapKind::Flat, true), Ok(()));
+}
+
+#[test]
+fn a_light_that_a_map_has_no_place_for_is_refused() {
+    let (device, queue) = noop();
+    let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default()).unwrap();
+    let descriptor = CubeShadowMapDescriptor {
+        lights: 2,
+        ..Default::default()
+    };
+    let map = CubeShadowMap::new(&device, &descriptor).unwrap();
+    let of = |light| sampler.bind_group_of(&device, &map, light).map(drop);
+    for light in [2, usize::MAX] {
+        assert_eq!(of(light), Err(PcfError::Light { light, lights: 2 }));
+    }
+    assert_eq!(of(1), Ok(()));
 }

@@ -41,7 +41,7 @@ fn lit(gpu: &Gpu, map: AnyMap<'_>, kernel: Kernel, points: &[(Vec3, Vec3)]) -> [
             false => module,
             true => {
                 let far = module
-                    .replace("0.0, receiver.bound)", "0.0, 3e38)")
+                    .replace(", receiver.bound)", ", 3e38)")
                     .replace("vec4f(receiver.bound)", "vec4f(3e38)");
                 assert_ne!(far, module);
                 far
@@ -166,4 +166,135 @@ fn what_is_sixteen_widths_before_a_receiver_casts_under_a_directional_light_of_a
     }
     println!("lit without the bound: {unbounded}");
     assert!(unbounded > 100, "{unbounded}");
+}
+
+#[test]
+fn far_below_all_casters_of_a_directional_light_only_their_shadow_is_dark() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // A box half a unit wide, up to thousands of widths of its map above the ground.
+    let points = [
+        (Vec3::ZERO, Vec3::Y),
+        (Vec3::X * 0.4, Vec3::Y),
+        (Vec3::X * 9.0, Vec3::Y),
+    ];
+    let expected = [0.0, 1.0, 1.0];
+    let light = FlatLight::Directional(DirectionalLight::new(Vec3::Y));
+    let mut below_zero = 0;
+    for height in [1.0, 40.0, 5000.0] {
+        let place = Affine3A::from_translation(Vec3::Y * height);
+        let casters = [cuboid(Vec3::splat(0.25)).caster(&gpu.device, place)];
+        let map = flat(&gpu, &ShadowFrame::new(light, &casters));
+        for kernel in Kernel::ALL {
+            let descriptor = PcfDescriptor {
+                kernel,
+                map: AnyMap::from(&map).kind(),
+                ..Default::default()
+            };
+            let asked = |change: fn(String) -> String| {
+                ask_changed(&gpu, AnyMap::from(&map), &descriptor, 0, &points, change)
+            };
+            assert_eq!(asked(|module| module), expected, "{kernel:?}, {height}");
+            // The broken twin: a bound below the depth of an empty texel.
+            let broken =
+                asked(|module| module.replace("receiver.bound = max(0.0, ", "receiver.bound = ("));
+            below_zero += usize::from(broken != expected);
+        }
+    }
+    assert!(below_zero > 9, "{below_zero}");
+}
+
+/// Light over a tilted plane whose horizon crosses texels, and what moves an upright scene there.
+const LOW: Vec3 = Vec3::new(0.0, 0.02, 0.0);
+
+fn tilted() -> Affine3A {
+    let tilt = Affine3A::from_rotation_x(0.4);
+    Affine3A::from_translation(LOW) * tilt * Affine3A::from_translation(-LOW)
+}
+
+/// Points of that plane from 1 to 8 away from the light, up to an angle from the x axis.
+fn tilted_points(angle: f32) -> Vec<(Vec3, Vec3)> {
+    let place = tilted();
+    let distances = (0..600).map(|i| 1.0 + 7.0 * (i as f32 / 600.0));
+    let points = points(angle).into_iter().zip(distances);
+    points
+        .map(|((at, up), distance)| (at * distance, up))
+        .map(|(at, up)| (place.transform_point3(at), place.transform_vector3(up)))
+        .collect()
+}
+
+/// How many of those points are as they should not be, right and with the module changed, by kernel
+/// and map.
+fn wrong_beyond(
+    gpu: &Gpu,
+    casters: &[Caster],
+    wrong: fn(f32) -> bool,
+    change: fn(String) -> String,
+) -> Vec<(Kernel, [usize; 2])> {
+    let (cube, spot) = (cube(gpu, LOW, casters), spot(gpu, LOW, casters));
+    let (all_round, before) = (tilted_points(3.0), tilted_points(0.3));
+    let maps = [
+        (AnyMap::from(&cube), &all_round),
+        (AnyMap::from(&spot), &before),
+    ];
+    let count = |map: AnyMap<'_>, points: &[_], kernel, change: fn(String) -> String| {
+        let descriptor = PcfDescriptor {
+            kernel,
+            map: map.kind(),
+            ..Default::default()
+        };
+        let seen = ask_changed(gpu, map, &descriptor, 0, points, change);
+        seen.into_iter().filter(|&lit| wrong(lit)).count()
+    };
+    let mut counts = Vec::new();
+    for (map, points) in maps {
+        for kernel in Kernel::ALL {
+            let both = [|module| module, change].map(|change| count(map, points, kernel, change));
+            println!("{:?} {kernel:?}: {both:?}", map.kind());
+            counts.push((kernel, both));
+        }
+    }
+    counts
+}
+
+#[test]
+fn what_stands_beyond_the_horizon_of_a_receiver_casts_no_shadow_on_it() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Walls far behind the receivers, which texels above the plane's horizon look at.
+    let walls = around(&gpu, LOW, 2000.0);
+    let dark = |lit| lit < 1.0;
+    // The broken twin: such texels taken to see the plane, infinitely far away.
+    let counts = wrong_beyond(&gpu, &walls, dark, |module| {
+        module
+            .replace("select(texel, mirrored, behind)", "texel")
+            .replace("select(receiver.own, ", "select(0.0, ")
+    });
+    for (kernel, [right, broken]) in counts {
+        assert!(right == 0 && broken > 4, "{kernel:?}: {right} {broken}");
+    }
+}
+
+#[test]
+fn texels_beyond_the_horizon_are_reflected_into_the_shadow_of_what_ends_there() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Four walls around the light, up to the horizon: all beyond them is in shadow, and texels above
+    // the horizon are empty.
+    let wall = Affine3A::from_translation(Vec3::new(0.5, LOW.y - 0.5, 0.0))
+        * Affine3A::from_rotation_z(std::f32::consts::FRAC_PI_2);
+    let walls = [0.0, 0.5, 1.0, 1.5].map(|turn| {
+        let turn = Affine3A::from_rotation_y(turn * std::f32::consts::PI);
+        square(0.5).caster(&gpu.device, tilted() * turn * wall)
+    });
+    // Within half a texel of the horizon the reflection of a texel may be beyond it as well.
+    let lit = |lit| lit > 0.15;
+    // The broken twin: no reflection.
+    let counts = wrong_beyond(&gpu, &walls, lit, |module| {
+        module.replace("select(texel, mirrored, behind)", "texel")
+    });
+    for (kernel, [right, broken]) in counts {
+        match kernel.uses_pixel() {
+            false => assert!(right == 0 && broken > 4, "{kernel:?}: {right} {broken}"),
+            // The taps of a disk are on the plane, and nothing is to be reflected.
+            true => assert!(right < 30 && broken == right, "{kernel:?}: {right}"),
+        }
+    }
 }

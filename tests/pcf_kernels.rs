@@ -10,12 +10,14 @@ mod receivers;
 #[path = "common/yard.rs"]
 mod yard;
 
+use common::shapes;
 use exact_kernels::{SQUARES, TEXEL, mean, square, vogel};
-use glam::{DVec2, DVec3, Vec3};
-use receivers::ask_group;
+use glam::{Affine3A, DVec2, DVec3, Vec3};
+use host::gpu::Gpu;
+use receivers::{ask_changed, ask_group};
 use shadows::{
-    AnyMap, ContactHardening, Kernel, PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
-    glam,
+    AnyMap, ContactHardening, DirectionalLight, FlatLight, Kernel, MapKind, PcfDescriptor,
+    PcfSampler, Radius, RandomDisk, ShadowFrame, ShadowMap, ShadowMapDescriptor, VogelDisk, glam,
 };
 use yard::{LIGHT, Yard, error};
 
@@ -203,5 +205,60 @@ fn contact_hardening_is_sharp_at_contacts_and_wide_far_from_them() {
             rms < 0.7 * hard && rms < 0.8 * wide,
             "{name}: {rms} {hard} {wide}"
         );
+    }
+}
+
+/// Points from the middle of a square's shadow to beyond its penumbra, and how much of a directional
+/// light with a size they see.
+fn under_a_square(half: f64, height: f64, light_size: f64) -> (Vec<(Vec3, Vec3)>, Vec<f64>) {
+    let exact = |x: f64, z: f64| {
+        mean(|at| {
+            let over = DVec2::new(x, z) + at * light_size * height;
+            f64::from(u8::from(over.abs().max_element() > half))
+        })
+    };
+    (0..400)
+        .map(|i| {
+            let x = half * (f64::from(i) / 200.0);
+            let z = 0.1 * half * f64::from(i % 7);
+            ((Vec3::new(x as f32, 0.0, z as f32), Vec3::Y), exact(x, z))
+        })
+        .unzip()
+}
+
+#[test]
+fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (half, light_size) = (0.25, 0.01);
+    // The map ends right below its only caster; the ground is much farther down.
+    for height in [2.0, 10.0] {
+        let place = Affine3A::from_translation(Vec3::Y * height);
+        let casters = [shapes::square(half).caster(&gpu.device, place)];
+        let mut map = ShadowMap::new(&gpu.device, &ShadowMapDescriptor::default()).unwrap();
+        let light = FlatLight::Directional(DirectionalLight::new(Vec3::Y));
+        map.prepare(&gpu.device, &gpu.queue, &ShadowFrame::new(light, &casters))
+            .unwrap();
+        gpu.run(|encoder| map.encode(encoder));
+        let descriptor = PcfDescriptor {
+            kernel: Kernel::ContactHardening(ContactHardening {
+                light_size,
+                max_radius: Radius::World(1.5 * light_size * height),
+                search_taps: 32,
+                taps: 64,
+            }),
+            map: MapKind::Flat,
+            ..Default::default()
+        };
+        let (points, exact) = under_a_square(half.into(), height.into(), light_size.into());
+        let rms = |change: fn(String) -> String| {
+            let seen = ask_changed(&gpu, (&map).into(), &descriptor, 0, &points, change);
+            let seen: Vec<_> = seen.into_iter().map(f64::from).collect();
+            error(&seen, &exact).0
+        };
+        let right = rms(|module| module);
+        // The broken twin: the ground taken for no farther than the map's end.
+        let short = rms(|module| module.replace("select(-3e38, 0.0, spot)", "0.0"));
+        println!("{height} above the ground: rms {right:.4}; at the map's end {short:.4}");
+        assert!(right < 0.06 && short > 1.5 * right, "{right} {short}");
     }
 }

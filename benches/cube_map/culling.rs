@@ -67,18 +67,14 @@ pub fn culling(gpu: &Gpu, name: &str, count: usize, rounds: usize) {
         all.sort_unstable();
         assert_eq!(found, all, "the tree lost some");
     }
-    ratio(&format!("culling_{name}_vs_linear"), &mut tree, &mut linear);
+    ratio(&format!("culling_{name}_vs_linear"), &tree, &linear);
     if !shader.is_empty() {
         let found = compute.map_or(0, |compute| compute.found(gpu));
         println!(
             "the shader found {found} casters in {:.3} ms",
-            1e3 * median(&mut shader)
+            1e3 * median(&shader)
         );
-        ratio(
-            &format!("culling_{name}_vs_compute"),
-            &mut tree,
-            &mut shader,
-        );
+        ratio(&format!("culling_{name}_vs_compute"), &tree, &shader);
     }
 }
 

@@ -107,14 +107,14 @@ pub fn run(gpu: &Gpu, rounds: u32) {
         assert_eq!(scene.maps[0].statistics().faces_copied, 6, "no layers");
         [layers, redraw]
     };
-    let [mut layers, mut redraw] = measure(1024, StillPart::HEAVY, StillLayers::Auto);
-    ratio("static_layer_vs_redraw", &mut layers, &mut redraw);
+    let [layers, redraw] = measure(1024, StillPart::HEAVY, StillLayers::Auto);
+    ratio("static_layer_vs_redraw", &layers, &redraw);
     let always = StillLayers::AtLeast(1);
     for size in [256, 1024, 2048] {
         for triangles in [8, 512, 8192] {
-            let [mut layers, mut redraw] = measure(size, StillPart::small(triangles), always);
+            let [layers, redraw] = measure(size, StillPart::small(triangles), always);
             let name = format!("static_layer_vs_redraw_{size}_{triangles}");
-            ratio(&name, &mut layers, &mut redraw);
+            ratio(&name, &layers, &redraw);
         }
     }
     texels_a_triangle(gpu, rounds);
@@ -155,8 +155,8 @@ fn texels_a_triangle(gpu: &Gpu, rounds: u32) {
             encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
         }));
     }
-    let triangle = (median(&mut many) - median(&mut few)) / f64::from(6 * (MANY - FEW));
-    let texel = median(&mut copy) / f64::from(6 * SIDE * SIDE);
+    let triangle = (median(&many) - median(&few)) / f64::from(6 * (MANY - FEW));
+    let texel = median(&copy) / f64::from(6 * SIDE * SIDE);
     println!(
         "a triangle {:.1} ns, a texel copied {:.3} ns",
         triangle * 1e9,

@@ -369,7 +369,7 @@ fn exact_count(gpu: &Gpu, label: Option<&str>, renderer: &Renderer) -> Result<Ex
         label,
         size: renderer.size(),
         depth_stencil_format: renderer.depth_stencil_format(),
-        ..Default::default()
+        sample_count: renderer.look().samples,
     };
     Ok(ExactCount::new(&gpu.device, &descriptor)?)
 }

@@ -1,14 +1,15 @@
 //! A scene set up to be seen: on the GPU, with a renderer, and as exact geometry for the reference.
 
 use anyhow::Result;
-use shadows::glam::{DAffine3, DMat3, Mat4, Vec3, Vec4};
+use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
-use shadows::reference::{ReferenceImage, ReferenceObject, ReferenceScene};
+use shadows::reference::{ReferenceImage, ReferenceScene};
 use shadows::{HomogeneousLight, View};
 
+use crate::host::exact;
 use crate::host::gpu::Gpu;
 use crate::host::renderer::{self, Look, Renderer};
-use crate::host::scene::{Camera, Object, Scene};
+use crate::host::scene::{Camera, Scene};
 use crate::host::scene_gpu::SceneGpu;
 use crate::shadow::{Shadow, ShadowInputs};
 
@@ -124,13 +125,7 @@ impl Stage {
     /// # Errors
     /// If the scene is broken.
     pub fn reference_scene(&self) -> Result<ReferenceScene> {
-        let objects: Vec<ReferenceObject<'_>> = self
-            .scene
-            .objects
-            .iter()
-            .map(|object| self.reference_object(object))
-            .collect();
-        Ok(ReferenceScene::new(&objects)?)
+        Ok(exact::reference_scene(&self.scene)?)
     }
 
     /// The exact answer for the camera and the light as they are, in the scene's geometry.
@@ -144,27 +139,6 @@ impl Stage {
         }
         let (light, range) = (self.inputs.light, self.inputs.light_range());
         Ok(scene.render(&self.inputs.view, width, height, light, range)?)
-    }
-
-    fn reference_object(&self, object: &Object) -> ReferenceObject<'_> {
-        let mesh = &self.scene.meshes[object.mesh];
-        let transform = object.transform;
-        let linear = [
-            transform.matrix3.x_axis,
-            transform.matrix3.y_axis,
-            transform.matrix3.z_axis,
-        ]
-        .map(|column| Vec3::from(column).as_dvec3());
-        ReferenceObject {
-            positions: &mesh.positions,
-            indices: &mesh.indices,
-            // The f32 transform, its entries taken as exact.
-            transform: DAffine3 {
-                matrix3: DMat3::from_cols(linear[0], linear[1], linear[2]),
-                translation: Vec3::from(transform.translation).as_dvec3(),
-            },
-            casts: object.casts,
-        }
     }
 }
 

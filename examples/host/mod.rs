@@ -1,6 +1,7 @@
 //! A small host: what the examples, the tests and the benches share. Not part of the library.
 #![allow(dead_code, unused_imports)] // each of them uses its own part
 
+pub mod exact;
 pub mod gpu;
 pub mod image;
 pub mod pipelines;

@@ -41,9 +41,7 @@ pub struct Renderer {
     size: [u32; 2],
     look: Look,
     depth_stencil_format: wgpu::TextureFormat,
-    depth_stencil: wgpu::TextureView,
-    shaded: Target,
-    visibility: Target,
+    targets: Targets,
     host_layout: wgpu::BindGroupLayout,
     host_group: wgpu::BindGroup,
     frame: wgpu::Buffer,
@@ -51,7 +49,37 @@ pub struct Renderer {
     unshadowed: LitPipeline,
 }
 
-/// What is drawn into: the texture that is read, resolved from the samples where there are several.
+/// What is drawn into.
+struct Targets {
+    depth_stencil: wgpu::TextureView,
+    shaded: Target,
+    visibility: Target,
+}
+
+impl Targets {
+    fn new(
+        gpu: &Gpu,
+        size: [u32; 2],
+        depth_stencil: wgpu::TextureFormat,
+        samples: u32,
+    ) -> Result<Self> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        ensure!(
+            size.iter().all(|&side| side <= limit),
+            "a picture of {}x{} is too large for this device; at most {limit}x{limit}",
+            size[0],
+            size[1]
+        );
+        let depth_stencil = gpu.target(size, depth_stencil, samples);
+        Ok(Self {
+            depth_stencil: depth_stencil.create_view(&Default::default()),
+            shaded: Target::new(gpu, size, SHADED, samples),
+            visibility: Target::new(gpu, size, VISIBILITY, samples),
+        })
+    }
+}
+
+/// One of them: the texture that is read, resolved from the samples where there are several.
 struct Target {
     texture: wgpu::Texture,
     samples: Option<wgpu::Texture>,
@@ -95,25 +123,17 @@ impl Renderer {
         scene_gpu: &SceneGpu,
         look: Look,
     ) -> Result<Self> {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        ensure!(
-            size.iter().all(|&side| side <= limit),
-            "a picture of {}x{} is too large for this device; at most {limit}x{limit}",
-            size[0],
-            size[1]
-        );
         let depth_stencil_format = depth_stencil_format(gpu);
-        let depth_stencil = gpu.target(size, depth_stencil_format, look.samples);
-        let frame = frame_buffer(gpu, &frame_uniform(scene, matrix(scene, size, look), look));
+        let targets = Targets::new(gpu, size, depth_stencil_format, look.samples)?;
+        let frame = frame_buffer(gpu, scene, size, look);
         let host_layout = host_layout(&gpu.device);
         let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
         Ok(Self {
             size,
             look,
             depth_stencil_format,
-            depth_stencil: depth_stencil.create_view(&Default::default()),
-            shaded: Target::new(gpu, size, SHADED, look.samples),
-            visibility: Target::new(gpu, size, VISIBILITY, look.samples),
+            targets,
+            frame,
             ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format, look),
             unshadowed: lit_pipeline(
                 &gpu.device,
@@ -124,7 +144,6 @@ impl Renderer {
             ),
             host_layout,
             host_group,
-            frame,
         })
     }
 
@@ -133,6 +152,30 @@ impl Renderer {
         let frame = frame_uniform(scene, clip_from_world, self.look);
         gpu.queue
             .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+    }
+
+    /// Takes over another light or camera of the scene, and another size: what a window needs.
+    ///
+    /// # Errors
+    /// If the device cannot make targets of this size.
+    pub fn update(&mut self, gpu: &Gpu, size: [u32; 2], scene: &Scene) -> Result<()> {
+        if size != self.size {
+            let format = self.depth_stencil_format;
+            self.targets = Targets::new(gpu, size, format, self.look.samples)?;
+            self.size = size;
+        }
+        self.show(gpu, scene, matrix(scene, size, self.look));
+        Ok(())
+    }
+
+    /// The shaded picture, sRGB.
+    pub fn shaded(&self) -> &wgpu::Texture {
+        &self.targets.shaded.texture
+    }
+
+    /// Visibility of the light at each pixel, `R8Unorm`: 1 lit; 0 also where there is no surface.
+    pub fn visibility(&self) -> &wgpu::Texture {
+        &self.targets.visibility.texture
     }
 
     /// Width and height in pixels.
@@ -152,7 +195,7 @@ impl Renderer {
 
     /// The depth-stencil buffer.
     pub fn depth_stencil(&self) -> &wgpu::TextureView {
-        &self.depth_stencil
+        &self.targets.depth_stencil
     }
 
     /// The lit pass's pipeline for one way to find shadows.
@@ -173,12 +216,12 @@ impl Renderer {
 
     /// Clears, then draws depth and ambient light.
     pub fn draw_ambient(&self, encoder: &mut wgpu::CommandEncoder, scene: &SceneGpu) {
-        let (shaded, _) = self.shaded.views();
+        let (shaded, _) = self.targets.shaded.views();
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("ambient"),
             color_attachments: &[Some(color(&shaded, None, wgpu::LoadOp::Clear(SKY)))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth_stencil,
+                view: &self.targets.depth_stencil,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(self.look.depth.clear_depth()),
                     store: wgpu::StoreOp::Store,
@@ -211,12 +254,12 @@ impl Renderer {
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'e> {
-        let (shaded, resolved) = self.shaded.views();
+        let (shaded, resolved) = self.targets.shaded.views();
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("overlay"),
             color_attachments: &[Some(color(&shaded, resolved.as_ref(), wgpu::LoadOp::Load))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth_stencil,
+                view: &self.targets.depth_stencil,
                 depth_ops: None,
                 stencil_ops: None,
             }),
@@ -232,8 +275,8 @@ impl Renderer {
         lit: &LitPipeline,
         shadow_group: Option<&wgpu::BindGroup>,
     ) {
-        let (shaded, resolved) = self.shaded.views();
-        let (visibility, resolved_visibility) = self.visibility.views();
+        let (shaded, resolved) = self.targets.shaded.views();
+        let (visibility, resolved_visibility) = self.targets.visibility.views();
         let mut depth_stencil = self.stencil_attachment(wgpu::LoadOp::Load);
         if !lit.uses_stencil {
             depth_stencil.stencil_ops = None;
@@ -261,12 +304,12 @@ impl Renderer {
 
     /// The shaded picture, sRGB.
     pub fn read_shaded(&self, gpu: &Gpu) -> Vec<[u8; 3]> {
-        image::without_alpha(&gpu.read_texture(&self.shaded.texture, 0, wgpu::TextureAspect::All))
+        image::without_alpha(&gpu.read_texture(self.shaded(), 0, wgpu::TextureAspect::All))
     }
 
     /// Visibility of the light at each pixel, 255 lit; 0 also where there is no surface.
     pub fn read_visibility(&self, gpu: &Gpu) -> Vec<u8> {
-        gpu.read_texture(&self.visibility.texture, 0, wgpu::TextureAspect::All)
+        gpu.read_texture(self.visibility(), 0, wgpu::TextureAspect::All)
     }
 
     fn stencil_attachment(
@@ -274,7 +317,7 @@ impl Renderer {
         load: wgpu::LoadOp<u32>,
     ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         wgpu::RenderPassDepthStencilAttachment {
-            view: &self.depth_stencil,
+            view: &self.targets.depth_stencil,
             depth_ops: None,
             stencil_ops: Some(wgpu::Operations {
                 load,
@@ -360,6 +403,16 @@ fn frame_uniform(scene: &Scene, clip_from_world: Mat4, look: Look) -> FrameUnifo
     }
 }
 
+fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2], look: Look) -> wgpu::Buffer {
+    use wgpu::util::DeviceExt as _;
+    gpu.device
+        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("frame"),
+            contents: bytemuck::bytes_of(&frame_uniform(scene, matrix(scene, size, look), look)),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        })
+}
+
 fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let entry = |binding, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
         binding,
@@ -375,16 +428,6 @@ fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         label: Some("host"),
         entries: &[entry(0, false), entry(1, true)],
     })
-}
-
-fn frame_buffer(gpu: &Gpu, frame: &FrameUniform) -> wgpu::Buffer {
-    use wgpu::util::DeviceExt as _;
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("frame"),
-            contents: bytemuck::bytes_of(frame),
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        })
 }
 
 fn host_group(

@@ -62,12 +62,17 @@ impl Shape {
 
     /// Turned about an axis that no coordinate axis is near to, so that nothing is axis-aligned.
     pub fn tilted(mut self) -> Self {
-        let turn = Quat::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+        let turn = tilt();
         for position in &mut self.positions {
             *position = (turn * Vec3::from(*position)).to_array();
         }
         self
     }
+}
+
+/// The turn of [`Shape::tilted`].
+pub fn tilt() -> Quat {
+    Quat::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), 0.7)
 }
 
 /// A horizontal square of half the given side length, wound to be seen from above.

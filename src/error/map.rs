@@ -46,8 +46,10 @@ pub enum CubeShadowMapError {
         /// Bytes allowed.
         limit: u64,
     },
-    /// No light at all, or more than the texture's layers can hold.
-    #[error("a map for {lights} lights is out of range; 1 to {limit} (six layers each)")]
+    /// No light at all, or more than the texture's layers or a buffer of matrices can hold.
+    #[error(
+        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in a cube array, 1536 bytes of matrices each)"
+    )]
     Slots {
         /// Lights asked for.
         lights: u32,
@@ -57,6 +59,9 @@ pub enum CubeShadowMapError {
     /// The format is none that a map can have.
     #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
     Format(wgpu::TextureFormat),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
     /// A budget of no face at all.
     #[error("max_faces_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
     Budget,
@@ -141,6 +146,12 @@ pub enum ShadowMapError {
         /// The largest corner passed.
         max: [f32; 3],
     },
+    /// The map lies so far from the origin, or is so large or so narrow, that its matrix is not
+    /// finite in `f32`.
+    #[error(
+        "the map's matrix is not finite in f32: the light or a caster is too far away, or the cone too narrow; place all nearer the origin, or widen the cone"
+    )]
+    BeyondF32,
     /// More casters than one buffer of the device can hold.
     #[error("{casters} casters need {size} bytes, max_buffer_size is {limit}")]
     TooManyCasters {
@@ -224,4 +235,19 @@ pub enum PcfError {
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
     )]
     NoCubeArray,
+    /// A bind group for a light that the map has no place for.
+    #[error(
+        "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"
+    )]
+    Light {
+        /// The place that was passed.
+        light: usize,
+        /// Lights the map was made for.
+        lights: usize,
+    },
+    /// Textbook receivers of depths that they cannot read.
+    #[error(
+        "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"
+    )]
+    Textbook(crate::DepthEncoding),
 }

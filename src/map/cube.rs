@@ -18,7 +18,7 @@ use super::statistics::{Clock, CubeStatistics};
 use super::still_layer::StillLayer;
 use super::texture::Textures;
 use crate::error::CubeShadowMapError;
-use crate::{Bias, PointLight};
+use crate::{Bias, PointLight, Radius};
 
 /// Omnidirectional depth maps for point lights: six faces each, drawn only where a caster is, and
 /// only when it has changed.
@@ -68,6 +68,7 @@ use crate::{Bias, PointLight};
 pub struct CubeShadowMap {
     pub(super) size: u32,
     pub(super) bias: Bias,
+    pub(super) reach: Radius,
     pub(super) label: String,
     pub(super) array: bool,
     pub(super) format: wgpu::TextureFormat,
@@ -156,6 +157,7 @@ impl CubeShadowMap {
         Ok(Self {
             size,
             bias,
+            reach: descriptor.reach,
             array: cube_array,
             format,
             encoding,
@@ -289,6 +291,11 @@ impl CubeShadowMap {
     /// What the last [`prepare`](Self::prepare) found.
     pub fn statistics(&self) -> CubeStatistics {
         self.statistics
+    }
+
+    /// How many lights it was made for.
+    pub(crate) fn most_lights(&self) -> usize {
+        self.slots.len()
     }
 
     pub(crate) fn light_uniform(&self, light: usize) -> wgpu::BindingResource<'_> {

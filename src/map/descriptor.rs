@@ -1,10 +1,11 @@
 //! How a cube map is made, and what it is told each frame.
 
 use super::joint::FacePasses;
+use super::resources::UNIFORM_STRIDE;
 use super::still_layer::StillLayers;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
-use crate::{Bias, PointLight, View};
+use crate::{Bias, PointLight, Radius, View};
 
 /// What the texels of a [`CubeShadowMap`](crate::CubeShadowMap) hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -63,7 +64,8 @@ pub enum CasterSides {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Allocation {
     /// In the first `prepare` in which a light reaches a caster; given back in the first without
-    /// any light. Bind groups made before that must be made again
+    /// any light, and in the 60th in a row in which none reaches a caster (with a cube for each
+    /// light: in which its own does not). Bind groups made before that must be made again
     /// ([`CubeShadowMap::texture_revision`](crate::CubeShadowMap::texture_revision)).
     #[default]
     WithFirstCaster,
@@ -83,8 +85,9 @@ pub struct CubeShadowMapDescriptor<'a> {
     pub size: u32,
     /// Bias for receivers. Default [`Bias::default`], which needs no tuning.
     pub bias: Bias,
-    /// The most lights it will hold. Default 1. At least 1; six times as many layers must fit the
-    /// device's `max_texture_array_layers` if `cube_array` is set.
+    /// The most lights it will hold. Default 1. At least 1; 1,536 bytes for each must fit the
+    /// device's `max_buffer_size`, and six layers for each its `max_texture_array_layers` if
+    /// `cube_array` is set.
     pub lights: u32,
     /// Whether all lights share one cube array texture and one bind group, which needs
     /// [`Support::cube_arrays`](crate::Support): pass that for both this and
@@ -101,6 +104,11 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// `LinearDistance` that is `range / 65536` in world units, with `MajorAxis`
     /// `d * d / (near * 65536)` at distance `d`.
     pub format: wgpu::TextureFormat,
+    /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the
+    /// widest that reads the map. Faces that only such kernels reach from what a frame's
+    /// [`view`](CubeFrame::view) shows are kept up to date, too. Default 12 texels, as wide as any
+    /// kernel is by default. Greater than 0, at most 64 texels.
+    pub reach: Radius,
     /// Whether casters go only on the faces they touch. Default true; false draws every caster on
     /// every face, for measuring what culling is worth.
     pub cull_casters: bool,
@@ -109,8 +117,10 @@ pub struct CubeShadowMapDescriptor<'a> {
     pub cache: bool,
     /// Which sides of casters are drawn. Default [`CasterSides::Nearest`].
     pub sides: CasterSides,
-    /// The most faces drawn in one `prepare`; default none. At least 1. See
-    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order and the longest wait.
+    /// The most faces drawn in one `prepare`; default none. At least 1. A light that moved has its
+    /// faces drawn together, which may be up to five more. See
+    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order, the longest wait and
+    /// what the budget does not count.
     pub max_faces_per_frame: Option<u32>,
     /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
     pub passes: FacePasses,
@@ -143,10 +153,7 @@ impl CubeShadowMapDescriptor<'_> {
                 limit,
             });
         }
-        let most = match self.cube_array {
-            true => limits.max_texture_array_layers / 6,
-            false => u32::MAX / 6,
-        };
+        let most = self.most_lights(&limits);
         if self.lights == 0 || self.lights > most {
             return Err(CubeShadowMapError::Slots {
                 lights: self.lights,
@@ -159,6 +166,9 @@ impl CubeShadowMapDescriptor<'_> {
         if quantum(self.format).is_none() {
             return Err(CubeShadowMapError::Format(self.format));
         }
+        if !self.reach.is_in_range() {
+            return Err(CubeShadowMapError::Reach(self.reach));
+        }
         if self.max_faces_per_frame == Some(0) {
             return Err(CubeShadowMapError::Budget);
         }
@@ -169,6 +179,17 @@ impl CubeShadowMapDescriptor<'_> {
             return Err(CubeShadowMapError::SlopeScale);
         }
         Ok(())
+    }
+
+    /// As many as have room for their matrices, and in one texture for their layers.
+    fn most_lights(&self, limits: &wgpu::Limits) -> u32 {
+        let matrices = limits.max_buffer_size / (6 * UNIFORM_STRIDE);
+        // A dynamic offset, which is in bytes, has 32 bits.
+        let matrices = matrices.min(u64::from(u32::MAX) / (6 * UNIFORM_STRIDE)) as u32;
+        match self.cube_array {
+            true => matrices.min(limits.max_texture_array_layers / 6),
+            false => matrices,
+        }
     }
 
     /// The fewest triangles that stand still on a face that are worth a layer.
@@ -200,6 +221,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             allocation: Allocation::default(),
             encoding: DepthEncoding::default(),
             format: wgpu::TextureFormat::Depth32Float,
+            reach: Radius::Texels(12.0),
             cull_casters: true,
             cache: true,
             sides: CasterSides::default(),
@@ -222,8 +244,9 @@ pub struct CubeFrame<'a> {
     /// order does not matter, but what is found at another place in the slice than last frame counts
     /// as moved: take casters out by `swap_remove` rather than by `remove`.
     pub casters: &'a [Caster],
-    /// The host's camera: faces that can hold no visible receiver are put off until they can. `None`
-    /// (default): all faces count. With several cameras pass `None`.
+    /// The host's camera: faces that no kernel reaches
+    /// ([`reach`](CubeShadowMapDescriptor::reach)) from a visible receiver are put off until one
+    /// does. `None` (default): all faces count. With several cameras pass `None`.
     pub view: Option<&'a View>,
     /// Places of lights whose faces are drawn whatever the budget. Default none. The others share
     /// `max_faces_per_frame`.

@@ -155,7 +155,7 @@ impl ShadowMap {
     ///
     /// # Errors
     /// [`ShadowMapError`] if the light, a caster, the view's distance or the receivers' bounds are
-    /// out of range; the map is then as it was.
+    /// out of range, each by itself or all together in `f32`; the map is then as it was.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -175,7 +175,7 @@ impl ShadowMap {
         }
         self.scene.compare(frame.casters, device)?;
         self.scene.update(frame.casters, &mut []);
-        self.place(frame);
+        self.place(frame)?;
         let content = self.gather(device, queue, frame.casters);
         self.upload(queue);
 
@@ -227,8 +227,7 @@ impl ShadowMap {
     /// where nothing casts. The frame is left-handed: triangles that are counter-clockwise seen
     /// from the light are clockwise on the map.
     pub fn clip_from_world(&self) -> Option<Mat4> {
-        let frame = self.frame?;
-        Some(frame.clip_from_light() * Mat4::from_translation(-frame.origin))
+        Some(self.frame?.clip_from_world())
     }
 
     /// World space to texture coordinates (x and y in 0 .. 1 on the map) and depth, after division
@@ -261,9 +260,10 @@ impl ShadowMap {
         &self.light
     }
 
-    fn place(&mut self, frame: &ShadowFrame<'_>) {
-        self.frame = match &frame.light {
-            FlatLight::Spot(light) => Some(FlatFrame::of_spot(light)),
+    /// Where the map lies for a frame, if anything casts.
+    fn place(&mut self, frame: &ShadowFrame<'_>) -> Result<(), ShadowMapError> {
+        let (placed, width) = match &frame.light {
+            FlatLight::Spot(light) => (Some(FlatFrame::of_spot(light)), self.width),
             FlatLight::Directional(light) => {
                 let fitted = fit(
                     &Fit {
@@ -277,10 +277,14 @@ impl ShadowMap {
                     },
                     self.scene.records(),
                 );
-                self.width = fitted.map(|(_, width)| width);
-                fitted.map(|(frame, _)| frame)
+                fitted.unzip()
             }
         };
+        if placed.is_some_and(|frame| !frame.fits_f32()) {
+            return Err(ShadowMapError::BeyondF32);
+        }
+        (self.frame, self.width) = (placed, width);
+        Ok(())
     }
 
     /// The draws of the casters on the map, one for each mesh, and what they come to.

@@ -60,6 +60,17 @@ impl FlatFrame {
         Mat4::from_cols(across(self.right), across(self.up), depth, w).transpose()
     }
 
+    /// Clip space from world space.
+    pub fn clip_from_world(&self) -> Mat4 {
+        self.clip_from_light() * Mat4::from_translation(-self.origin)
+    }
+
+    /// Whether all of it is within `f32`: not if the light or a caster is too far away, or the map
+    /// too wide or too narrow.
+    pub fn fits_f32(&self) -> bool {
+        self.clip_from_world().is_finite() && self.range.is_finite() && self.scale.is_normal()
+    }
+
     /// Whether the light is outside a caster's bounds and the near plane does not cut them.
     pub fn is_clear_of(&self, record: &Record) -> bool {
         let centre = record.centre - self.origin.as_dvec3();
@@ -135,7 +146,8 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
     let rounded = axes(-fit.light.toward_light.as_dvec3());
     let basis = rounded.map(|axis| axis.as_dvec3());
     let local = |point: DVec3| DVec3::from_array(basis.map(|axis| axis.dot(point)));
-    let casters = LightBox::of(records.iter().flat_map(|record| {
+    let casting = records.iter().filter(|record| record.triangles > 0);
+    let casters = LightBox::of(casting.flat_map(|record| {
         let half = DVec3::from_array(basis.map(|axis| axis.abs().dot(record.half)))
             .min(DVec3::splat(record.radius));
         [local(record.centre) - half, local(record.centre) + half]
@@ -159,7 +171,7 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
     }
     // Texels on either side: one for the snap and the tap's own texel, and what kernels reach.
     let share = 2.0 * (f64::from(reach_texels) + 1.0) / f64::from(fit.size);
-    let need = extent.max_element().max(f64::MIN_POSITIVE) / (1.0 - share.min(0.5));
+    let need = extent.max_element().max(least_extent(&across, fit.size)) / (1.0 - share.min(0.5));
     let step = (need.log2() * 4.0).ceil() / 4.0;
     let width = match fit.last_width {
         Some(last) if last >= need && last <= (step + 0.26).exp2() => last,
@@ -191,6 +203,14 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
         perspective: false,
     };
     Some((frame, width))
+}
+
+/// The least that a map can be wide: what `f32` tells apart where it lies, and so much at the origin
+/// that one over a texel is finite.
+fn least_extent(covered: &LightBox, size: u32) -> f64 {
+    let farthest = covered.min.abs().max(covered.max.abs()).max_element();
+    let least = f64::from(f32::MIN_POSITIVE) * f64::from(size);
+    (farthest * f64::from(f32::EPSILON)).max(least)
 }
 
 /// Corners of what a view shows up to a distance along its axis.

@@ -9,6 +9,10 @@ use super::statistics::{CubeStatistics, FaceState, FaceStatistics};
 use super::still::Way;
 use super::visible::Frustum;
 
+/// Frames in which a light reaches no caster after which its texels are given back: enough that a
+/// caster which comes and goes does not have them made each time.
+const IDLE: u32 = 60;
+
 /// One slot's part of a plan.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SlotPlan {
@@ -32,7 +36,7 @@ impl CubeShadowMap {
                 continue;
             };
             let visible = match &frustum {
-                Some(frustum) => frustum.faces(light, self.size),
+                Some(frustum) => frustum.faces(light, self.reach, self.size),
                 None => ALL_FACES,
             };
             let again = if self.cache { 0 } else { !slot.empty() };
@@ -103,14 +107,30 @@ impl CubeShadowMap {
         })
     }
 
-    /// Makes the texels that this frame's lights need. Gives back all of them where there is no
-    /// light at all.
+    /// Gives back the texels that no light needs any more. The lights of an array share theirs.
+    fn give_back(&mut self) {
+        let no_light = self.order.is_empty();
+        let idle = |slot: &Slot| no_light || slot.idle >= IDLE;
+        for slot in &mut self.slots {
+            slot.idle = match slot.casting {
+                0 => slot.idle.saturating_add(1),
+                _ => 0,
+            };
+        }
+        let all = self.slots.iter().all(idle);
+        for index in 0..self.slots.len() {
+            let unused = all || !self.array && idle(&self.slots[index]);
+            if unused && self.textures.free(index) {
+                self.slots[index].forget_texels();
+                self.free_layers(index);
+            }
+        }
+    }
+
+    /// Makes the texels that this frame's lights need.
     pub(super) fn allocate(&mut self, device: &wgpu::Device) {
-        if self.allocation == Allocation::WithFirstCaster && self.order.is_empty() {
-            self.textures.free();
-            self.free_layers();
-            self.slots.iter_mut().for_each(Slot::forget_texels);
-            return;
+        if self.allocation == Allocation::WithFirstCaster {
+            self.give_back();
         }
         for &index in &self.order {
             if self.slots[index].casting > 0 || self.allocation == Allocation::AtOnce {
@@ -128,10 +148,10 @@ fn state(slot: &Slot, plan: &SlotPlan, face: CubeFace) -> FaceState {
         FaceState::Rendered
     } else if has(plan.wanted) {
         FaceState::Postponed
-    } else if has(slot.empty()) {
-        FaceState::Empty
     } else if has(plan.hidden) {
         FaceState::Hidden
+    } else if has(slot.empty()) {
+        FaceState::Empty
     } else {
         FaceState::Kept
     }

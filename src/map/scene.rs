@@ -218,7 +218,8 @@ impl Scene {
         };
         match heeded {
             false => Winding::Any,
-            true if caster.world_from_object.matrix3.determinant() < 0.0 => Winding::Mirrored,
+            // In f64, where no scale underflows.
+            true if caster.transform().matrix3.determinant() < 0.0 => Winding::Mirrored,
             true => Winding::Sound,
         }
     }

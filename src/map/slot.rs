@@ -87,6 +87,8 @@ pub(super) struct Slot {
     masks: FaceMasks,
     /// Casters that touch any face.
     pub casting: usize,
+    /// Frames since there was one.
+    pub idle: u32,
     pub cull: bool,
     // Faces that the next encode must draw; faces that an encode has drawn, and that a host has
     // drawn on, since the last prepare. Atomic because `encode` and `begin_face` borrow the map

@@ -87,13 +87,12 @@ impl CubeShadowMap {
         }
     }
 
-    /// Gives all layers back.
-    pub(super) fn free_layers(&mut self) {
-        for (slot, layers) in self.slots.iter_mut().zip(&mut self.still) {
-            for (face, layer) in slot.faces.iter_mut().zip(layers) {
-                face.still = Default::default();
-                *layer = None;
-            }
+    /// Gives a slot's layers back.
+    pub(super) fn free_layers(&mut self, index: usize) {
+        let faces = &mut self.slots[index].faces;
+        for (face, layer) in faces.iter_mut().zip(&mut self.still[index]) {
+            face.still = Default::default();
+            *layer = None;
         }
     }
 

@@ -94,15 +94,15 @@ impl Textures {
         0..self.slots.len()
     }
 
-    /// Gives all texels back.
-    pub fn free(&mut self) {
-        if self.slots.iter().any(Option::is_some) {
-            self.revision += 1;
-            self.slots.iter_mut().for_each(|slot| *slot = None);
-            if let Some(array) = &mut self.array {
-                array.view = None;
-            }
+    /// Gives a slot's texels back; false if it had none. An array goes with the first of its slots,
+    /// so all must be freed.
+    pub fn free(&mut self, slot: usize) -> bool {
+        let had = self.slots[slot].take().is_some();
+        self.revision += u64::from(had);
+        if let Some(array) = &mut self.array {
+            array.view = None;
         }
+        had
     }
 
     pub fn slot(&self, slot: usize) -> Option<&SlotTexture> {

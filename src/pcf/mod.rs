@@ -2,6 +2,7 @@
 
 mod disk;
 mod kernel;
+mod layout;
 mod map_kind;
 mod offsets;
 mod sampler;

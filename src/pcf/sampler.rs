@@ -3,10 +3,10 @@
 use wgpu::util::DeviceExt as _;
 
 use super::kernel::KernelUniform;
+use super::layout::create_layout;
 use super::map_kind::{MapWgsl, Reads};
 use super::{AnyMap, Kernel, MapKind, offsets, text};
 use crate::error::PcfError;
-use crate::map::{FlatLightUniform, LightUniform};
 use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
@@ -60,8 +60,8 @@ impl PcfSampler {
     /// no bindings in its layout.
     ///
     /// # Errors
-    /// [`PcfError`] if a parameter of the kernel is out of range, or the device has no cube arrays
-    /// for many lights.
+    /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
+    /// many lights, or textbook receivers are to read another encoding than theirs.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -79,6 +79,10 @@ impl PcfSampler {
         let many_lights = many_lights && map == MapKind::Cube;
         if many_lights && !crate::support::has_cube_arrays(device) {
             return Err(PcfError::CubeArray);
+        }
+        let textbook = textbook && map == MapKind::Cube;
+        if textbook && encoding != DepthEncoding::LinearDistance {
+            return Err(PcfError::Textbook(encoding));
         }
         let border = map == MapKind::Flat
             && device
@@ -101,8 +105,8 @@ impl PcfSampler {
         Ok(Self {
             kernel,
             reads,
-            textbook: textbook && map == MapKind::Cube,
-            layout: create_layout(device, &label, kernel, map_entries(reads)),
+            textbook,
+            layout: create_layout(device, &label, kernel, reads),
             // Nearest: texels are compared one by one, never blended as depths.
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(&label),
@@ -184,7 +188,7 @@ impl PcfSampler {
     /// in the frame. With `many_lights` it holds all of them.
     ///
     /// # Errors
-    /// As [`bind_group`](Self::bind_group).
+    /// As [`bind_group`](Self::bind_group); and if the map was made for fewer lights than that.
     pub fn bind_group_of(
         &self,
         device: &wgpu::Device,
@@ -204,6 +208,10 @@ impl PcfSampler {
         let (view, lights) = match (self.reads.many_lights, map.array()) {
             (true, Some((view, lights))) => (view, lights.as_entire_binding()),
             (true, None) => return Err(PcfError::NoCubeArray),
+            (false, _) if light >= map.most_lights() => {
+                let lights = map.most_lights();
+                return Err(PcfError::Light { light, lights });
+            }
             (false, _) => (map.view(light), map.light_uniform(light)),
         };
         Ok(self.group(device, view, lights))
@@ -323,75 +331,4 @@ fn create_offsets(
         bytemuck::cast_slice(&texels),
     );
     Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
-}
-
-/// The kinds of binding that a map and its lights are.
-struct MapEntries {
-    dimension: wgpu::TextureViewDimension,
-    lights: wgpu::BufferBindingType,
-    light_size: usize,
-}
-
-fn map_entries(reads: Reads) -> MapEntries {
-    MapEntries {
-        dimension: match (reads.map, reads.many_lights) {
-            (MapKind::Cube, false) => wgpu::TextureViewDimension::Cube,
-            (MapKind::Cube, true) => wgpu::TextureViewDimension::CubeArray,
-            (MapKind::Flat, _) => wgpu::TextureViewDimension::D2,
-        },
-        lights: match reads.many_lights {
-            false => wgpu::BufferBindingType::Uniform,
-            true => wgpu::BufferBindingType::Storage { read_only: true },
-        },
-        light_size: match reads.map {
-            MapKind::Cube => size_of::<LightUniform>(),
-            MapKind::Flat => size_of::<FlatLightUniform>(),
-        },
-    }
-}
-
-fn create_layout(
-    device: &wgpu::Device,
-    label: &str,
-    kernel: Kernel,
-    map: MapEntries,
-) -> wgpu::BindGroupLayout {
-    let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility,
-        ty,
-        count: None,
-    };
-    let texture = |filterable, view_dimension| wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable },
-        view_dimension,
-        multisampled: false,
-    };
-    let buffer = |ty, size: usize| wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: false,
-        min_binding_size: wgpu::BufferSize::new(size as u64),
-    };
-    let mut entries = vec![
-        // A float texture rather than a depth texture: depths are compared here, texel by texel,
-        // and GL reads depth textures only through its own single comparison.
-        entry(0, texture(false, map.dimension)),
-        entry(
-            1,
-            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
-        ),
-        entry(2, buffer(map.lights, map.light_size)),
-    ];
-    if kernel.uses_pixel() {
-        let ty = wgpu::BufferBindingType::Uniform;
-        entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
-    }
-    if kernel.uses_pixel() {
-        entries.push(entry(4, texture(false, wgpu::TextureViewDimension::D3)));
-    }
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &entries,
-    })
 }

@@ -72,7 +72,7 @@ impl Object {
 }
 
 /// The f32 transform with every entry taken as exact.
-fn widened(t: &Affine3A) -> DAffine3 {
+pub(crate) fn widened(t: &Affine3A) -> DAffine3 {
     DAffine3 {
         matrix3: DMat3::from_cols(
             Vec3::from(t.matrix3.x_axis).as_dvec3(),

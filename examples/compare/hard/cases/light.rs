@@ -8,12 +8,27 @@ use crate::hard::situation::{Situation, at, lamp};
 use crate::host::random::Random;
 use crate::host::shapes;
 
-pub const CASES: [Case; 7] = [
+pub const CASES: [Case; 8] = [
     Case {
         name: "Light very near a caster",
         build: "light in view, 1e-2, 1e-4 and 1e-6 above a square",
         answer: "finite, equals the reference",
         situations: near_a_caster,
+        textbook_volumes: Some(Expect::Reported(
+            "full caps: far triangles almost in one plane with the light are nearly singular",
+        )),
+        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
+        ..Case::EXACT
+    },
+    Case {
+        name: "Light 1e-6 from a tilted caster",
+        build: "1e-6 of a triangle's size off a tilted square and off a tilted box's edge",
+        answer: "finite, equals the reference; nearer than 1e-5 reported",
+        situations: near_a_tilted_caster,
+        volumes: Expect::Reported(
+            "nearer than 1e-5 of a triangle's size f32 does not tell the light from its plane; the \
+             CPU way decides facing in f64",
+        ),
         maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
         ..Case::EXACT
     },
@@ -78,6 +93,36 @@ fn near_a_caster(random: &mut Random) -> Vec<Situation> {
                 )
         })
         .collect()
+}
+
+fn near_a_tilted_caster(random: &mut Random) -> Vec<Situation> {
+    [
+        (
+            "square",
+            shapes::square(1.0).tilted(),
+            Vec3::new(0.31, 0.0, 0.17),
+            Vec3::Y,
+        ),
+        (
+            "box, its edge",
+            shapes::cube().tilted(),
+            Vec3::new(1.0, 1.0, 0.23),
+            Vec3::new(1.0, 1.0, 0.0).normalize(),
+        ),
+    ]
+    .into_iter()
+    .map(|(what, shape, spot, away)| {
+        let turn = shapes::tilt();
+        let middle = Vec3::new(0.0, 1.5, 0.0);
+        let light = middle + turn * (spot + away * 1e-6);
+        Situation::new(what, light.extend(1.0), random)
+            .caster(&shape, Affine3A::from_translation(middle))
+            .caster(
+                &shapes::sphere(10),
+                at(-1.5, 2.5, -1.0) * Affine3A::from_scale(Vec3::splat(0.7)),
+            )
+    })
+    .collect()
 }
 
 fn inside_a_caster(random: &mut Random) -> Vec<Situation> {

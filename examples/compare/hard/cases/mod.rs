@@ -20,6 +20,8 @@ pub struct Case {
     /// Some scenes of it, other ones each time.
     pub situations: fn(&mut Random) -> Vec<Situation>,
     pub volumes: Expect,
+    /// Of volumes as textbooks have them, where they are not expected to do as well.
+    pub textbook_volumes: Option<Expect>,
     pub maps: Expect,
     /// Of maps of 16 bits, which are tried only where this is not [`Expect::Nothing`].
     pub sixteen_bits: Expect,
@@ -50,6 +52,7 @@ impl Case {
         answer: "",
         situations: |_| Vec::new(),
         volumes: Expect::Exact,
+        textbook_volumes: None,
         maps: Expect::Exact,
         sixteen_bits: Expect::Nothing,
     };

@@ -1,0 +1,112 @@
+//! Frames of a cube map: any lights, casters, views and budgets.
+#![no_main]
+
+use arbitrary::Arbitrary;
+use libfuzzer_sys::fuzz_target;
+use shadows::{
+    Bias, CasterSides, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
+};
+use shadows_fuzz::Length;
+use shadows_fuzz::gpu::{device, submit, tidy};
+use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
+
+#[derive(Arbitrary, Debug)]
+struct Settings {
+    size: u8,
+    bias: [Length; 2],
+    lights: u8,
+    cube_array: bool,
+    linear: bool,
+    cull_casters: bool,
+    cache: bool,
+    sides: u8,
+    budget: Option<u8>,
+}
+
+#[derive(Arbitrary, Debug)]
+struct Frame {
+    lights: [Option<Light>; 3],
+    casters: u8,
+    camera: Option<(Camera, Projection)>,
+    pinned: Option<u8>,
+    encoded: bool,
+}
+
+impl Settings {
+    fn map(&self) -> Option<CubeShadowMap> {
+        let descriptor = CubeShadowMapDescriptor {
+            size: u32::from(self.size),
+            bias: Bias {
+                normal_offset: self.bias[0].0,
+                constant: self.bias[1].0,
+                slope_scale: 0.0,
+            },
+            lights: 4 - u32::from(self.lights % 5),
+            cube_array: self.cube_array,
+            encoding: match self.linear {
+                true => DepthEncoding::LinearDistance,
+                false => DepthEncoding::MajorAxis,
+            },
+            cull_casters: self.cull_casters,
+            cache: self.cache,
+            sides: [CasterSides::Nearest, CasterSides::Both, CasterSides::Far]
+                [usize::from(self.sides % 3)],
+            max_faces_per_frame: self.budget.map(u32::from),
+            ..Default::default()
+        };
+        CubeShadowMap::new(&device().0, &descriptor).ok()
+    }
+}
+
+fuzz_target!(|input: (Settings, Story<Frame>)| {
+    let (settings, story) = input;
+    let (device, queue) = device();
+    let Some(mut map) = settings.map() else {
+        return;
+    };
+    let scenes = story.upload();
+    for frame in &story.frames {
+        let lights: Vec<_> = frame.lights.iter().flatten().map(Light::point).collect();
+        let pinned: Vec<usize> = frame.pinned.iter().map(|&light| light.into()).collect();
+        let camera = frame.camera.as_ref();
+        let view = camera.and_then(|(camera, projection)| camera.view(*projection));
+        let casters = pick(&scenes, frame.casters);
+        let before = map.statistics();
+        let result = map.prepare(
+            device,
+            queue,
+            &CubeFrame {
+                lights: &lights,
+                casters,
+                view: view.as_ref(),
+                pinned: &pinned,
+            },
+        );
+        match result {
+            Ok(()) => check(&map, lights.len(), casters.len()),
+            Err(error) => {
+                assert!(!error.to_string().is_empty());
+                assert_eq!(map.statistics(), before, "{error}: as it was");
+            }
+        }
+        if frame.encoded {
+            submit(|encoder| map.encode(encoder));
+        }
+    }
+    tidy();
+});
+
+/// Each face is one of five things, and each caster in or out of each light's range.
+fn check(map: &CubeShadowMap, lights: usize, casters: usize) {
+    let s = map.statistics();
+    let faces = s.faces_rendered + s.faces_kept + s.faces_empty + s.faces_hidden;
+    assert_eq!((faces + s.faces_postponed) as usize, 6 * lights, "{s:?}");
+    let counted = (s.casters_in_range + s.casters_out_of_range) as usize;
+    assert_eq!(counted, lights * casters, "{s:?}");
+    for light in 0..lights {
+        for face in CubeFace::ALL {
+            let matrix = map.clip_from_world(light, face).expect("such a light");
+            assert!(matrix.is_finite(), "{matrix}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Frames of a flat map: any spot or directional light, casters, view and receivers.
+#![no_main]
+
+use arbitrary::Arbitrary;
+use libfuzzer_sys::fuzz_target;
+use shadows::mesh::Bounds;
+use shadows::{Bias, CasterSides, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows_fuzz::gpu::{device, submit, tidy};
+use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
+use shadows_fuzz::{Length, Number, vector};
+
+#[derive(Arbitrary, Debug)]
+struct Settings {
+    size: u8,
+    bias: [Length; 3],
+    sides: u8,
+    unclipped_depth: bool,
+    cache: bool,
+}
+
+#[derive(Arbitrary, Debug)]
+struct Frame {
+    light: Light,
+    spot: bool,
+    casters: u8,
+    view: Option<(Camera, Projection, Length)>,
+    receivers: Option<[[Number; 3]; 2]>,
+    encoded: bool,
+}
+
+impl Settings {
+    fn map(&self) -> Option<ShadowMap> {
+        let [normal_offset, constant, slope_scale] = self.bias.map(|number| number.0);
+        let descriptor = ShadowMapDescriptor {
+            size: u32::from(self.size),
+            bias: Bias {
+                normal_offset,
+                constant,
+                slope_scale,
+            },
+            sides: [CasterSides::Nearest, CasterSides::Both, CasterSides::Far]
+                [usize::from(self.sides % 3)],
+            unclipped_depth: self.unclipped_depth,
+            cache: self.cache,
+            ..Default::default()
+        };
+        ShadowMap::new(&device().0, &descriptor).ok()
+    }
+}
+
+fuzz_target!(|input: (Settings, Story<Frame>)| {
+    let (settings, story) = input;
+    let (device, queue) = device();
+    let Some(mut map) = settings.map() else {
+        return;
+    };
+    let scenes = story.upload();
+    for frame in &story.frames {
+        let view = frame
+            .view
+            .as_ref()
+            .and_then(|(camera, projection, distance)| {
+                let view = camera.view(*projection)?;
+                Some((view, distance.0))
+            });
+        let casters = pick(&scenes, frame.casters);
+        let before = map.statistics();
+        let result = map.prepare(
+            device,
+            queue,
+            &ShadowFrame {
+                light: match frame.spot {
+                    true => FlatLight::Spot(frame.light.spot()),
+                    false => FlatLight::Directional(frame.light.directional()),
+                },
+                casters,
+                view: view.as_ref().map(|(view, distance)| (view, *distance)),
+                receivers: frame.receivers.map(|[min, max]| Bounds {
+                    min: vector(min),
+                    max: vector(max),
+                }),
+            },
+        );
+        let s = map.statistics();
+        match result {
+            Ok(()) => {
+                let counted = (s.casters_drawn + s.casters_outside) as usize;
+                assert_eq!(counted, casters.len(), "{s:?}");
+                if let Some(matrix) = map.clip_from_world() {
+                    assert!(matrix.is_finite(), "{matrix}");
+                }
+            }
+            Err(error) => {
+                assert!(!error.to_string().is_empty());
+                assert_eq!(s, before, "{error}: as it was");
+            }
+        }
+        if frame.encoded {
+            submit(|encoder| map.encode(encoder));
+        }
+    }
+    tidy();
+});

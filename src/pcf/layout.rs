@@ -1,0 +1,76 @@
+//! The layout of a sampler's bind group.
+
+use super::kernel::KernelUniform;
+use super::map_kind::Reads;
+use super::{Kernel, MapKind};
+use crate::map::{FlatLightUniform, LightUniform};
+
+/// The kinds of binding that a map and its lights are.
+struct MapEntries {
+    dimension: wgpu::TextureViewDimension,
+    lights: wgpu::BufferBindingType,
+    light_size: usize,
+}
+
+fn map_entries(reads: Reads) -> MapEntries {
+    MapEntries {
+        dimension: match (reads.map, reads.many_lights) {
+            (MapKind::Cube, false) => wgpu::TextureViewDimension::Cube,
+            (MapKind::Cube, true) => wgpu::TextureViewDimension::CubeArray,
+            (MapKind::Flat, _) => wgpu::TextureViewDimension::D2,
+        },
+        lights: match reads.many_lights {
+            false => wgpu::BufferBindingType::Uniform,
+            true => wgpu::BufferBindingType::Storage { read_only: true },
+        },
+        light_size: match reads.map {
+            MapKind::Cube => size_of::<LightUniform>(),
+            MapKind::Flat => size_of::<FlatLightUniform>(),
+        },
+    }
+}
+
+pub(super) fn create_layout(
+    device: &wgpu::Device,
+    label: &str,
+    kernel: Kernel,
+    reads: Reads,
+) -> wgpu::BindGroupLayout {
+    let map = map_entries(reads);
+    let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty,
+        count: None,
+    };
+    let texture = |view_dimension| wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        view_dimension,
+        multisampled: false,
+    };
+    let buffer = |ty, size: usize| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: wgpu::BufferSize::new(size as u64),
+    };
+    let mut entries = vec![
+        // A float texture rather than a depth texture: depths are compared here, texel by texel,
+        // and GL reads depth textures only through its own single comparison.
+        entry(0, texture(map.dimension)),
+        entry(
+            1,
+            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+        ),
+        entry(2, buffer(map.lights, map.light_size)),
+    ];
+    if kernel.uses_pixel() {
+        let ty = wgpu::BufferBindingType::Uniform;
+        entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
+        entries.push(entry(4, texture(wgpu::TextureViewDimension::D3)));
+    }
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
+}
