@@ -135,6 +135,22 @@ fn a_sweep_takes_limits() {
 }
 
 #[test]
+fn shimmer_and_growth_take_a_size_and_a_limit_or_none() {
+    assert_eq!((read("").temporal, read("").growth), (None, None));
+    let temporal = read("--temporal --steps 8");
+    assert_eq!((temporal.temporal, temporal.steps), (Some([320, 180]), 8));
+    assert_eq!(read("--temporal 64x36").temporal, Some([64, 36]));
+    assert_eq!(read("--growth 16 --frames 2").growth, Some(16.0));
+    assert!(read("--growth").growth.is_some_and(|times| times >= 1e5));
+    assert_refused("--temporal 64", "WIDTHxHEIGHT");
+    assert_refused("--temporal --steps 0", "1..=1000");
+    assert_refused("--growth 0.5", "at least 1");
+    assert_refused("--growth much", "at least 1");
+    assert_refused("--growth --temporal", "--temporal");
+    assert_refused("--temporal --sweep", "--sweep");
+}
+
+#[test]
 fn techniques_may_be_named_by_how_they_begin() {
     let names = |line: &str| read(line).techniques.0.len();
     let cubes = names("--technique cube-*");

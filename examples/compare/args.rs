@@ -111,6 +111,23 @@ pub struct Args {
           value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub rounds: u32,
 
+    /// Instead, watch how much the techniques shimmer while light or camera move a little, in
+    /// pictures of this size.
+    #[arg(long, value_name = "WxH", num_args = 0..=1, default_missing_value = "320x180",
+          value_parser = size, conflicts_with_all = ["sweep", "hard_cases"])]
+    pub temporal: Option<[u32; 2]>,
+
+    /// Steps of each path of --temporal.
+    #[arg(long, value_name = "N", default_value_t = 64,
+          value_parser = clap::value_parser!(u32).range(1..=1_000))]
+    pub steps: u32,
+
+    /// Instead, measure how cost grows with triangles, casters, lights, resolution and map size, each
+    /// from its least to at most so many times that; all the way where no number is given.
+    #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1000000",
+          value_parser = times, conflicts_with_all = ["sweep", "hard_cases", "temporal"])]
+    pub growth: Option<f64>,
+
     /// Directory for all that is written; made where it is missing.
     #[arg(long, value_name = "DIR", default_value = "target/compare")]
     pub out: PathBuf,
@@ -324,6 +341,13 @@ fn part(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(part) if (0.0..=1.0).contains(&part) => Ok(part),
         _ => Err("it must be a number from 0 to 1".into()),
+    }
+}
+
+fn times(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(times) if times >= 1.0 => Ok(times),
+        _ => Err("it must be a number of at least 1".into()),
     }
 }
 

@@ -7,6 +7,7 @@
 
 mod args;
 mod date;
+mod growth;
 mod hard;
 #[path = "../host/mod.rs"]
 mod host;
@@ -22,6 +23,7 @@ mod stage;
 mod sweep;
 mod table;
 mod technique;
+mod temporal;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -64,6 +66,12 @@ fn run(args: &Args) -> Result<ExitCode> {
     if args.hard_cases {
         return hard_cases(args);
     }
+    if let Some(times) = args.growth {
+        return growth(args, times);
+    }
+    if let Some(size) = args.temporal {
+        return temporal(args, size);
+    }
     // Everything that can be wrong with what was asked comes before the first picture.
     let jobs: Vec<Job> = args
         .scene_dirs()
@@ -100,7 +108,36 @@ fn hard_cases(args: &Args) -> Result<ExitCode> {
     })
 }
 
-fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
+fn growth(args: &Args, times: f64) -> Result<ExitCode> {
+    let gpu = Gpu::new(args.adapter.as_deref())?;
+    eprintln!("{}", describe(&gpu.info));
+    growth::run(&gpu, times, args.frames, &args.out)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn temporal(args: &Args, size: [u32; 2]) -> Result<ExitCode> {
+    let scenes = args.scene_dirs();
+    let loaded: Vec<(Scene, PathBuf)> = scenes
+        .into_iter()
+        .map(|(name, dir)| Ok((asked_scene(args, name, size)?, dir)))
+        .collect::<Result<_>>()?;
+    let gpu = Gpu::new(args.adapter.as_deref())?;
+    eprintln!("{}", describe(&gpu.info));
+    let plan = temporal::Plan {
+        techniques: &args.techniques,
+        side: args.face,
+        size,
+        steps: args.steps,
+    };
+    for (scene, dir) in loaded {
+        temporal::run(&gpu, &scene, &plan, &dir)
+            .with_context(|| format!("scene {}", scene.name))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A scene with what the command line replaces in it.
+fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
     let ground = args.ground == args::Ground::Auto;
     let mut scene = scene::load(name, ground)?;
     scene.override_with(args.light, args.range, args.camera_override());
@@ -108,7 +145,12 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
         let made = scene.shine_as(kind);
         made.with_context(|| format!("scene {name}: --light-kind"))?;
     }
-    host::renderer::view(&scene, args.size).with_context(|| format!("scene {name}: camera"))?;
+    host::renderer::view(&scene, size).with_context(|| format!("scene {name}: camera"))?;
+    Ok(scene)
+}
+
+fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
+    let scene = asked_scene(args, name, args.size)?;
     let light = scene.light_kind();
     let asked: Vec<Technique> = match args.sweep {
         true => sweep::techniques(&args.techniques),

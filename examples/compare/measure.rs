@@ -39,18 +39,23 @@ impl Times {
 
     /// The median; the mean of the middle two for an even count.
     pub fn median(&self) -> f64 {
-        let mut sorted = self.samples.clone();
-        sorted.sort_by(f64::total_cmp);
-        let count = sorted.len();
-        match count {
-            0 => f64::NAN,
-            _ => 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
-        }
+        median(&self.samples)
     }
 
     /// The smallest sample.
     pub fn min(&self) -> f64 {
         self.samples.iter().copied().fold(f64::NAN, f64::min)
+    }
+}
+
+/// The mean of the middle two for an even count; NaN of nothing.
+pub fn median(samples: &[f64]) -> f64 {
+    let mut sorted = samples.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len();
+    match count {
+        0 => f64::NAN,
+        _ => 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
     }
 }
 

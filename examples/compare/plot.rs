@@ -11,7 +11,7 @@ use crate::measure::Measured;
 use crate::technique::Technique;
 
 const SIZE: (u32, u32) = (880, 560);
-const FONT: &str = "sans-serif";
+pub const FONT: &str = "sans-serif";
 /// Pixels from a mark's middle to its label.
 const GAP: i32 = 13;
 const LINE_HEIGHT: i32 = 20;
@@ -21,7 +21,7 @@ const DIAMOND: [(i32, i32); 4] = [(0, -10), (10, 0), (0, 10), (-10, 0)];
 
 /// Colours that people with any common colour blindness tell apart (Okabe and Ito, "Color Universal
 /// Design", 2008); each comes with a shape of its own.
-const COLORS: [RGBColor; 6] = [
+pub const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -109,7 +109,7 @@ pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
 /// A kind's front: its style, and times with errors.
 type Line = (usize, Vec<(f64, f64)>);
 
-type Failure = Box<dyn std::error::Error>;
+pub type Failure = Box<dyn std::error::Error>;
 
 fn draw(
     svg: &mut String,
@@ -290,7 +290,7 @@ impl Mark<'_> {
 }
 
 /// Powers of ten around the values above 0, with a margin; `(0.01, 1.0)` if there are none.
-fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let logs: Vec<f64> = values.filter(|v| *v > 0.0).map(f64::log10).collect();
     if logs.is_empty() {
         return (0.01, 1.0);
@@ -309,7 +309,7 @@ fn rounded(value: f64) -> String {
 }
 
 /// A tick: no digits that are zero anyway.
-fn plain(value: f64) -> String {
+pub fn plain(value: f64) -> String {
     let digits = (-value.log10().floor()).clamp(0.0, 9.0) as usize;
     format!("{value:.digits$}")
 }

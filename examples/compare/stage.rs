@@ -1,15 +1,15 @@
 //! A scene set up to be seen: on the GPU, with a renderer, and as exact geometry for the reference.
 
 use anyhow::Result;
-use shadows::HomogeneousLight;
-use shadows::glam::Vec3;
+use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
-use shadows::reference::ReferenceImage;
+use shadows::reference::{ReferenceImage, ReferenceScene};
+use shadows::{HomogeneousLight, View};
 
 use crate::host::exact;
 use crate::host::gpu::Gpu;
 use crate::host::renderer::{self, Look, Renderer};
-use crate::host::scene::Scene;
+use crate::host::scene::{Camera, Scene};
 use crate::host::scene_gpu::SceneGpu;
 use crate::shadow::{Shadow, ShadowInputs};
 
@@ -85,6 +85,30 @@ impl Stage {
         })
     }
 
+    /// Moves the camera and the light; the picture then moves by `shift` pixels to the right and
+    /// down, as by a lens that is shifted.
+    ///
+    /// # Errors
+    /// If the camera makes no view.
+    pub fn move_to(
+        &mut self,
+        gpu: &Gpu,
+        camera: Camera,
+        light: Vec4,
+        shift: [f32; 2],
+    ) -> Result<()> {
+        (self.scene.camera, self.scene.light) = (camera, light);
+        let (size, look) = (self.renderer.size(), self.renderer.look());
+        let [right, down] = [0, 1].map(|axis| 2.0 * shift[axis] / size[axis] as f32);
+        let shifted = Mat4::from_translation(Vec3::new(right, -down, 0.0));
+        let matrix = shifted * renderer::matrix(&self.scene, size, look);
+        self.inputs.view = View::new(matrix, look.depth)?;
+        self.inputs.light = HomogeneousLight(light);
+        self.inputs.seen = seen(&self.scene);
+        self.renderer.show(gpu, &self.scene, matrix);
+        Ok(())
+    }
+
     /// The exact answer; `progress` hears, from any thread, what part of it is done.
     ///
     /// # Errors
@@ -93,8 +117,23 @@ impl Stage {
         &self,
         progress: impl Fn(f64) + Send + Sync + 'static,
     ) -> Result<ReferenceImage> {
+        self.reference_in(&self.reference_scene()?.with_progress(progress))
+    }
+
+    /// The objects as exact geometry.
+    ///
+    /// # Errors
+    /// If the scene is broken.
+    pub fn reference_scene(&self) -> Result<ReferenceScene> {
+        Ok(exact::reference_scene(&self.scene)?)
+    }
+
+    /// The exact answer for the camera and the light as they are, in the scene's geometry.
+    ///
+    /// # Errors
+    /// If the light is none.
+    pub fn reference_in(&self, scene: &ReferenceScene) -> Result<ReferenceImage> {
         let [width, height] = self.renderer.size();
-        let scene = exact::reference_scene(&self.scene)?.with_progress(progress);
         if let Some(spot) = self.inputs.spot_light() {
             return Ok(scene.render_spot(&self.inputs.view, width, height, &spot)?);
         }

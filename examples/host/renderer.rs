@@ -2,7 +2,7 @@
 //! light and writes its visibility beside it.
 
 use anyhow::{Result, ensure};
-use shadows::glam::Vec3;
+use shadows::glam::{Mat4, Vec3};
 use shadows::{View, wgpu};
 
 use super::gpu::Gpu;
@@ -147,6 +147,13 @@ impl Renderer {
         })
     }
 
+    /// Draws from now on what the scene's camera and light have become, through a matrix of its own.
+    pub fn show(&self, gpu: &Gpu, scene: &Scene, clip_from_world: Mat4) {
+        let frame = frame_uniform(scene, clip_from_world, self.look);
+        gpu.queue
+            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+    }
+
     /// Takes over another light or camera of the scene, and another size: what a window needs.
     ///
     /// # Errors
@@ -157,9 +164,7 @@ impl Renderer {
             self.targets = Targets::new(gpu, size, format, self.look.samples)?;
             self.size = size;
         }
-        let frame = frame_uniform(scene, size, self.look);
-        gpu.queue
-            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+        self.show(gpu, scene, matrix(scene, size, self.look));
         Ok(())
     }
 
@@ -350,9 +355,13 @@ pub fn view(scene: &Scene, size: [u32; 2]) -> Result<View> {
 /// # Errors
 /// As [`view`].
 pub fn view_as(scene: &Scene, size: [u32; 2], look: Look) -> Result<View> {
+    Ok(View::new(matrix(scene, size, look), look.depth)?)
+}
+
+/// Clip from world space.
+pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     let aspect = size[0] as f32 / size[1] as f32;
-    let matrix = scene.camera.clip_from_world_as(aspect, look.depth);
-    Ok(View::new(matrix, look.depth)?)
+    scene.camera.clip_from_world_as(aspect, look.depth)
 }
 
 fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
@@ -367,9 +376,8 @@ fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     }
 }
 
-fn frame_uniform(scene: &Scene, size: [u32; 2], look: Look) -> FrameUniform {
+fn frame_uniform(scene: &Scene, clip_from_world: Mat4, look: Look) -> FrameUniform {
     let camera = &scene.camera;
-    let aspect = size[0] as f32 / size[1] as f32;
     // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
     // whatever the scene's scale.
     let reach = scene.light.truncate().distance(camera.target);
@@ -380,9 +388,7 @@ fn frame_uniform(scene: &Scene, size: [u32; 2], look: Look) -> FrameUniform {
             reach * reach
         };
     FrameUniform {
-        clip_from_world: camera
-            .clip_from_world_as(aspect, look.depth)
-            .to_cols_array_2d(),
+        clip_from_world: clip_from_world.to_cols_array_2d(),
         eye: camera.eye.extend(1.0).to_array(),
         light: scene.light.to_array(),
         // Direction and cosine; without a cone every angle's cosine is above the -1.
@@ -402,7 +408,7 @@ fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2], look: Look) -> wgpu::B
     gpu.device
         .create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("frame"),
-            contents: bytemuck::bytes_of(&frame_uniform(scene, size, look)),
+            contents: bytemuck::bytes_of(&frame_uniform(scene, matrix(scene, size, look), look)),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         })
 }

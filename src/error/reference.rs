@@ -51,6 +51,17 @@ pub enum ReferenceError {
         /// Height in pixels.
         height: u32,
     },
+    /// Two frames to compare have different sizes.
+    #[error(
+        "the frame before has {} x {} pixels, this one {} x {}; render both at one size",
+        before[0], before[1], now[0], now[1]
+    )]
+    OtherSize {
+        /// Width and height of the frame before.
+        before: [u32; 2],
+        /// Width and height of this one.
+        now: [u32; 2],
+    },
     /// The picture to compare has another number of pixels.
     #[error("{passed} visibilities were passed for a picture of {pixels} pixels; pass one each")]
     VisibilityCount {

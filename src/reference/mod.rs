@@ -42,6 +42,7 @@
 mod area;
 mod camera;
 mod compare;
+mod flips;
 mod geometry;
 mod image;
 mod interior;
@@ -57,6 +58,7 @@ use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 pub use self::compare::{Comparison, Verdict, Visibility};
+pub use self::flips::Flips;
 pub use self::image::{Class, Hit, ReferenceImage};
 pub use self::interior::Interior;
 pub use self::survey::{Candidate, Survey};

@@ -1,6 +1,7 @@
 //! The reference against analytic answers, and its comparison against counts made by hand.
 
 mod comparison;
+mod flips;
 mod input;
 mod published;
 mod robustness;

@@ -163,6 +163,17 @@ pub enum LightKind {
     Directional,
 }
 
+impl LightKind {
+    /// In reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Spot => "spot",
+            Self::Directional => "directional",
+        }
+    }
+}
+
 /// Where a spot shines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
