@@ -3,6 +3,9 @@
 #[allow(dead_code)]
 #[path = "../examples/compare/args.rs"]
 mod args;
+#[allow(dead_code)]
+#[path = "../examples/compare/date.rs"]
+mod date;
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[allow(dead_code)]

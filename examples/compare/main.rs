@@ -257,7 +257,10 @@ fn swept(
     Ok(Results {
         dir: PathBuf::new(),
         files: vec![
-            File::new("sweep.md", sweep::markdown(&survey, &title, &wishes)),
+            File::new(
+                "sweep.md",
+                sweep::markdown(&survey, &title, args.size, &wishes),
+            ),
             File::new("sweep.json", sweep::json(&survey)?),
             File::new("speed-vs-error.svg", plot::fronts(&title, &survey)?),
         ],

@@ -13,6 +13,7 @@ use shadows::{
 };
 
 use crate::args::Techniques;
+use crate::date::{date, now};
 use crate::host::gpu::Gpu;
 use crate::measure;
 use crate::snippet;
@@ -214,8 +215,17 @@ pub fn survey(
 }
 
 /// The report: advice, the front, and all of them by time.
-pub fn markdown(survey: &Survey<Technique>, title: &str, wishes: &Wishes) -> String {
-    let mut out = format!("# {title}\n\n");
+pub fn markdown(
+    survey: &Survey<Technique>,
+    title: &str,
+    [width, height]: [u32; 2],
+    wishes: &Wishes,
+) -> String {
+    let day = date(now());
+    let mut out = format!(
+        "# Speed against error: {title}\n\n\
+         Written by `compare --sweep` on {day}, at {width}x{height} pixels.\n\n"
+    );
     // Writing to a string cannot fail.
     let _ = write_report(&mut out, survey, wishes);
     out

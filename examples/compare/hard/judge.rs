@@ -54,7 +54,8 @@ pub fn judge(
         ..Outcome::default()
     };
     if let Expect::Reported(why) = expect {
-        outcome.limits.push(why);
+        // Loss that no interior pixel sees is to be said, too.
+        outcome.limits.extend((outcome.wrong > 0).then_some(why));
         return Ok(outcome);
     }
     let excuse = match expect {
