@@ -1,6 +1,8 @@
 //! Flat maps: spot and directional lights, read with every kernel.
 
 mod common;
+#[path = "flat_map/fit.rs"]
+mod fit;
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[path = "common/receivers.rs"]
@@ -8,13 +10,12 @@ mod receivers;
 
 use common::rays::Triangles;
 use common::shapes::{Random, cuboid, square};
-use glam::{Affine3A, DVec3, Mat4, Vec3, Vec3Swizzles as _, camera::rh};
+use glam::{Affine3A, DVec3, Vec3};
 use host::gpu::Gpu;
 use receivers::{ask_changed, visibility};
 use shadows::{
-    AnyMap, Bias, Caster, CasterSides, DepthConvention, DirectionalLight, FlatLight, Kernel,
-    MapKind, PcfDescriptor, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, View,
-    VogelDisk, glam, wgpu,
+    AnyMap, Bias, Caster, CasterSides, DirectionalLight, FlatLight, Kernel, MapKind, PcfDescriptor,
+    Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, VogelDisk, glam, wgpu,
 };
 
 fn spot(position: Vec3, direction: Vec3, half_angle: f32, scale: f32) -> FlatLight {
@@ -273,85 +274,6 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
     assert_eq!(visibility(&gpu, &map, Kernel::Bilinear, &points), [1.0; 7]);
 }
 
-fn camera(eye: Vec3, target: Vec3) -> View {
-    let projection = rh::proj::directx::perspective_infinite_reverse(0.8, 1.5, 0.1);
-    let camera = rh::view::look_at_mat4(eye, target, Vec3::Y);
-    View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap()
-}
-
-/// How far the grid of texels moved against the world from one frame to the next, at most and in
-/// texels, while the camera moves and the light turns by an angle a frame.
-fn grid_motion(gpu: &Gpu, casters: &[Caster], turn: f32) -> f32 {
-    let mut map = ShadowMap::new(&gpu.device, &of_size(1024, Bias::default())).unwrap();
-    let mut widths = Vec::new();
-    let mut places: Vec<Vec3> = Vec::new();
-    for step in 0..60 {
-        let step = step as f32;
-        let view = camera(Vec3::new(0.013 * step, 2.0, 6.0), Vec3::X * 0.02 * step);
-        let frame = ShadowFrame {
-            view: Some((&view, 7.0)),
-            ..ShadowFrame::new(sun(Vec3::new(0.4 + turn * step, 1.0, 0.2)), casters)
-        };
-        map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-        let matrix: Mat4 = map.texture_from_world().unwrap();
-        widths.push(matrix.row(0).truncate().length());
-        places.push(matrix.project_point3(Vec3::new(3.3, 0.7, -2.1)) * 1024.0);
-    }
-    let same = |w: &[f32]| (w[0] / w[1] - 1.0).abs() < 0.01;
-    let changes = widths.windows(2).filter(|w| !same(w)).count();
-    assert!(changes <= 1, "{changes} of 59 frames changed the width");
-    let shifts = places.windows(2).zip(widths.windows(2));
-    let shifts: Vec<_> = shifts
-        .filter(|(_, widths)| same(widths))
-        .map(|(places, _)| (places[0] - places[1]).truncate())
-        .collect();
-    let followed = shifts.iter().filter(|shift| shift.length() > 0.5).count();
-    assert!(followed > 5, "the map follows the camera");
-    let off = shifts.iter().map(|shift| (shift - shift.round()).abs());
-    off.map(|off| off.max_element()).fold(0.0, f32::max)
-}
-
-#[test]
-fn a_moving_camera_keeps_the_texel_grid_in_its_place() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    let field = field(&gpu);
-    // What is left is the rounding of world coordinates to f32.
-    let moved = grid_motion(&gpu, &field.casters, 0.0);
-    assert!(moved < 0.01, "{moved} texels");
-    // The broken twin: a light that turns takes the grid with it.
-    let moved = grid_motion(&gpu, &field.casters, 1e-4);
-    assert!(moved > 0.01, "{moved} texels");
-}
-
-#[test]
-fn the_map_covers_no_more_than_casts_receives_and_is_seen() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    let field = field(&gpu);
-    let all = ShadowFrame::new(sun(Vec3::Y), &field.casters);
-    let view = camera(Vec3::new(0.0, 1.0, 3.0), Vec3::new(0.0, 0.5, 0.0));
-    let near = ShadowFrame {
-        view: Some((&view, 1.5)),
-        ..all
-    };
-    let bounds = shadows::mesh::Bounds {
-        min: Vec3::new(-0.5, 0.0, -0.5),
-        max: Vec3::new(0.5, 0.0, 0.5),
-    };
-    let few = ShadowFrame {
-        receivers: Some(bounds),
-        ..all
-    };
-    let width = |frame| {
-        let map = drawn(&gpu, &of_size(512, Bias::default()), frame);
-        2.0 / map.clip_from_world().unwrap().row(0).truncate().length()
-    };
-    let [all, near, few] = [&all, &near, &few].map(width);
-    // Casters lie within 5 of the middle; a step and the slack are at most 1.19 * 1.04.
-    assert!((8.0..13.0).contains(&all), "{all}");
-    assert!(near < 0.6 * all, "{near} of {all}");
-    assert!((1.0..1.25).contains(&few), "{few}");
-}
-
 #[test]
 fn coarser_formats_show_no_acne_either() {
     let Some(gpu) = Gpu::for_test() else { return };
@@ -399,48 +321,6 @@ fn coarser_formats_show_no_acne_either() {
         }
     }
     assert!(broken > 1000, "{broken}");
-}
-
-#[test]
-fn a_fitted_map_reaches_as_far_as_its_kernels() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    // Under a roof there is no light, wherever a tap falls.
-    let casters = [square(30.0).caster(&gpu.device, Affine3A::from_translation(Vec3::Y * 4.0))];
-    let frame = ShadowFrame {
-        receivers: Some(shadows::mesh::Bounds {
-            min: Vec3::new(-1.0, 0.0, -1.0),
-            max: Vec3::new(1.0, 0.1, 1.0),
-        }),
-        ..ShadowFrame::new(sun(Vec3::Y), &casters)
-    };
-    let mut random = Random::new(3);
-    let points: Vec<_> = (0..500)
-        .map(|i| {
-            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
-            let (edge, along) = (Vec3::X * side, random.next());
-            let (edge, along) = if i % 4 < 2 {
-                (edge, Vec3::Z * along)
-            } else {
-                (edge.zyx(), Vec3::X * along)
-            };
-            (edge + along, Vec3::Y)
-        })
-        .collect();
-    for radius in [Radius::Texels(40.0), Radius::World(0.6)] {
-        let kernel = Kernel::Vogel(VogelDisk { radius, taps: 64 });
-        let lit = |reach| {
-            let descriptor = ShadowMapDescriptor {
-                reach,
-                ..of_size(256, Bias::default())
-            };
-            let map = drawn(&gpu, &descriptor, &frame);
-            let seen = visibility(&gpu, &map, kernel, &points);
-            seen.into_iter().filter(|&lit| lit > 0.0).count()
-        };
-        assert_eq!(lit(kernel.radius()), 0, "{radius:?}");
-        // The broken twin: the reach of narrower kernels.
-        assert!(lit(Radius::Texels(8.0)) > 400, "{radius:?}");
-    }
 }
 
 #[test]

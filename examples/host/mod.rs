@@ -12,4 +12,5 @@ pub mod renderer;
 pub mod scene;
 pub mod scene_gpu;
 pub mod shapes;
+mod targets;
 pub mod timer;

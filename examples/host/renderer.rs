@@ -1,16 +1,17 @@
 //! A forward renderer without a window: depth and ambient light first, then one pass that adds the
 //! light and writes its visibility beside it.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use shadows::glam::{Mat4, Vec3};
 use shadows::{View, wgpu};
 
 use super::gpu::Gpu;
 use super::image;
 pub use super::pipelines::{DEPTH, LitPipeline, Look, SHADED, ShadowAccess};
-use super::pipelines::{VISIBILITY, ambient_pipeline, lit_pipeline};
+use super::pipelines::{ambient_pipeline, lit_pipeline};
 use super::scene::Scene;
 use super::scene_gpu::SceneGpu;
+use super::targets::{Targets, color};
 
 /// Share of the light that comes from everywhere.
 const AMBIENT: f32 = 0.1;
@@ -47,60 +48,6 @@ pub struct Renderer {
     frame: wgpu::Buffer,
     ambient: wgpu::RenderPipeline,
     unshadowed: LitPipeline,
-}
-
-/// What is drawn into.
-struct Targets {
-    depth_stencil: wgpu::TextureView,
-    shaded: Target,
-    visibility: Target,
-}
-
-impl Targets {
-    fn new(
-        gpu: &Gpu,
-        size: [u32; 2],
-        depth_stencil: wgpu::TextureFormat,
-        samples: u32,
-    ) -> Result<Self> {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        ensure!(
-            size.iter().all(|&side| side <= limit),
-            "a picture of {}x{} is too large for this device; at most {limit}x{limit}",
-            size[0],
-            size[1]
-        );
-        let depth_stencil = gpu.target(size, depth_stencil, samples);
-        Ok(Self {
-            depth_stencil: depth_stencil.create_view(&Default::default()),
-            shaded: Target::new(gpu, size, SHADED, samples),
-            visibility: Target::new(gpu, size, VISIBILITY, samples),
-        })
-    }
-}
-
-/// One of them: the texture that is read, resolved from the samples where there are several.
-struct Target {
-    texture: wgpu::Texture,
-    samples: Option<wgpu::Texture>,
-}
-
-impl Target {
-    fn new(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) -> Self {
-        Self {
-            texture: gpu.target(size, format, 1),
-            samples: (samples > 1).then(|| gpu.target(size, format, samples)),
-        }
-    }
-
-    /// Where a pass draws, and where it resolves to.
-    fn views(&self) -> (wgpu::TextureView, Option<wgpu::TextureView>) {
-        let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
-        match &self.samples {
-            None => (view(&self.texture), None),
-            Some(samples) => (view(samples), Some(view(&self.texture))),
-        }
-    }
 }
 
 impl Renderer {
@@ -454,20 +401,4 @@ fn host_group(
             },
         ],
     })
-}
-
-fn color<'v>(
-    view: &'v wgpu::TextureView,
-    resolve_target: Option<&'v wgpu::TextureView>,
-    load: wgpu::LoadOp<wgpu::Color>,
-) -> wgpu::RenderPassColorAttachment<'v> {
-    wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target,
-        ops: wgpu::Operations {
-            load,
-            store: wgpu::StoreOp::Store,
-        },
-    }
 }
