@@ -9,10 +9,12 @@ use shadows::wgpu;
 use crate::host::gpu::Gpu;
 use crate::host::timer::Timer;
 
-/// Runs a sample takes at most. Criterion asks for as many as fill its time, and does not know what
-/// is done between them, which may take longer than what is timed; a sample of more runs is the mean
-/// of these.
+/// Runs that a sample takes at most if they take long. Criterion asks for as many as fill its time,
+/// and does not know what is done between them, which may take longer than what is timed; a sample of
+/// more runs is the mean of these.
 const RUNS: u64 = 50;
+/// What a sample may take where more runs fit into it.
+const LONG_ENOUGH: Duration = Duration::from_millis(30);
 
 /// Runs operations by one of the clocks.
 pub struct Bench<'a> {
@@ -99,9 +101,15 @@ fn sampled(criterion: &mut Criterion, name: &str, mut once: impl FnMut() -> Dura
     group.sampling_mode(SamplingMode::Flat);
     group.bench_function(function, |b| {
         b.iter_custom(|wanted| {
-            let runs = wanted.min(RUNS);
-            let sum: Duration = (0..runs).map(|_| once()).sum();
-            sum.mul_f64(wanted as f64 / runs as f64)
+            // So many at least, and on while that takes little: `--quick` asks for ever more runs
+            // until their mean is steady, of which a few of a microsecond each say nothing.
+            let start = Instant::now();
+            let (mut runs, mut sum) = (0, Duration::ZERO);
+            while runs < wanted && (runs < RUNS || start.elapsed() < LONG_ENOUGH) {
+                sum += once();
+                runs += 1;
+            }
+            sum.mul_f64(wanted as f64 / runs.max(1) as f64)
         });
     });
     group.finish();
