@@ -22,7 +22,7 @@ pub enum Silhouettes {
     /// the edges near those that differ. Needs storage buffers in vertex shaders, and positions that
     /// were uploaded by [`CasterMesh::new`]. A million triangles on a grid take no longer than a
     /// plain loop over triangles and edges whose lists are never uploaded
-    /// (`cargo bench --bench shadow_extraction`).
+    /// (`cargo bench --bench shadow_volume`).
     Cpu,
     /// The vertex shader alone: every triangle and every edge is drawn every frame, and those that
     /// are not part of the volume are degenerate. Runs at WebGL2's limits; needs positions that
