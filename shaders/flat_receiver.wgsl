@@ -63,12 +63,14 @@ fn shadows_flat_receiver(
     let spot = light.perspective > 0.5;
     let distance = length(local);
     var receiver: ShadowsFlatReceiver;
-    if spot && distance > light.range {
+    // Nothing here branches on the light alone, not even as && does: Mesa's lavapipe compiles a shader
+    // anew at each draw for what a uniform buffer says, if that decides a branch.
+    if spot & (distance > light.range) {
         receiver.known = 0.0;
         return receiver;
     }
     // Behind a spot the map says nothing.
-    if light.quantum < 0.0 || (spot && !(local.x > 0.0)) {
+    if (light.quantum < 0.0) | (spot & !(local.x > 0.0)) {
         receiver.known = 1.0;
         return receiver;
     }
@@ -88,31 +90,24 @@ fn shadows_flat_receiver(
     let sine = length(cross(n, receiver.ray));
     let plane_distance = dot(n, local) + light.normal_offset * receiver.width * sine;
     let across = n.yz / light.scale;
+    // A spot within the bias of the receiver's plane: nothing is between them. The plane seen from its
+    // edge by a directional light: nothing of it is hidden.
+    if !(select(n.x, plane_distance, spot) < 0.0) {
+        receiver.known = 1.0;
+        return receiver;
+    }
     receiver.known = -1.0;
-    if spot {
-        // The light within the bias of the receiver's plane: nothing is between them.
-        if !(plane_distance < 0.0) {
-            receiver.known = 1.0;
-            return receiver;
-        }
-        let near = light.near * light.depth_bias;
-        receiver.plane = near / plane_distance * vec3f(n.x, across);
-        receiver.plane.x += light.quantum;
-        receiver.own = near / local.x + light.quantum;
-        receiver.bound = 32.0 * near / local.x + light.quantum;
-        receiver.horizon = light.quantum;
-        return receiver;
-    }
-    if !(n.x < 0.0) {
-        receiver.known = 1.0; // seen from its edge
-        return receiver;
-    }
+    let near = light.near * light.depth_bias;
+    let spot_plane = near / plane_distance * vec3f(n.x, across);
     let per_depth = 1.0 / (n.x * light.range);
-    let middle = 1.0 - plane_distance * per_depth + light.depth_bias + light.quantum;
-    receiver.plane = vec3f(middle, across * per_depth);
+    let middle = 1.0 - plane_distance * per_depth + light.depth_bias;
+    receiver.plane = select(vec3f(middle, across * per_depth), spot_plane, spot);
+    receiver.plane.x += light.quantum;
     // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
-    receiver.own = dot(receiver.plane, vec3f(1.0, uv));
-    receiver.bound = max(0.0, receiver.own + 32.0 / (light.scale * light.range));
-    receiver.horizon = -3e38;
+    let own = dot(receiver.plane, vec3f(1.0, uv));
+    receiver.own = select(own, near / local.x + light.quantum, spot);
+    let nearest = max(0.0, own + 32.0 / (light.scale * light.range));
+    receiver.bound = select(nearest, 32.0 * near / local.x + light.quantum, spot);
+    receiver.horizon = select(-3e38, light.quantum, spot);
     return receiver;
 }

@@ -12,11 +12,13 @@ var<workgroup> side_first: u32;
 // The coefficient of an edge in the boundary of the chain of caps: +1 for each cap that runs
 // through it from its first vertex to its second, -1 for each that runs back.
 fn boundary(edge: vec4u, facing_base: u32) -> i32 {
-    if batch.general == 0u {
-        return facing[facing_base + edge.z] - facing[facing_base + edge.w];
-    }
-    var sum = 0i;
-    for (var i = 0u; i < edge.w; i += 1u) {
+    // Not a branch: Mesa's lavapipe compiles a shader anew at each dispatch for what a uniform buffer
+    // says, if that decides a branch.
+    let general = batch.general != 0u;
+    let pair = facing_base + select(edge.zw, vec2u(0u), general);
+    let uses = select(0u, edge.w, general);
+    var sum = facing[pair.x] - facing[pair.y];
+    for (var i = 0u; i < uses; i += 1u) {
         let edge_use = edge_uses[edge.z + i];
         let count = facing[facing_base + (edge_use >> 1u)];
         sum += select(count, -count, (edge_use & 1u) == 1u);

@@ -32,11 +32,11 @@ fn near_point(position: vec3f) -> vec4f {
 // both are known beyond f32: of a light at the caster's skin, little would be left of it in world
 // space, and nothing of its sign.
 fn from_light(position: vec3f) -> vec3f {
-    if caster.light.w == 0.0 {
-        return -caster.light.xyz;
-    }
     let object = (position - caster.object_light.xyz) - caster.object_light_rest;
-    return (caster.world_from_object * vec4f(object, 0.0)).xyz;
+    let from_point = (caster.world_from_object * vec4f(object, 0.0)).xyz;
+    // Not a branch: Mesa's lavapipe compiles a shader anew at each draw for what a uniform buffer says,
+    // if that decides a branch.
+    return select(from_point, -caster.light.xyz, caster.light.w == 0.0);
 }
 
 // The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the
@@ -48,12 +48,12 @@ fn far_point(position: vec3f) -> vec4f {
         return near_point(position);
     }
     let w = dot(caster.far_plane.xyz, direction);
-    if caster.light.w == 0.0 && w != 0.0 {
-        let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
-        let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
-        return caster.clip_from_world * vec4f(to_plane * direction + w * world, w);
-    }
-    return caster.clip_from_world * vec4f(direction + w * caster.light.xyz, w);
+    let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
+    let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
+    let along_rays = to_plane * direction + w * world;
+    let at_infinity = direction + w * caster.light.xyz;
+    let parallel = caster.light.w == 0.0 && w != 0.0;
+    return caster.clip_from_world * vec4f(select(at_infinity, along_rays, parallel), w);
 }
 
 // A side runs b a a', b a' b' for an edge from a to b, where a' and b' are far; for a

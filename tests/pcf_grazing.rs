@@ -195,8 +195,7 @@ fn far_below_all_casters_of_a_directional_light_only_their_shadow_is_dark() {
             };
             assert_eq!(asked(|module| module), expected, "{kernel:?}, {height}");
             // The broken twin: a bound below the depth of an empty texel.
-            let broken =
-                asked(|module| module.replace("receiver.bound = max(0.0, ", "receiver.bound = ("));
+            let broken = asked(|module| module.replace("nearest = max(0.0, ", "nearest = ("));
             below_zero += usize::from(broken != expected);
         }
     }

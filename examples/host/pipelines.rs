@@ -88,7 +88,7 @@ pub(super) fn ambient_pipeline(
         "host_ambient",
         &module,
         &[Some(layout)],
-        (depth, look.samples),
+        (depth, look),
         (&targets, &[]),
     )
 }
@@ -140,7 +140,7 @@ pub(super) fn lit_pipeline(
             "host_lit",
             &module,
             &layouts,
-            (depth, look.samples),
+            (depth, look),
             (&targets, &[("host_smooth", f64::from(access.smooth))]),
         ),
         uses_stencil: access.stencil.is_some(),
@@ -161,7 +161,7 @@ fn pipeline(
     fragment: &str,
     module: &wgpu::ShaderModule,
     layouts: &[Option<&wgpu::BindGroupLayout>],
-    (depth, samples): (wgpu::DepthStencilState, u32),
+    (depth, look): (wgpu::DepthStencilState, Look),
     (targets, constants): (&[Option<wgpu::ColorTargetState>], &[(&str, f64)]),
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -186,14 +186,17 @@ fn pipeline(
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("host_vertex"),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("host_premultiplied", f64::from(look.premultiplied))],
+                ..Default::default()
+            },
             buffers: &[buffer(&positions), buffer(&normals)],
         },
         // Nothing is culled: meshes may be open, and the side one sees receives light too.
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(depth),
         multisample: wgpu::MultisampleState {
-            count: samples,
+            count: look.samples,
             ..Default::default()
         },
         fragment: Some(wgpu::FragmentState {

@@ -34,7 +34,7 @@ struct FrameUniform {
     range: f32,
     intensity: f32,
     ambient: f32,
-    premultiplied: u32,
+    padding: u32,
 }
 
 /// Targets and pipelines for one scene seen by one camera.
@@ -96,7 +96,7 @@ impl Renderer {
 
     /// Draws from now on what the scene's camera and light have become, through a matrix of its own.
     pub fn show(&self, gpu: &Gpu, scene: &Scene, clip_from_world: Mat4) {
-        let frame = frame_uniform(scene, clip_from_world, self.look);
+        let frame = frame_uniform(scene, clip_from_world);
         gpu.queue
             .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
     }
@@ -323,7 +323,7 @@ fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     }
 }
 
-fn frame_uniform(scene: &Scene, clip_from_world: Mat4, look: Look) -> FrameUniform {
+fn frame_uniform(scene: &Scene, clip_from_world: Mat4) -> FrameUniform {
     let camera = &scene.camera;
     // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
     // whatever the scene's scale.
@@ -346,7 +346,7 @@ fn frame_uniform(scene: &Scene, clip_from_world: Mat4, look: Look) -> FrameUnifo
         range: scene.range,
         intensity,
         ambient: AMBIENT,
-        premultiplied: u32::from(look.premultiplied),
+        padding: 0,
     }
 }
 
@@ -355,7 +355,7 @@ fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2], look: Look) -> wgpu::B
     gpu.device
         .create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("frame"),
-            contents: bytemuck::bytes_of(&frame_uniform(scene, matrix(scene, size, look), look)),
+            contents: bytemuck::bytes_of(&frame_uniform(scene, matrix(scene, size, look))),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         })
 }

@@ -9,7 +9,6 @@ struct HostFrame {
     range: f32,
     intensity: f32,
     ambient: f32,
-    premultiplied: u32,
 }
 
 struct HostObject {
@@ -27,6 +26,9 @@ struct HostVaryings {
     @location(1) normal: vec3f,
 }
 
+// Whether a vertex is multiplied by one matrix, not by two.
+override host_premultiplied: bool = false;
+
 @vertex
 fn host_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> HostVaryings {
     var out: HostVaryings;
@@ -35,7 +37,7 @@ fn host_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Host
         host_object.world_from_object,
         position,
     );
-    if host_frame.premultiplied != 0u {
+    if host_premultiplied {
         let clip_from_object = host_frame.clip_from_world * host_object.world_from_object;
         out.clip = clip_from_object * vec4f(position, 1.0);
     }
@@ -74,13 +76,13 @@ fn host_light(in: HostVaryings, visibility: f32) -> HostLit {
     let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
     let toward_light = host_frame.light.xyz - host_frame.light.w * in.world;
     let squared = dot(toward_light, toward_light);
-    var falloff = 1.0;
-    if host_frame.light.w != 0.0 {
-        let ratio = squared / (host_frame.range * host_frame.range);
-        let window = saturate(1.0 - ratio * ratio);
-        let along = -dot(host_frame.cone.xyz, toward_light) * inverseSqrt(squared);
-        falloff = select(0.0, window * window / squared, along >= host_frame.cone.w);
-    }
+    let ratio = squared / (host_frame.range * host_frame.range);
+    let window = saturate(1.0 - ratio * ratio);
+    let along = -dot(host_frame.cone.xyz, toward_light) * inverseSqrt(squared);
+    let near_falloff = select(0.0, window * window / squared, along >= host_frame.cone.w);
+    // No branch on what a uniform buffer says: Mesa's lavapipe would compile the shader anew for its
+    // values at each draw.
+    let falloff = select(1.0, near_falloff, host_frame.light.w != 0.0);
     let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
     let facing = select(0.0, 1.0, host_smooth || dot(flat_normal, toward_light) > 0.0);
     let light = 1.0 - exp(-host_frame.intensity * falloff * cosine * facing);
