@@ -52,7 +52,7 @@ fn far_point(position: vec3f) -> vec4f {
     let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
     let along_rays = to_plane * direction + w * world;
     let at_infinity = direction + w * caster.light.xyz;
-    let parallel = caster.light.w == 0.0 && w != 0.0;
+    let parallel = (caster.light.w == 0.0) & (w != 0.0);
     return caster.clip_from_world * vec4f(select(at_infinity, along_rays, parallel), w);
 }
 

@@ -259,7 +259,7 @@ fn swept(
         files: vec![
             File::new(
                 "sweep.md",
-                sweep::markdown(&survey, &title, args.size, &wishes),
+                sweep::markdown(&survey, &title, args.size, rounds, &wishes),
             ),
             File::new("sweep.json", sweep::json(&survey)?),
             File::new("speed-vs-error.svg", plot::fronts(&title, &survey)?),

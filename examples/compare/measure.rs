@@ -77,21 +77,23 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The median of the rounds' sums: what the shadows cost a frame.
+    /// What the shadows cost a frame.
     pub fn total_ms(&self) -> f64 {
-        let (prepare, generate) = (&self.prepare.samples, &self.generate.samples);
-        let rounds = prepare.iter().zip(generate).zip(&self.shade.samples);
-        Times {
-            samples: rounds.map(|((p, g), s)| p + g + s).collect(),
-            clock: self.generate.clock,
-        }
-        .median()
+        total_ms([&self.prepare, &self.generate, &self.shade])
     }
 
     /// Wrong pixels, in per cent of those that face the light.
     pub fn wrong_percent(&self) -> f64 {
         percent(self.error.false_lit + self.error.false_shadow, &self.error)
     }
+}
+
+/// The median of the rounds' sums.
+fn total_ms([prepare, generate, shade]: [&Times; 3]) -> f64 {
+    let rounds = prepare.samples.iter().zip(&generate.samples);
+    let rounds = rounds.zip(&shade.samples);
+    let sums: Vec<f64> = rounds.map(|((p, g), s)| p + g + s).collect();
+    median(&sums)
 }
 
 /// A count of pixels in per cent of those that face the light; 0 if none does.
@@ -140,21 +142,27 @@ pub fn measure(
         .collect()
 }
 
-/// Milliseconds of one frame of a technique that is made for it, its first frame not counted.
+/// Frames that [`once`] times.
+pub const FRAMES_AT_ONCE: usize = 3;
+
+/// Milliseconds of a frame of a technique that is made for it: the median of a few, the first not
+/// counted.
 ///
 /// # Errors
 /// If the device cannot do what the technique needs.
 pub fn once(gpu: &Gpu, stage: &Stage, technique: &Technique) -> Result<f64> {
     let timer = Timer::new(gpu);
     let mut contestant = Contestant::new(gpu, stage, technique, timer.clock())?;
-    contestant.time(gpu, stage, &timer)?;
+    for _ in 0..FRAMES_AT_ONCE {
+        contestant.time(gpu, stage, &timer)?;
+    }
     let Contestant {
         prepare,
         generate,
         shade,
         ..
     } = contestant;
-    Ok(prepare.median() + generate.median() + shade.median())
+    Ok(total_ms([&prepare, &generate, &shade]))
 }
 
 /// Wrong pixels of a technique, as a part of those that face the light.

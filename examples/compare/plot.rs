@@ -71,7 +71,13 @@ pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
     let best = survey.front();
     let mut marks = Vec::new();
     let mut lines = Vec::new();
-    for (style, kind) in ["cube", "flat", "volume"].into_iter().enumerate() {
+    let mut legend = Vec::new();
+    let kinds = [
+        ("cube", "cubes \u{25cf}"),
+        ("flat", "flat maps \u{25b2}"),
+        ("volume", "volumes \u{25a0}"),
+    ];
+    for (style, (kind, shape)) in kinds.into_iter().enumerate() {
         let of_kind = survey.candidates().iter();
         let of_kind = of_kind.filter(|c| c.configuration.name.starts_with(kind));
         let of_kind: Vec<Candidate<&Technique>> = of_kind
@@ -81,6 +87,10 @@ pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
                 error: candidate.error,
             })
             .collect();
+        if of_kind.is_empty() {
+            continue;
+        }
+        legend.push(shape);
         marks.extend(of_kind.iter().map(|candidate| {
             Mark {
                 name: &candidate.configuration.name,
@@ -99,7 +109,7 @@ pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
             front.iter().map(|c| (c.time, 100.0 * c.error)).collect(),
         ));
     }
-    let title = format!("{title}: cubes \u{25cf}, flat maps \u{25b2}, volumes \u{25a0}");
+    let title = format!("{title}: {}", legend.join(", "));
     let mut svg = String::new();
     draw(&mut svg, &title, &marks, &lines)
         .map_err(|error| anyhow!("speed-vs-error.svg: {error}"))?;

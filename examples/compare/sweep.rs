@@ -8,8 +8,8 @@ use anyhow::{Context as _, Result};
 use serde_json::json;
 use shadows::reference::{Candidate, ReferenceImage, Survey};
 use shadows::{
-    Bias, Caps, CasterSides, DepthEncoding, Extrusion, FacePasses, Kernel, Method,
-    ShadowVolumeDescriptor, Silhouettes, wgpu,
+    Bias, Caps, CasterSides, DepthEncoding, Extrusion, Kernel, Method, ShadowVolumeDescriptor,
+    Silhouettes, wgpu,
 };
 
 use crate::args::Techniques;
@@ -61,12 +61,7 @@ pub fn techniques(asked: &Techniques) -> Vec<Technique> {
 
 fn cubes() -> impl Iterator<Item = Technique> {
     use wgpu::TextureFormat::{Depth16Unorm, Depth24Plus};
-    let changes: [Change<Config>; 9] = [
-        ("multiview", |config| {
-            if let Config::Cube { map, .. } = config {
-                map.passes = FacePasses::Multiview;
-            }
-        }),
+    let changes: [Change<Config>; 8] = [
         ("linear", |config| {
             encode(config, DepthEncoding::LinearDistance, None)
         }),
@@ -219,12 +214,16 @@ pub fn markdown(
     survey: &Survey<Technique>,
     title: &str,
     [width, height]: [u32; 2],
+    rounds: usize,
     wishes: &Wishes,
 ) -> String {
     let day = date(now());
+    let count = survey.candidates().len();
     let mut out = format!(
         "# Speed against error: {title}\n\n\
-         Written by `compare --sweep` on {day}, at {width}x{height} pixels.\n\n"
+         Written by `compare --sweep` on {day}: {count} configurations at {width}x{height} pixels, in \
+         {rounds} rounds in which they take turns, {} frames a turn.\n\n",
+        measure::FRAMES_AT_ONCE
     );
     // Writing to a string cannot fail.
     let _ = write_report(&mut out, survey, wishes);

@@ -98,7 +98,8 @@ fn write_series(out: &mut String, series: &Series) -> std::fmt::Result {
     let heads: Vec<String> = names.map(|name| format!("{name}: prepare | GPU")).collect();
     writeln!(
         out,
-        "\n| {name} | {} |\n|--:{}|",
+        "\n| {} | {} |\n|--:{}|",
+        quantity.unit(),
         heads.join(" | "),
         "|--:".repeat(2 * curves.len())
     )?;
