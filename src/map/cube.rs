@@ -56,7 +56,7 @@ use crate::{Bias, PointLight, Radius};
 /// asking it takes as long as testing every caster's sphere among 100 casters (too few for a tree),
 /// 0.26 to 0.41 of that among 10,000 and 0.04 to 0.14 among 100,000 (`culling_N_vs_linear`). A
 /// uniform grid took 20 to 35, 0.6 to 1.3 and 0.03 to 0.29. A compute shader that fills the lists of
-/// indirect draws takes at least 12, 7 and 17 times as long as the tree on llvmpipe
+/// indirect draws takes at least 4, 7 and 12 times as long as the tree on llvmpipe
 /// (`culling_N_vs_compute`), and only the CPU can tell beforehand which faces need no draw at all.
 ///
 /// # What depths are at fault for
