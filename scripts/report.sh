@@ -1,6 +1,6 @@
 #!/bin/sh
-# Everything that docs/ says in figures, measured anew on this machine: speed against error, growth, the
-# hard cases, flips over time. Leave the machine alone for the first two, which are times.
+# The measured pages of docs/, anew on this machine: speed against error, growth, the hard cases, flips
+# over time. (docs/benches.md is written by hand from `cargo bench`.) Leave the machine alone for the first two, which are times.
 set -eu
 cd "$(dirname "$0")/.."
 . scripts/driver.sh

@@ -11,7 +11,7 @@ fn shadows_flat_look(
 ) -> vec2f {
     let spot = receiver.perspective > 0.5;
     // A point behind the spot is mirrored at the receiver, which is before it.
-    let point = select(local, 2.0 * receiver.local - local, spot && local.x <= 0.0);
+    let point = select(local, 2.0 * receiver.local - local, spot & (local.x <= 0.0));
     let uv = point.yz * receiver.scale / select(1.0, point.x, spot);
     let texel = floor((uv * 0.5 + 0.5) * size);
     let depths = shadows_flat_depths(map, map_sampler, receiver, size, texel);

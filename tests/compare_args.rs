@@ -151,6 +151,30 @@ fn shimmer_and_growth_take_a_size_and_a_limit_or_none() {
 }
 
 #[test]
+fn what_a_mode_has_no_use_for_is_refused() {
+    for line in [
+        "--sweep --hard-cases",
+        "--sweep --face 512",
+        "--sweep --export",
+        "--hard-cases --technique volume",
+        "--hard-cases --scene teapot",
+        "--hard-cases --light 1,2,3",
+        "--hard-cases --frames 2",
+        "--growth --size 64x36",
+        "--growth --technique volume",
+        "--temporal --size 64x36",
+        "--temporal --frames 2",
+    ] {
+        assert_refused(line, "cannot be used with");
+    }
+    assert_refused("--rounds 2", "--hard-cases");
+    assert_refused("--steps 2", "--temporal");
+    // Defaults are no use of an option.
+    assert!(read("--hard-cases --rounds 2 --out target/hard").hard_cases);
+    assert!(read("--sweep --scene teapot --frames 2 --size 64x36").sweep);
+}
+
+#[test]
 fn techniques_may_be_named_by_how_they_begin() {
     let names = |line: &str| read(line).techniques.0.len();
     let cubes = names("--technique cube-*");

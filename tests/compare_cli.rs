@@ -120,6 +120,14 @@ fn maps_alone_are_refused_for_lights_of_the_other_kind() {
     let args = ["--light", "1,2,3,0", "--technique", "cube-hard,cube-16"];
     assert_refused(&args, "directional");
     assert_refused(&["--technique", "flat-*"], "--light-kind");
+    let shimmer = [
+        "--temporal",
+        "--light",
+        "1,2,3,0",
+        "--technique",
+        "cube-2x2",
+    ];
+    assert_refused(&shimmer, "directional");
     let placeless = ["--light", "1,2,3,0", "--light-kind", "spot"];
     assert_refused(&placeless, "no place");
 }

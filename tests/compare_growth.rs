@@ -39,7 +39,7 @@ mod table;
 #[path = "../examples/compare/technique.rs"]
 mod technique;
 
-use growth::fit::upper;
+use growth::fit::{added, upper};
 use growth::quantity::Quantity;
 use host::gpu::Gpu;
 use serde_json::Value;
@@ -57,7 +57,7 @@ fn a_power_law_is_found_exactly() {
     for power in [-0.5, 0.0, 0.5, 1.0, 2.0] {
         let fit = upper(&law(&PLACES, power, 0.0)).unwrap();
         assert!((fit.slope - power).abs() < 1e-12, "{power}: {fit:?}");
-        assert!(fit.error < 1e-9 && fit.points == 4, "{fit:?}");
+        assert!(fit.error.unwrap() < 1e-9 && fit.points == 4, "{fit:?}");
     }
     let words = [0.1, 0.5, 1.0, 1.5].map(|p| upper(&law(&PLACES, p, 0.0)).unwrap().word());
     assert_eq!(words, ["flat", "below linear", "linear", "above linear"]);
@@ -73,12 +73,29 @@ fn what_does_not_grow_counts_less_in_the_upper_half() {
 }
 
 #[test]
+fn what_comes_on_top_of_the_first_point_tells_a_law_from_a_constant() {
+    for power in [0.5, 1.0, 1.5] {
+        // Half of the last point is constant.
+        let points = law(&PLACES, power, 3.0 * 4e6_f64.powf(power));
+        let on_top = added(&points).unwrap();
+        // Not exactly: what is taken off holds the first point's own share of the law.
+        assert!((on_top.slope - power).abs() < 0.04, "{power}: {on_top:?}");
+        // The twin: with the constant.
+        let all = upper(&points).unwrap().slope;
+        assert!((all - power).abs() > 0.1, "{power}: {all}");
+    }
+    assert_eq!(added(&law(&PLACES, 0.0, 5.0)), None);
+    assert_eq!(added(&law(&PLACES, 1.0, 1e9)), None);
+    assert_eq!(added(&[]), None);
+}
+
+#[test]
 fn the_error_says_how_far_from_a_line_the_points_are() {
     let mut points = law(&PLACES, 1.0, 0.0);
     points[5].1 *= 1.5;
     let fit = upper(&points).unwrap();
     assert!(
-        fit.error > 0.02 && (fit.slope - 1.0).abs() < 3.0 * fit.error,
+        fit.error > Some(0.02) && (fit.slope - 1.0).abs() < 3.0 * fit.error.unwrap(),
         "{fit:?}"
     );
     // Points without a logarithm, and too few of them.
@@ -88,7 +105,7 @@ fn the_error_says_how_far_from_a_line_the_points_are() {
     assert_eq!(upper(&[(2.0, 1.0), (2.0, 3.0)]), None);
     assert_eq!(upper(&[(1.0, 1.0), (2.0, f64::NAN)]), None);
     let two = upper(&[(1.0, 1.0), (10.0, 100.0)]).unwrap();
-    assert!((two.slope - 2.0).abs() < 1e-12 && two.error == 0.0);
+    assert!((two.slope - 2.0).abs() < 1e-12 && two.error.is_none());
 }
 
 #[test]

@@ -12,6 +12,9 @@ mod host;
 #[path = "../examples/compare/measure.rs"]
 mod measure;
 #[allow(dead_code)]
+#[path = "../examples/compare/plot.rs"]
+mod plot;
+#[allow(dead_code)]
 #[path = "../examples/compare/shadow.rs"]
 mod shadow;
 #[allow(dead_code)]
@@ -37,7 +40,7 @@ use std::collections::BTreeSet;
 
 use args::Techniques;
 use shadows::reference::{Candidate, Survey};
-use sweep::Wishes;
+use sweep::{Swept, Wishes};
 use technique::{Config, Technique};
 
 fn techniques(list: &str) -> Vec<Technique> {
@@ -144,22 +147,45 @@ fn techniques_that_were_asked_for_are_the_only_ones() {
     );
 }
 
-#[test]
-fn advice_names_the_configuration_and_its_figures() {
-    let candidates =
-        techniques("cube-2x2")
-            .into_iter()
-            .take(3)
-            .zip([(1.0, 0.01), (2.0, 0.001), (4.0, 0.0)]);
-    let survey = Survey::new(
+/// The first sizes of cube-2x2 with these times and errors.
+fn surveyed(measured: &[(f64, f64)]) -> Survey<Technique> {
+    let candidates = techniques("cube-2x2").into_iter().zip(measured);
+    Survey::new(
         candidates
-            .map(|(configuration, (time, error))| Candidate {
+            .map(|(configuration, &(time, error))| Candidate {
                 configuration,
                 time,
                 error,
             })
             .collect(),
-    );
+    )
+}
+
+#[test]
+fn what_was_refused_is_no_mark_and_does_not_count() {
+    let measured = [(1.0, 0.01), (2.0, 0.001), (f64::NAN, f64::NAN)];
+    let (all, finite) = (surveyed(&measured), surveyed(&measured[..2]));
+    let svg = |survey| plot::fronts("title", survey).unwrap();
+    assert_eq!(svg(&all), svg(&finite));
+    assert_ne!(svg(&finite), svg(&surveyed(&measured[..1])));
+    let swept = Swept {
+        survey: all,
+        spread: None,
+        left_out: [("cube-2x2 1024".into(), "no such thing".into())].into(),
+    };
+    let wishes = Wishes {
+        error_at_most: None,
+        time_at_most: None,
+    };
+    let page = sweep::markdown(&swept, "title", [2, 1], 1, &wishes);
+    assert!(page.contains(": 2 configurations at 2x1"), "{page}");
+    assert!(page.contains("`cube-2x2 1024` is left out: no such thing."));
+    assert!(!page.contains("NaN"));
+}
+
+#[test]
+fn advice_names_the_configuration_and_its_figures() {
+    let survey = surveyed(&[(1.0, 0.01), (2.0, 0.001), (4.0, 0.0)]);
     let advice = |error_at_most, time_at_most| {
         sweep::advice(
             &survey,
@@ -179,4 +205,11 @@ fn advice_names_the_configuration_and_its_figures() {
     assert!(told[1].contains("`cube-2x2 256`, 1.00 ms"), "{}", told[1]);
     assert!(advice(None, Some(0.5))[0].ends_with("none."));
     assert!(advice(None, None).is_empty());
+}
+
+#[test]
+fn half_of_the_times_lie_within_the_spread() {
+    assert_eq!(sweep::spread(&[10.0; 3]), 0.0);
+    // Away from 10: 2, 1, 0, 1, 4.
+    assert_eq!(sweep::spread(&[8.0, 9.0, 10.0, 11.0, 14.0]), 0.1);
 }

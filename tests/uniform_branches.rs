@@ -9,11 +9,12 @@ mod pcf;
 
 use std::collections::HashMap;
 
-use common::{noop, validate};
+use common::{noop, noop_with};
 use naga::{
     AddressSpace, Block, Expression, Function, Handle, LocalVariable, Module, Span, Statement,
 };
 use pcf::{descriptors, host, made};
+use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, wgpu};
 
 /// What a value depends on; the later takes in the earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,7 +39,7 @@ struct Walk<'a> {
 /// The source text of all conditions that depend on uniform buffers, and on nothing else but
 /// constants.
 fn uniform_branches(wgsl: &str) -> Vec<String> {
-    let module = validate(wgsl).unwrap();
+    let module = naga::front::wgsl::parse_str(wgsl).unwrap();
     let entries = module.entry_points.iter();
     entries
         .flat_map(|entry| {
@@ -227,9 +228,6 @@ fn assert_found(wgsl: &str, from: &str, to: &str, condition: &str) {
 fn receivers_of_maps_have_none() {
     let (device, queue) = noop();
     for descriptor in descriptors() {
-        if descriptor.many_lights {
-            continue; // lights are picked from an array by an index that no buffer has
-        }
         let wgsl = made(&device, &queue, &descriptor).wgsl_module(0) + &host(&descriptor);
         assert_none(&format!("{descriptor:?}"), &wgsl);
         if descriptor.map == shadows::MapKind::Flat {
@@ -247,22 +245,88 @@ fn volumes_have_none() {
     let selected = format!("return select(from_point, -caster.light.xyz, {condition});");
     let branch = format!("if {condition} {{ return -caster.light.xyz; }} return from_point;");
     assert_found(&pulled, &selected, &branch, condition);
-    let shaders: [&[&str]; 8] = [
-        &[
-            "position",
-            "volume_extrude",
-            "volume_light_side",
-            "volume_vertex",
-        ],
-        &["volume_batch", "volume_light_side", "volume_facing"],
-        &["volume_batch", "volume_edges"],
-        &["cube_caster", "cube_caster_face"],
-        &["cube_cross"],
-        &["volume_screen", "volume_join"],
-        &["volume_screen", "volume_exact", "volume_mark"],
-        &["volume_mask"],
-    ];
-    for names in shaders {
+    for names in VOLUMES {
         assert_none(&names.join(", "), &joined(names));
     }
+}
+
+/// All but the shaders of a `PcfSampler`, as the library joins them.
+const VOLUMES: &[&[&str]] = &[
+    &["position", "volume_extrude", "volume_draw"],
+    &[
+        "position",
+        "volume_extrude",
+        "volume_light_side",
+        "volume_vertex",
+    ],
+    &["volume_batch", "volume_light_side", "volume_facing"],
+    &["volume_batch", "volume_edges"],
+    &["position", "volume_extrude", "volume_draw", "volume_debug"],
+    &[
+        "position",
+        "volume_extrude",
+        "volume_draw",
+        "volume_debug_pulled",
+    ],
+    &[
+        "position",
+        "volume_extrude",
+        "volume_light_side",
+        "volume_vertex",
+        "volume_debug_records",
+    ],
+    &["volume_screen", "volume_join"],
+    &["volume_screen", "volume_join_samples"],
+    &["volume_screen", "volume_exact", "volume_mark"],
+    &[
+        "volume_screen",
+        "volume_exact_samples",
+        "volume_mark_samples",
+    ],
+    &["volume_count"],
+    &["volume_mask"],
+    &["cube_caster", "cube_caster_face"],
+    &["cube_caster", "cube_caster_views"],
+    &["cube_cross"],
+];
+
+#[test]
+fn no_shader_is_left_out() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
+    let files = std::fs::read_dir(folder).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    let mut left: Vec<String> = names.map(|name| name.replace(".wgsl", "")).collect();
+    left.retain(|name| !VOLUMES.iter().any(|shader| shader.contains(&name.as_str())));
+    // The rest is a sampler's, and a part of the text of some.
+    let (device, queue) = noop();
+    let mut texts: Vec<String> = descriptors()
+        .iter()
+        .map(|descriptor| made(&device, &queue, descriptor).wgsl())
+        .collect();
+    let borders = wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER;
+    let (device, queue) = noop_with(borders, wgpu::Limits::defaults());
+    let flat = PcfDescriptor {
+        map: MapKind::Flat,
+        ..Default::default()
+    };
+    texts.push(made(&device, &queue, &flat).wgsl());
+    let textbook = PcfDescriptor {
+        kernel: Kernel::Hard,
+        encoding: DepthEncoding::LinearDistance,
+        textbook: true,
+        ..Default::default()
+    };
+    texts.push(made(&device, &queue, &textbook).wgsl());
+    let functions = |name: &str| {
+        let text = joined(&[name]);
+        let lines = text.lines().filter(|line| line.starts_with("fn "));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    left.retain(|name| {
+        let functions = functions(name);
+        !texts
+            .iter()
+            .any(|text| functions.iter().all(|line| text.contains(line.as_str())))
+    });
+    assert_eq!(left, [""; 0]);
 }

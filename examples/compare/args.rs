@@ -15,6 +15,21 @@ use crate::table::{ROWS, Row};
 const SCENES: [&str; 3] = ["spheres", "courtyard", "teapot"];
 /// What `--technique` calls the few that are compared where nothing else is asked for.
 pub const USUAL: &str = "usual";
+/// What a mode has no use for: it has scenes, sizes and techniques of its own.
+const OF_SCENES: [&str; 12] = [
+    "scenes",
+    "ground",
+    "light",
+    "light_kind",
+    "range",
+    "camera",
+    "size",
+    "techniques",
+    "face",
+    "frames",
+    "seed",
+    "export",
+];
 /// Textures wider than this are refused by many devices (WebGPU's default limit).
 const MAX_SIDE: u32 = 8192;
 
@@ -86,7 +101,7 @@ pub struct Args {
 
     /// Instead of a few techniques, try them all over their settings (--technique leaves out the
     /// others), and write which are both fastest and most exact.
-    #[arg(long)]
+    #[arg(long, group = "mode", conflicts_with_all = ["face", "seed", "export"])]
     pub sweep: bool,
 
     /// Advise the cheapest with at most this part of the pixels wrong, such as 0.001.
@@ -103,29 +118,32 @@ pub struct Args {
 
     /// Instead of a scene, try every technique on the cases where shadows usually break, and write
     /// a table of which pass. Exits with 1 if one fails that should not.
-    #[arg(long)]
+    #[arg(long, group = "mode", conflicts_with_all = OF_SCENES)]
     pub hard_cases: bool,
 
     /// Rounds of the hard cases, each with other lights and cameras.
-    #[arg(long, value_name = "N", default_value_t = 4,
+    #[arg(long, value_name = "N", default_value_t = 4, requires = "hard_cases",
           value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub rounds: u32,
 
     /// Instead, watch how much the techniques shimmer while light or camera move a little, in
     /// pictures of this size.
     #[arg(long, value_name = "WxH", num_args = 0..=1, default_missing_value = "320x180",
-          value_parser = size, conflicts_with_all = ["sweep", "hard_cases"])]
+          value_parser = size, group = "mode",
+          conflicts_with_all = ["size", "frames", "seed", "export"])]
     pub temporal: Option<[u32; 2]>,
 
     /// Steps of each path of --temporal.
-    #[arg(long, value_name = "N", default_value_t = 64,
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "temporal",
           value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub steps: u32,
 
     /// Instead, measure how cost grows with triangles, casters, lights, resolution and map size, each
-    /// from its least to at most so many times that; all the way where no number is given.
+    /// from its least to at most so many times that, but at two amounts at least; all the way where
+    /// no number is given.
     #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1000000",
-          value_parser = times, conflicts_with_all = ["sweep", "hard_cases", "temporal"])]
+          value_parser = times, group = "mode",
+          conflicts_with_all = OF_SCENES.into_iter().filter(|name| *name != "frames"))]
     pub growth: Option<f64>,
 
     /// Directory for all that is written; made where it is missing.

@@ -247,8 +247,9 @@ fn swept(
         (techniques.len() * rounds) as u64,
         &format!("{name}: sweep"),
     );
-    let survey = sweep::survey(gpu, stage, reference, techniques, rounds, &|| bar.inc(1))?;
+    let swept = sweep::survey(gpu, stage, reference, techniques, rounds, &|| bar.inc(1))?;
     bar.finish_and_clear();
+    let survey = &swept.survey;
     let wishes = Wishes {
         error_at_most: args.error_at_most,
         time_at_most: args.time_at_most,
@@ -259,13 +260,13 @@ fn swept(
         files: vec![
             File::new(
                 "sweep.md",
-                sweep::markdown(&survey, &title, args.size, rounds, &wishes),
+                sweep::markdown(&swept, &title, args.size, rounds, &wishes),
             ),
-            File::new("sweep.json", sweep::json(&survey)?),
-            File::new("speed-vs-error.svg", plot::fronts(&title, &survey)?),
+            File::new("sweep.json", sweep::json(survey)?),
+            File::new("speed-vs-error.svg", plot::fronts(&title, survey)?),
         ],
         report: "sweep.md",
-        summary: sweep::summary(&survey, name, &wishes),
+        summary: sweep::summary(survey, name, &wishes),
         export: None,
     })
 }

@@ -79,6 +79,8 @@ pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
     ];
     for (style, (kind, shape)) in kinds.into_iter().enumerate() {
         let of_kind = survey.candidates().iter();
+        let measured = |c: &&Candidate<Technique>| c.time.is_finite() && c.error.is_finite();
+        let of_kind = of_kind.filter(measured);
         let of_kind = of_kind.filter(|c| c.configuration.name.starts_with(kind));
         let of_kind: Vec<Candidate<&Technique>> = of_kind
             .map(|candidate| Candidate {

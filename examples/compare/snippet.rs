@@ -3,14 +3,14 @@
 use std::fmt::Debug;
 
 use shadows::{
-    Bias, CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor,
-    ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::technique::Config;
 
 /// Statements that bind `map` and `sampler`, or `volumes`. Fields that are as the default has them
 /// are left to it. Labels, and what volumes need to know of the host's depth buffer, are the host's.
+/// Keeping what did not move is off where it was off when timed; a comment says so.
 pub fn of(config: &Config) -> String {
     match config {
         Config::Cube { map, sampler } => cube(map) + &pcf(sampler),
@@ -45,6 +45,16 @@ impl Literal {
         self
     }
 
+    /// Whether what did not move is kept, which the default does.
+    fn keeping(mut self, name: &str, keeps: bool) -> Self {
+        if !keeps {
+            self.fields += &format!(
+                "    // For timing alone: leave it out, and what stands still is kept.\n    {name}: false,\n"
+            );
+        }
+        self
+    }
+
     fn finish(self) -> String {
         let Self { name, text, fields } = self;
         match fields.is_empty() {
@@ -54,143 +64,145 @@ impl Literal {
     }
 }
 
+// Each takes its descriptor apart without `..`, so that no new field is forgotten.
+
 fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
     let default = CubeShadowMapDescriptor::default();
     let CubeShadowMapDescriptor {
+        label: _,
+        size,
+        bias: set_back,
         lights,
+        cube_array,
+        allocation,
+        encoding,
+        format,
+        reach,
         cull_casters,
         cache,
-        ..
+        sides,
+        max_faces_per_frame: budget,
+        passes,
+        still_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
-        .field("size", "", &map.size, &default.size)
-        .written("bias", &bias(map.bias), map.bias == default.bias)
+        .field("size", "", size, &default.size)
+        .field("bias", "", set_back, &default.bias)
         .field("lights", "", lights, &default.lights)
-        .field("cube_array", "", &map.cube_array, &default.cube_array)
+        .field("cube_array", "", cube_array, &default.cube_array)
         .field(
             "allocation",
             "Allocation::",
-            &map.allocation,
+            allocation,
             &default.allocation,
         )
-        .field(
-            "encoding",
-            "DepthEncoding::",
-            &map.encoding,
-            &default.encoding,
-        )
-        .field(
-            "format",
-            "wgpu::TextureFormat::",
-            &map.format,
-            &default.format,
-        )
+        .field("encoding", "DepthEncoding::", encoding, &default.encoding)
+        .field("format", FORMAT, format, &default.format)
+        .field("reach", "Radius::", reach, &default.reach)
         .field("cull_casters", "", cull_casters, &default.cull_casters)
-        .field("cache", "", cache, &default.cache)
-        .field("sides", "CasterSides::", &map.sides, &default.sides)
+        .keeping("cache", *cache)
+        .field("sides", "CasterSides::", sides, &default.sides)
         .field(
             "max_faces_per_frame",
             "",
-            &map.max_faces_per_frame,
+            budget,
             &default.max_faces_per_frame,
         )
-        .field("passes", "FacePasses::", &map.passes, &default.passes)
+        .field("passes", "FacePasses::", passes, &default.passes)
+        .field(
+            "still_layers",
+            "StillLayers::",
+            still_layers,
+            &default.still_layers,
+        )
         .finish()
 }
 
 fn flat(map: &ShadowMapDescriptor<'_>) -> String {
     let default = ShadowMapDescriptor::default();
     let ShadowMapDescriptor {
+        label: _,
+        size,
+        format,
+        bias: set_back,
+        sides,
         unclipped_depth,
+        reach,
         cache,
-        ..
     } = map;
     Literal::new("map", "ShadowMapDescriptor")
-        .field("size", "", &map.size, &default.size)
-        .written("bias", &bias(map.bias), map.bias == default.bias)
-        .field("sides", "CasterSides::", &map.sides, &default.sides)
+        .field("size", "", size, &default.size)
+        .field("format", FORMAT, format, &default.format)
+        .field("bias", "", set_back, &default.bias)
+        .field("sides", "CasterSides::", sides, &default.sides)
         .field(
             "unclipped_depth",
             "",
             unclipped_depth,
             &default.unclipped_depth,
         )
-        .field("cache", "", cache, &default.cache)
+        .field("reach", "Radius::", reach, &default.reach)
+        .keeping("cache", *cache)
         .finish()
 }
 
 fn pcf(sampler: &PcfDescriptor<'_>) -> String {
     let default = PcfDescriptor::default();
-    let is_default = sampler.kernel == default.kernel;
+    let PcfDescriptor {
+        label: _,
+        kernel: filter,
+        map,
+        encoding,
+        many_lights,
+        textbook,
+    } = sampler;
     Literal::new("sampler", "PcfDescriptor")
-        .written("kernel", &kernel(sampler.kernel), is_default)
-        .field("map", "MapKind::", &sampler.map, &default.map)
-        .field(
-            "encoding",
-            "DepthEncoding::",
-            &sampler.encoding,
-            &default.encoding,
-        )
-        .field(
-            "many_lights",
-            "",
-            &sampler.many_lights,
-            &default.many_lights,
-        )
-        .field("textbook", "", &sampler.textbook, &default.textbook)
+        .written("kernel", &kernel(*filter), *filter == default.kernel)
+        .field("map", "MapKind::", map, &default.map)
+        .field("encoding", "DepthEncoding::", encoding, &default.encoding)
+        .field("many_lights", "", many_lights, &default.many_lights)
+        .field("textbook", "", textbook, &default.textbook)
         .finish()
 }
 
 fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
     let default = ShadowVolumeDescriptor::default();
     let ShadowVolumeDescriptor {
+        label: _,
+        depth_stencil_format: _,
+        sample_count,
+        depth: _,
+        color_formats: _,
         cap_bias_ulps,
+        method,
+        caps,
+        extrusion,
+        start_from,
         culling,
-        ..
+        keep_between_frames,
+        silhouettes,
+        counter,
     } = volume;
-    let keep = &volume.keep_between_frames;
     Literal::new("volumes", "ShadowVolumeDescriptor")
-        .field(
-            "sample_count",
-            "",
-            &volume.sample_count,
-            &default.sample_count,
-        )
+        .field("sample_count", "", sample_count, &default.sample_count)
         .field("cap_bias_ulps", "", cap_bias_ulps, &default.cap_bias_ulps)
-        .field("method", "Method::", &volume.method, &default.method)
-        .field("caps", "Caps::", &volume.caps, &default.caps)
-        .field(
-            "extrusion",
-            "Extrusion::",
-            &volume.extrusion,
-            &default.extrusion,
-        )
-        .field(
-            "start_from",
-            "StartFrom::",
-            &volume.start_from,
-            &default.start_from,
-        )
+        .field("method", "Method::", method, &default.method)
+        .field("caps", "Caps::", caps, &default.caps)
+        .field("extrusion", "Extrusion::", extrusion, &default.extrusion)
+        .field("start_from", "StartFrom::", start_from, &default.start_from)
         .field("culling", "", culling, &default.culling)
-        .field(
-            "keep_between_frames",
-            "",
-            keep,
-            &default.keep_between_frames,
-        )
+        .keeping("keep_between_frames", *keep_between_frames)
         .field(
             "silhouettes",
             "Silhouettes::",
-            &volume.silhouettes,
+            silhouettes,
             &default.silhouettes,
         )
-        .field("counter", "Counter::", &volume.counter, &default.counter)
+        .field("counter", "Counter::", counter, &default.counter)
         .finish()
 }
 
-fn bias(bias: Bias) -> String {
-    format!("{bias:?}")
-}
+const FORMAT: &str = "wgpu::TextureFormat::";
 
 /// A kernel's `Debug` with the paths that Rust needs.
 fn kernel(kernel: Kernel) -> String {

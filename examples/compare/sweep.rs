@@ -1,7 +1,8 @@
 //! Every technique over its settings, and advice on which to take.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 
 use anyhow::{Context as _, Result};
@@ -15,7 +16,7 @@ use shadows::{
 use crate::args::Techniques;
 use crate::date::{date, now};
 use crate::host::gpu::Gpu;
-use crate::measure;
+use crate::measure::{self, median};
 use crate::snippet;
 use crate::stage::Stage;
 use crate::table::{self, ROWS};
@@ -177,6 +178,16 @@ pub struct Wishes {
     pub time_at_most: Option<f64>,
 }
 
+/// What a sweep found.
+pub struct Swept {
+    pub survey: Survey<Technique>,
+    /// Half of a configuration's times lie within this part of their median, in the middle
+    /// configuration. `None` if there are too few times to tell.
+    pub spread: Option<f64>,
+    /// What the device refused, and why.
+    pub left_out: BTreeMap<Cow<'static, str>, String>,
+}
+
 /// Measures techniques in turn. Maps are made anew for each round, as all of them at once would
 /// take gigabytes. What the device refuses is told and left out. `step` is called after each.
 ///
@@ -189,45 +200,79 @@ pub fn survey(
     techniques: Vec<Technique>,
     rounds: usize,
     step: &dyn Fn(),
-) -> Result<Survey<Technique>> {
-    let refused = RefCell::new(HashSet::new());
-    let time = |technique: &Technique| {
+) -> Result<Swept> {
+    let refused = RefCell::new(BTreeMap::new());
+    let mut samples: HashMap<Cow<'static, str>, Vec<f64>> = HashMap::new();
+    let time = |technique: &Technique| -> Result<f64> {
         step();
-        if refused.borrow().contains(&technique.name) {
+        if refused.borrow().contains_key(&technique.name) {
             return Ok(f64::NAN);
         }
-        measure::once(gpu, stage, technique).with_context(|| technique.name.to_string())
+        let time = measure::once(gpu, stage, technique);
+        let time = time.with_context(|| technique.name.to_string())?;
+        samples
+            .entry(technique.name.clone())
+            .or_default()
+            .push(time);
+        Ok(time)
     };
     let error = |technique: &Technique| {
         let error = measure::error(gpu, stage, reference, technique);
         Ok(error.unwrap_or_else(|reason| {
-            eprintln!("{} is left out: {reason:#}", technique.name);
-            refused.borrow_mut().insert(technique.name.clone());
+            let reason = format!("{reason:#}");
+            eprintln!("{} is left out: {reason}", technique.name);
+            refused.borrow_mut().insert(technique.name.clone(), reason);
             f64::NAN
         }))
     };
-    Survey::measure(techniques, rounds, time, error)
+    let survey = Survey::measure(techniques, rounds, time, error)?;
+    let spreads: Vec<f64> = samples.values().map(|times| spread(times)).collect();
+    Ok(Swept {
+        survey,
+        spread: (rounds > 2 && !spreads.is_empty()).then(|| median(&spreads)),
+        left_out: refused.into_inner(),
+    })
+}
+
+/// The part of the median within which half of the times lie.
+pub fn spread(times: &[f64]) -> f64 {
+    let middle = median(times);
+    let away: Vec<f64> = times.iter().map(|time| (time - middle).abs()).collect();
+    median(&away) / middle.abs()
 }
 
 /// The report: advice, the front, and all of them by time.
 pub fn markdown(
-    survey: &Survey<Technique>,
+    swept: &Swept,
     title: &str,
     [width, height]: [u32; 2],
     rounds: usize,
     wishes: &Wishes,
 ) -> String {
     let day = date(now());
-    let count = survey.candidates().len();
+    let count = by_time(&swept.survey).len();
     let mut out = format!(
         "# Speed against error: {title}\n\n\
          Written by `compare --sweep` on {day}: {count} configurations at {width}x{height} pixels, in \
-         {rounds} rounds in which they take turns, {} frames a turn.\n\n",
-        measure::FRAMES_AT_ONCE
+         {rounds} rounds in which they take turns, {} frames a turn.{}\n\n",
+        measure::FRAMES_AT_ONCE,
+        swept.spread.map_or(String::new(), noise),
     );
-    // Writing to a string cannot fail.
-    let _ = write_report(&mut out, survey, wishes);
+    for (name, reason) in &swept.left_out {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "`{name}` is left out: {reason}.\n");
+    }
+    let _ = write_report(&mut out, &swept.survey, wishes);
     out
+}
+
+/// How far apart two times may be that are the same.
+fn noise(spread: f64) -> String {
+    let percent = (100.0 * spread).max(1.0).ceil();
+    format!(
+        " Half of a configuration's turns take within {percent:.0} % of their median: times that are no \
+         farther apart may be the same."
+    )
 }
 
 fn write_report(out: &mut String, survey: &Survey<Technique>, wishes: &Wishes) -> std::fmt::Result {
@@ -303,7 +348,7 @@ pub fn advice(survey: &Survey<Technique>, wishes: &Wishes) -> Vec<String> {
 pub fn summary(survey: &Survey<Technique>, scene: &str, wishes: &Wishes) -> String {
     let mut out = format!(
         "{scene}: {} configurations; the front:",
-        survey.candidates().len()
+        by_time(survey).len()
     );
     for Candidate {
         configuration,

@@ -3,6 +3,7 @@ vec![
 ("cube-2x2 4096", {
 let map = CubeShadowMapDescriptor {
     size: 4096,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -12,6 +13,7 @@ Config::Cube { map, sampler }
 ("cube-7x7 256", {
 let map = CubeShadowMapDescriptor {
     size: 256,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -24,6 +26,7 @@ Config::Cube { map, sampler }
 ("cube-disk 512", {
 let map = CubeShadowMapDescriptor {
     size: 512,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -35,6 +38,7 @@ Config::Cube { map, sampler }
 }),
 ("cube-vogel 1024", {
 let map = CubeShadowMapDescriptor {
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -47,6 +51,7 @@ Config::Cube { map, sampler }
 ("cube-pcss 2048", {
 let map = CubeShadowMapDescriptor {
     size: 2048,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -62,6 +67,7 @@ let map = CubeShadowMapDescriptor {
     bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0 },
     encoding: DepthEncoding::LinearDistance,
     cull_casters: false,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     sides: CasterSides::Both,
     ..Default::default()
@@ -78,6 +84,7 @@ Config::Cube { map, sampler }
 let map = CubeShadowMapDescriptor {
     encoding: DepthEncoding::LinearDistance,
     format: wgpu::TextureFormat::Depth16Unorm,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -90,6 +97,7 @@ Config::Cube { map, sampler }
 ("cube-2x2 1024, fourfold bias", {
 let map = CubeShadowMapDescriptor {
     bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0 },
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -98,6 +106,7 @@ Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, far sides", {
 let map = CubeShadowMapDescriptor {
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     sides: CasterSides::Far,
     ..Default::default()
@@ -108,6 +117,7 @@ Config::Cube { map, sampler }
 ("flat-disk-full 256", {
 let map = ShadowMapDescriptor {
     size: 256,
+    // For timing alone: leave it out, and what stands still is kept.
     cache: false,
     ..Default::default()
 };
@@ -121,6 +131,7 @@ Config::Flat { map, sampler }
 ("volume z-fail, vertex", {
 let volumes = ShadowVolumeDescriptor {
     method: Method::ZFail,
+    // For timing alone: leave it out, and what stands still is kept.
     keep_between_frames: false,
     silhouettes: Silhouettes::Vertex,
     ..Default::default()
@@ -133,6 +144,7 @@ let volumes = ShadowVolumeDescriptor {
     caps: Caps::Full,
     extrusion: Extrusion::Infinite,
     culling: false,
+    // For timing alone: leave it out, and what stands still is kept.
     keep_between_frames: false,
     ..Default::default()
 };

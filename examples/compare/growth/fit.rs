@@ -4,8 +4,8 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     pub slope: f64,
-    /// Standard error of the slope; 0 where two points leave nothing to tell it from.
-    pub error: f64,
+    /// Standard error of the slope; `None` where two points leave nothing to tell it from.
+    pub error: Option<f64>,
     pub points: usize,
 }
 
@@ -27,6 +27,21 @@ pub fn upper(points: &[(f64, f64)]) -> Option<Fit> {
     least_squares(&logs[above.min(logs.len().saturating_sub(2))..])
 }
 
+/// How fast what comes on top of the first point grows: the fit to each y less that of the least x.
+/// Where a cost that does not grow, as of a submission or of draws, is a good part of the points, this
+/// tells the rest from it. `None` if the last y is not above the first by a quarter: that does not
+/// grow.
+pub fn added(points: &[(f64, f64)]) -> Option<Fit> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ((_, start), (_, end)) = (*sorted.first()?, *sorted.last()?);
+    if !(end > 1.25 * start) {
+        return None;
+    }
+    let rest: Vec<(f64, f64)> = sorted[1..].iter().map(|&(x, y)| (x, y - start)).collect();
+    upper(&rest)
+}
+
 fn least_squares(points: &[(f64, f64)]) -> Option<Fit> {
     let count = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
@@ -38,8 +53,8 @@ fn least_squares(points: &[(f64, f64)]) -> Option<Fit> {
     let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / spread;
     let missed = |p: &(f64, f64)| (p.1 - y - slope * (p.0 - x)).powi(2);
     let error = match points.len() {
-        2 => 0.0,
-        _ => (points.iter().map(missed).sum::<f64>() / (count - 2.0) / spread).sqrt(),
+        2 => None,
+        _ => Some((points.iter().map(missed).sum::<f64>() / (count - 2.0) / spread).sqrt()),
     };
     Some(Fit {
         slope,

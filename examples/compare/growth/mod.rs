@@ -39,6 +39,11 @@ impl Curve {
     pub fn fits(&self) -> [Option<Fit>; 2] {
         [&self.prepare, &self.work].map(|points| fit::upper(points))
     }
+
+    /// How fast what comes on top of their first points grows; `None` where that is next to nothing.
+    pub fn added(&self) -> [Option<Fit>; 2] {
+        [&self.prepare, &self.work].map(|points| fit::added(points))
+    }
 }
 
 /// One quantity that was made to grow.

@@ -5,6 +5,7 @@ use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
 
 use super::Series;
+use super::fit::Fit;
 use super::report::slope;
 use crate::host::timer::Clock;
 use crate::plot::{COLORS, FONT, Failure, decades, plain};
@@ -145,13 +146,16 @@ fn draw_key(
         Clock::Gpu => "timestamps",
         Clock::Wall => "wall time",
     };
-    let head =
-        format!("Filled: GPU ({clock}); hollow: prepare on the CPU; dashed: linear. Slopes:");
+    let head = format!(
+        "Filled: GPU ({clock}); hollow: prepare on the CPU; dashed: linear. Slopes of what comes on \
+         top of the first point:"
+    );
     area.draw(&(EmptyElement::at((16, 8)) + text(head)))?;
     for (style, curve) in series.curves.iter().enumerate() {
         let y = 8 + LINE * (style as i32 + 1);
         let line = COLORS[style % COLORS.len()].stroke_width(2);
-        let [prepare, work] = curve.fits().map(slope);
+        let flat_or = |fit: Option<Fit>| fit.map_or("flat".into(), |fit| slope(Some(fit)));
+        let [prepare, work] = curve.added().map(flat_or);
         let label = format!("{}: GPU {work}, prepare {prepare}", curve.kind.name);
         area.draw(
             &(EmptyElement::at((38, y)) + fill(style, true) + mark(style, line) + text(label)),

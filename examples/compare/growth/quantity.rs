@@ -86,9 +86,10 @@ impl Quantity {
                  the maps is the host's, and not counted here."
             }
             Self::Pixels => {
-                "A hundred boxes, one light. Maps are read once a pixel: linear. Volumes are at most \
+                "A hundred boxes, one light. Maps are read once a pixel: linear, with the lit pass \
+                 less the lit pass without shadows. Volumes, their stencil pass alone, are at most \
                  linear in the pixels that they fill; where their draws outweigh that fill, they \
-                 hardly grow. With the lit pass, less the lit pass without shadows."
+                 hardly grow."
             }
             Self::Texels => {
                 "A hundred boxes, one light, six faces. Clearing and filling is linear in texels \

@@ -34,8 +34,10 @@ fn write_page(out: &mut String, clock: Clock, rounds: u32, series: &[Series]) ->
          All with their default settings.\n\n\
          The **slope** is that of a line through the logarithms by least squares, over the upper \
          half of the range (the points whose amount is at least the geometric mean of the least and \
-         the greatest), with its standard error: 1 is linear, 0 does not grow. In words: flat below \
-         0.2, linear from 0.8 to 1.2.\n",
+         the greatest), with its standard error: 1 is linear, 0 does not grow. **On top** is the \
+         slope of what each point costs more than the first: what is there at any amount (a \
+         submission, the draws) does not hide how the rest grows. In words, by that: flat below 0.2 or \
+         where the last point is not a quarter above the first, linear from 0.8 to 1.2.\n",
         date::date(date::now()),
     )?;
     writeln!(out, "{}", deviations(series))?;
@@ -51,7 +53,7 @@ fn deviations(series: &[Series]) -> String {
         .iter()
         .flat_map(|one| one.curves.iter().map(move |curve| (one.quantity, curve)))
         .flat_map(|(quantity, curve)| {
-            let named = curve.fits().into_iter().zip(["prepare", "GPU"]);
+            let named = curve.added().into_iter().zip(["prepare", "GPU"]);
             let steep = named.filter_map(|(fit, work)| fit.map(|fit| (fit, work)));
             let steep: Vec<_> = steep.filter(|(fit, _)| fit.slope > 1.2).collect();
             steep.into_iter().map(move |(fit, work)| {
@@ -80,19 +82,20 @@ fn write_series(out: &mut String, series: &Series) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "| | prepare: slope | | GPU: slope | |\n|---|--:|---|--:|---|"
+        "| | prepare: slope | on top | | GPU: slope | on top | |\n|---|--:|--:|---|--:|--:|---|"
     )?;
     for curve in curves {
-        let [prepare, work] = curve.fits();
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {} |",
-            curve.kind.name,
-            slope(prepare),
-            word(prepare),
-            slope(work),
-            word(work)
-        )?;
+        write!(out, "| {} |", curve.kind.name)?;
+        for (fit, added) in curve.fits().into_iter().zip(curve.added()) {
+            write!(
+                out,
+                " {} | {} | {} |",
+                slope(fit),
+                slope(added),
+                word(added)
+            )?;
+        }
+        writeln!(out)?;
     }
     let names = curves.iter().map(|curve| curve.kind.name);
     let heads: Vec<String> = names.map(|name| format!("{name}: prepare | GPU")).collect();
@@ -119,13 +122,17 @@ fn write_series(out: &mut String, series: &Series) -> std::fmt::Result {
 
 /// A slope as it is printed.
 pub fn slope(fit: Option<Fit>) -> String {
-    fit.map_or("none".into(), |fit| {
-        format!("{:.2} \u{b1} {:.2}", fit.slope, fit.error)
-    })
+    match fit {
+        None => "-".into(),
+        Some(Fit { slope, error, .. }) => match error {
+            Some(error) => format!("{slope:.2} \u{b1} {error:.2}"),
+            None => format!("{slope:.2} (two points)"),
+        },
+    }
 }
 
-fn word(fit: Option<Fit>) -> &'static str {
-    fit.map_or("too short to say", |fit| fit.word())
+fn word(added: Option<Fit>) -> &'static str {
+    added.map_or("flat", |fit| fit.word())
 }
 
 /// The same for programs.
@@ -155,12 +162,14 @@ fn curve(curve: &Curve) -> Value {
             |fit| json!({ "slope": fit.slope, "standard_error": fit.error, "points": fit.points }),
         )
     };
-    let [prepare, work] = curve.fits();
+    let ([prepare, work], added) = (curve.fits(), curve.added());
     json!({
         "name": curve.kind.name,
         "prepare_ms": curve.prepare,
         "prepare_fit": fit(prepare),
+        "prepare_on_top_fit": fit(added[0]),
         "gpu_ms": curve.work,
         "gpu_fit": fit(work),
+        "gpu_on_top_fit": fit(added[1]),
     })
 }

@@ -6,7 +6,7 @@ mod table;
 
 use std::path::Path as Directory;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 use serde::Serialize;
 use shadows::reference::{Flips, ReferenceImage};
 
@@ -82,13 +82,11 @@ impl Shimmer {
 /// A point light is made a directional one, too, so that flat maps have something to do.
 ///
 /// # Errors
-/// If the device cannot do what a technique needs, or a file cannot be written.
+/// If no technique can shadow the scene's light, the device cannot do what one needs, or a file cannot
+/// be written.
 pub fn run(gpu: &Gpu, scene: &Scene, plan: &Plan<'_>, out: &Directory) -> Result<()> {
     output::check(out)?;
-    let mut kinds = vec![scene.light_kind()];
-    if kinds[0] == LightKind::Point {
-        kinds.push(LightKind::Directional);
-    }
+    let kinds = kinds(scene.light_kind(), plan)?;
     let mut watched = Vec::new();
     for kind in kinds {
         let mut scene = scene.clone();
@@ -107,6 +105,33 @@ pub fn run(gpu: &Gpu, scene: &Scene, plan: &Plan<'_>, out: &Directory) -> Result
     output::write(out, files)?;
     println!("{}", out.join("temporal.md").display());
     Ok(())
+}
+
+/// The kinds of light that the techniques are watched under: the scene's, and parallel light instead of
+/// a point's. What applies to none is told.
+fn kinds(own: LightKind, plan: &Plan<'_>) -> Result<Vec<LightKind>> {
+    let mut kinds = vec![own];
+    if own == LightKind::Point {
+        kinds.push(LightKind::Directional);
+    }
+    let techniques = plan.techniques.0.iter().map(|row| row.at(plan.side));
+    let (some, none): (Vec<_>, Vec<_>) = techniques.partition(|technique| {
+        let mut kinds = kinds.iter();
+        kinds.any(|&kind| technique.config.applies_to(kind))
+    });
+    if some.is_empty() {
+        bail!("no technique is left: {}", none[0].config.limit());
+    }
+    if !plan.techniques.are_usual() {
+        for other in none {
+            eprintln!("{} is left out: {}", other.name, other.config.limit());
+        }
+    }
+    kinds.retain(|&kind| {
+        some.iter()
+            .any(|technique| technique.config.applies_to(kind))
+    });
+    Ok(kinds)
 }
 
 /// Every technique that can shadow the scene's light.
