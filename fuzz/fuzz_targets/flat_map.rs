@@ -3,11 +3,11 @@
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
-use shadows::mesh::Bounds;
-use shadows::{Bias, CasterSides, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows::{Bias, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
-use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
-use shadows_fuzz::{Length, Number, vector};
+use shadows_fuzz::map::{self, Reach};
+use shadows_fuzz::scene::{Camera, Corners, Light, Projection, Story, pick};
 
 #[derive(Arbitrary, Debug)]
 struct Settings {
@@ -16,6 +16,8 @@ struct Settings {
     sides: u8,
     unclipped_depth: bool,
     cache: bool,
+    reach: Reach,
+    format: u8,
 }
 
 #[derive(Arbitrary, Debug)]
@@ -23,8 +25,10 @@ struct Frame {
     light: Light,
     spot: bool,
     casters: u8,
+    /// Whether the first of them was deformed in the host's buffer.
+    deformed: bool,
     view: Option<(Camera, Projection, Length)>,
-    receivers: Option<[[Number; 3]; 2]>,
+    receivers: Option<Corners>,
     encoded: bool,
 }
 
@@ -38,13 +42,18 @@ impl Settings {
                 constant,
                 slope_scale,
             },
-            sides: [CasterSides::Nearest, CasterSides::Both, CasterSides::Far]
-                [usize::from(self.sides % 3)],
+            sides: map::sides(self.sides),
             unclipped_depth: self.unclipped_depth,
             cache: self.cache,
-            ..Default::default()
+            reach: self.reach.radius(),
+            format: map::format(self.format),
+            label: None,
         };
-        ShadowMap::new(&device().0, &descriptor).ok()
+        let made = ShadowMap::new(&device().0, &descriptor);
+        if made.is_ok() {
+            assert!(self.reach.is_in_range() && map::takes(descriptor.format));
+        }
+        made.ok()
     }
 }
 
@@ -64,6 +73,9 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
                 Some((view, distance.0))
             });
         let casters = pick(&scenes, frame.casters);
+        if let (true, [first, ..]) = (frame.deformed, casters) {
+            first.mesh.bump_revision();
+        }
         let before = map.statistics();
         let result = map.prepare(
             device,
@@ -75,15 +87,13 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
                 },
                 casters,
                 view: view.as_ref().map(|(view, distance)| (view, *distance)),
-                receivers: frame.receivers.map(|[min, max]| Bounds {
-                    min: vector(min),
-                    max: vector(max),
-                }),
+                receivers: frame.receivers.map(|corners| corners.0),
             },
         );
         let s = map.statistics();
         match result {
             Ok(()) => {
+                assert!(frame.receivers.is_none_or(|corners| corners.are_box()));
                 let counted = (s.casters_drawn + s.casters_outside) as usize;
                 assert_eq!(counted, casters.len(), "{s:?}");
                 if let Some(matrix) = map.clip_from_world() {

@@ -2,10 +2,12 @@
 
 use arbitrary::{Arbitrary, Result, Unstructured};
 use shadows::glam::{Affine3A, Mat3A, Mat4, Vec3, camera::rh};
+use shadows::mesh::Bounds;
 use shadows::{
-    Caster, CasterMesh, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight,
-    View,
+    Caster, CasterMesh, DepthConvention, DirectionalLight, HomogeneousLight, HostPositions,
+    PointLight, SpotLight, View, wgpu,
 };
+use wgpu::util::DeviceExt as _;
 
 use crate::gpu::device;
 use crate::mesh::Mesh;
@@ -37,10 +39,52 @@ impl Transform {
     }
 }
 
+/// Bounds: mostly a box, else any two corners.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners(pub Bounds);
+
+impl<'a> Arbitrary<'a> for Corners {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let [min, max] = <[[Number; 3]; 2]>::arbitrary(u)?.map(vector);
+        Ok(Self(match u.ratio(1, 16)? {
+            true => Bounds { min, max },
+            false => Bounds {
+                min: min.min(max),
+                max: min.max(max),
+            },
+        }))
+    }
+}
+
+impl Corners {
+    /// Whether they are a box, as receivers must be.
+    pub fn are_box(&self) -> bool {
+        let Bounds { min, max } = self.0;
+        min.is_finite() && max.is_finite() && min.cmple(max).all()
+    }
+}
+
+/// Where a mesh's positions are.
+#[derive(Clone, Copy, Debug)]
+pub enum Positions {
+    Uploaded,
+    /// In the host's buffer; the host says what encloses them, if not what does.
+    Host(Option<Corners>),
+}
+
+impl<'a> Arbitrary<'a> for Positions {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        Ok(match u.ratio(1, 8)? {
+            true => Self::Host(u.arbitrary()?),
+            false => Self::Uploaded,
+        })
+    }
+}
+
 /// Meshes, and which of them stands where.
 #[derive(Clone, Debug)]
 pub struct Casters {
-    meshes: Vec<Mesh>,
+    meshes: Vec<(Mesh, Positions)>,
     placed: Vec<(u8, Transform)>,
 }
 
@@ -99,10 +143,36 @@ impl Casters {
     }
 }
 
-fn upload(mesh: &Mesh) -> Option<CasterMesh> {
+fn upload((mesh, place): &(Mesh, Positions)) -> Option<CasterMesh> {
+    let (device, _) = device();
     let adjacency = mesh.adjacency().ok()?;
-    // The adjacency's own checks are stricter than what a mesh on the GPU needs.
-    Some(CasterMesh::new(&device().0, &mesh.positions(), &adjacency).expect("a sound mesh"))
+    let positions = mesh.positions();
+    let Positions::Host(bounds) = place else {
+        // The adjacency's own checks are stricter than what a mesh on the GPU needs.
+        return Some(CasterMesh::new(device, &positions, &adjacency).expect("a sound mesh"));
+    };
+    let bounds = match bounds {
+        Some(corners) => corners.0,
+        None => Bounds::of_points(positions.iter().map(|&position| position.into()))?,
+    };
+    let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: None,
+        contents: &positions
+            .as_flattened()
+            .iter()
+            .flat_map(|x| x.to_ne_bytes())
+            .collect::<Vec<_>>(),
+        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE,
+    });
+    let host = HostPositions {
+        buffer: &buffer,
+        stride: 12,
+        offset: 0,
+        bounds,
+    };
+    let made = CasterMesh::from_host_positions(device, &host, &adjacency).ok()?;
+    assert!(Corners(bounds).are_box(), "{bounds:?} was taken for a box");
+    Some(made)
 }
 
 /// A view: a camera somewhere, or any sixteen numbers.
