@@ -10,7 +10,7 @@ use shadows::{
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
 use shadows_fuzz::map::{self, Reach};
-use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
+use shadows_fuzz::scene::{Camera, Cast, Light, Projection, Story};
 
 #[derive(Arbitrary, Debug)]
 struct Settings {
@@ -42,10 +42,9 @@ enum Still {
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    lights: [Option<Light>; 3],
-    casters: u8,
-    /// Whether the first of them was deformed in the host's buffer.
-    deformed: bool,
+    /// `None`: those of the frame before.
+    lights: Option<[Option<Light>; 3]>,
+    casters: Cast,
     camera: Option<(Camera, Projection)>,
     pinned: Option<u8>,
     encoded: bool,
@@ -104,15 +103,15 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
         return;
     };
     let scenes = story.upload();
+    let mut lights = Vec::new();
     for frame in &story.frames {
-        let lights: Vec<_> = frame.lights.iter().flatten().map(Light::point).collect();
+        if let Some(new) = &frame.lights {
+            lights = new.iter().flatten().map(Light::point).collect();
+        }
         let pinned: Vec<usize> = frame.pinned.iter().map(|&light| light.into()).collect();
         let camera = frame.camera.as_ref();
         let view = camera.and_then(|(camera, projection)| camera.view(*projection));
-        let casters = pick(&scenes, frame.casters);
-        if let (true, [first, ..]) = (frame.deformed, casters) {
-            first.mesh.bump_revision();
-        }
+        let casters = &frame.casters.of(&scenes)[..];
         let before = map.statistics();
         let result = map.prepare(
             device,

@@ -3,11 +3,12 @@
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
-use shadows::{Bias, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows::glam::Vec3;
+use shadows::{Bias, DirectionalLight, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
 use shadows_fuzz::map::{self, Reach};
-use shadows_fuzz::scene::{Camera, Corners, Light, Projection, Story, pick};
+use shadows_fuzz::scene::{Camera, Cast, Corners, Light, Projection, Story};
 
 #[derive(Arbitrary, Debug)]
 struct Settings {
@@ -22,11 +23,9 @@ struct Settings {
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    light: Light,
-    spot: bool,
-    casters: u8,
-    /// Whether the first of them was deformed in the host's buffer.
-    deformed: bool,
+    /// `None`: that of the frame before.
+    light: Option<(Light, bool)>,
+    casters: Cast,
     view: Option<(Camera, Projection, Length)>,
     receivers: Option<Corners>,
     encoded: bool,
@@ -64,7 +63,14 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
         return;
     };
     let scenes = story.upload();
+    let mut light = FlatLight::Directional(DirectionalLight::new(Vec3::Y));
     for frame in &story.frames {
+        if let Some((new, spot)) = frame.light {
+            light = match spot {
+                true => FlatLight::Spot(new.spot()),
+                false => FlatLight::Directional(new.directional()),
+            };
+        }
         let view = frame
             .view
             .as_ref()
@@ -72,19 +78,13 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
                 let view = camera.view(*projection)?;
                 Some((view, distance.0))
             });
-        let casters = pick(&scenes, frame.casters);
-        if let (true, [first, ..]) = (frame.deformed, casters) {
-            first.mesh.bump_revision();
-        }
+        let casters = &frame.casters.of(&scenes)[..];
         let before = map.statistics();
         let result = map.prepare(
             device,
             queue,
             &ShadowFrame {
-                light: match frame.spot {
-                    true => FlatLight::Spot(frame.light.spot()),
-                    false => FlatLight::Directional(frame.light.directional()),
-                },
+                light,
                 casters,
                 view: view.as_ref().map(|(view, distance)| (view, *distance)),
                 receivers: frame.receivers.map(|corners| corners.0),

@@ -3,13 +3,14 @@
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
+use shadows::glam::Vec3;
 use shadows::{
-    Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, Method, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom, wgpu,
+    Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, HomogeneousLight, Method,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom, wgpu,
 };
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
-use shadows_fuzz::scene::{Camera, Corners, Light, Projection, Story, pick};
+use shadows_fuzz::scene::{Camera, Cast, Corners, Light, Projection, Story};
 
 const SIZE: [u8; 2] = [64, 48];
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
@@ -30,13 +31,12 @@ struct Settings {
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    light: Light,
+    /// `None`: that of the frame before.
+    light: Option<Light>,
     range: Option<Length>,
     target_size: Option<[u8; 2]>,
     receivers: Option<Corners>,
-    casters: u8,
-    /// Whether the first of them was deformed in the host's buffer.
-    deformed: bool,
+    casters: Cast,
     camera: Camera,
     /// Another than the renderer's.
     projection: Option<Projection>,
@@ -84,18 +84,18 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
     let mut renderer = settings.renderer();
     // Of the last frame that was accepted.
     let mut target = [0; 2];
+    let mut light = HomogeneousLight::directional(Vec3::Y);
     let scenes = story.upload();
     for frame in &story.frames {
         let projection = frame.projection.unwrap_or(settings.projection);
         let Some(view) = frame.camera.view(projection) else {
             continue;
         };
-        let casters = pick(&scenes, frame.casters);
-        if let (true, [first, ..]) = (frame.deformed, casters) {
-            first.mesh.bump_revision();
-        }
+        let casters = &frame.casters.of(&scenes)[..];
         let before = renderer.statistics();
-        let light = frame.light.homogeneous();
+        if let Some(new) = frame.light {
+            light = new.homogeneous();
+        }
         let result = renderer.prepare(
             device,
             queue,

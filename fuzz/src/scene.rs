@@ -1,7 +1,7 @@
 //! Casters, lights and views of any numbers.
 
 use arbitrary::{Arbitrary, Result, Unstructured};
-use shadows::glam::{Affine3A, Mat3A, Mat4, Vec3, camera::rh};
+use shadows::glam::{Affine3A, Mat3A, Mat4, Vec3, Vec3A, camera::rh};
 use shadows::mesh::Bounds;
 use shadows::{
     Caster, CasterMesh, DepthConvention, DirectionalLight, HomogeneousLight, HostPositions,
@@ -120,11 +120,33 @@ impl<Frame> Story<Frame> {
     }
 }
 
-/// The scene at a place, counted round and round; no casters where there is no scene.
-pub fn pick(scenes: &[Vec<Caster>], place: u8) -> &[Caster] {
-    match scenes.len() {
-        0 => &[],
-        count => &scenes[usize::from(place) % count],
+/// What casts in a frame: a scene, of which a part may have moved since the frame before.
+#[derive(Arbitrary, Clone, Debug)]
+pub struct Cast {
+    scene: u8,
+    /// One of its casters, and by how much it is moved.
+    moved: Option<(u8, [Number; 3])>,
+    /// Whether the first of its meshes was deformed in the host's buffer.
+    deformed: bool,
+}
+
+impl Cast {
+    /// The scene counted round and round; no casters where there is no scene.
+    pub fn of(&self, scenes: &[Vec<Caster>]) -> Vec<Caster> {
+        let mut casters = match scenes.len() {
+            0 => Vec::new(),
+            count => scenes[usize::from(self.scene) % count].clone(),
+        };
+        let count = casters.len().max(1);
+        if let Some((place, by)) = self.moved
+            && let Some(caster) = casters.get_mut(usize::from(place) % count)
+        {
+            caster.world_from_object.translation += Vec3A::from(vector(by));
+        }
+        if let (true, Some(first)) = (self.deformed, casters.first()) {
+            first.mesh.bump_revision();
+        }
+        casters
     }
 }
 
