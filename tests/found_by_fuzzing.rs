@@ -5,11 +5,11 @@ mod common;
 use common::noop;
 use common::shapes::square;
 use glam::{Affine3A, Vec3};
-use shadows::error::ShadowMapError;
+use shadows::error::{CasterMeshError, ShadowMapError};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
-    Caster, CasterMesh, DirectionalLight, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    SpotLight, glam,
+    Caster, CasterMesh, DirectionalLight, FlatLight, HostPositions, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, SpotLight, glam, wgpu,
 };
 
 const SPOT: SpotLight = SpotLight {
@@ -95,4 +95,37 @@ fn a_directional_map_of_no_extent_is_finite() {
     let frame = ShadowFrame::new(sun, &specks);
     map.prepare(&device, &queue, &frame).unwrap();
     assert!(map.clip_from_world().unwrap().is_finite());
+}
+
+#[test]
+fn bounds_of_host_positions_that_are_inside_out_are_refused() {
+    let (device, _) = noop();
+    let positions = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let adjacency = Adjacency::new(&positions, &[0, 1, 2]).unwrap();
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 36,
+        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    let made = |min: Vec3, max: Vec3| {
+        let host = HostPositions {
+            buffer: &buffer,
+            stride: 12,
+            offset: 0,
+            bounds: Bounds { min, max },
+        };
+        CasterMesh::from_host_positions(&device, &host, &adjacency).map(|mesh| mesh.bounds())
+    };
+    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        let (min, max) = (axis, Vec3::ONE - axis);
+        let refused = CasterMeshError::Bounds {
+            min: min.to_array(),
+            max: max.to_array(),
+        };
+        assert_eq!(made(min, max), Err(refused));
+    }
+    // A plane, or a point, is a box.
+    assert!(made(Vec3::ZERO, Vec3::new(1.0, 1.0, 0.0)).is_ok());
+    assert!(made(Vec3::ONE, Vec3::ONE).is_ok());
 }

@@ -14,9 +14,11 @@
 mod clock;
 mod cube;
 mod debug;
+mod deformed;
 mod flat;
 #[path = "../../examples/host/mod.rs"]
 mod host;
+mod lights;
 mod mesh;
 mod pcf;
 mod reference;
@@ -43,9 +45,11 @@ fn main() -> anyhow::Result<()> {
     view::all(&mut bench, &stage);
     mesh::all(&mut bench, &gpu)?;
     cube::all(&mut bench, &stage)?;
+    lights::all(&mut bench, &stage)?;
     flat::all(&mut bench, &stage)?;
     pcf::all(&mut bench, &stage)?;
     volume::all(&mut bench, &stage)?;
+    deformed::all(&mut bench, &stage)?;
     screen::all(&mut bench, &stage)?;
     debug::all(&mut bench, &stage)?;
     reference::all(&mut bench, &stage)?;

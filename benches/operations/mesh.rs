@@ -2,12 +2,13 @@
 
 use std::hint::black_box;
 
-use anyhow::{Context as _, Result};
-use shadows::mesh::{Adjacency, Bounds};
-use shadows::wgpu::util::DeviceExt as _;
-use shadows::{CasterMesh, HostPositions, wgpu};
+use anyhow::Result;
+use shadows::glam::{DAffine3, DVec3};
+use shadows::mesh::Adjacency;
+use shadows::{Caster, CasterMesh};
 
 use crate::clock::Bench;
+use crate::deformed::Deformed;
 use crate::host::gpu::Gpu;
 use crate::shared::torus::torus;
 
@@ -31,24 +32,17 @@ pub fn all(bench: &mut Bench<'_>, gpu: &Gpu) -> Result<()> {
         |()| {},
         |()| CasterMesh::new(&gpu.device, &positions, &adjacency),
     );
-    let buffer = wgpu::util::BufferInitDescriptor {
-        label: Some("host's positions"),
-        contents: bytemuck::cast_slice(&positions),
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE,
-    };
-    let buffer = gpu.device.create_buffer_init(&buffer);
-    let points = positions.iter().map(|&position| position.into());
-    let host = HostPositions {
-        buffer: &buffer,
-        stride: 12,
-        offset: 0,
-        bounds: Bounds::of_points(points).context("no positions")?,
-    };
+    let host = Deformed::new(gpu, &positions)?;
     bench.cpu(
         "mesh/CasterMesh::from_host_positions",
         &mut (),
         |()| {},
-        |()| CasterMesh::from_host_positions(&gpu.device, &host, &adjacency),
+        |()| CasterMesh::from_host_positions(&gpu.device, &host.positions(), &adjacency),
     );
+    let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency)?;
+    let (place, origin) = (DAffine3::IDENTITY, DVec3::new(1e6, 0.0, 1e6));
+    bench.plain("mesh/Caster::placed", || {
+        Caster::placed(mesh.clone(), black_box(place), origin)
+    });
     Ok(())
 }

@@ -49,6 +49,10 @@ fn images(bench: &mut Bench<'_>, image: &ReferenceImage) {
     bench.plain("reference/compare", || {
         image.compare(&moved, Interior::Screen)
     });
+    let before = image.visibility();
+    bench.plain("reference/flips", || {
+        image.flips(&moved, (image, &before), [0, 0])
+    });
     let map = Interior::Map {
         face_size: 1024,
         kernel_radius: 1.0,
@@ -73,5 +77,8 @@ fn survey(bench: &mut Bench<'_>) {
     bench.plain("reference/Survey::front, 1,000", || survey.front().len());
     bench.plain("reference/Survey::cheapest, 1,000", || {
         survey.cheapest(10.0).map(|found| found.configuration)
+    });
+    bench.plain("reference/Survey::most_exact, 1,000", || {
+        survey.most_exact(10.0).map(|found| found.configuration)
     });
 }

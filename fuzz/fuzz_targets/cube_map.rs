@@ -4,11 +4,13 @@
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use shadows::{
-    Bias, CasterSides, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
+    Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
+    FacePasses, StillLayers,
 };
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
-use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
+use shadows_fuzz::map::{self, Reach};
+use shadows_fuzz::scene::{Camera, Cast, Light, Projection, Story};
 
 #[derive(Arbitrary, Debug)]
 struct Settings {
@@ -21,12 +23,28 @@ struct Settings {
     cache: bool,
     sides: u8,
     budget: Option<u8>,
+    at_once: bool,
+    reach: Reach,
+    format: u8,
+    passes: u8,
+    still_layers: Still,
+}
+
+/// Where casters that stand still are kept.
+#[derive(Arbitrary, Clone, Copy, Debug)]
+enum Still {
+    Auto,
+    Never,
+    /// Layers under small meshes, too, which these are.
+    Almost(u8),
+    AtLeast(u64),
 }
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    lights: [Option<Light>; 3],
-    casters: u8,
+    /// `None`: those of the frame before.
+    lights: Option<[Option<Light>; 3]>,
+    casters: Cast,
     camera: Option<(Camera, Projection)>,
     pinned: Option<u8>,
     encoded: bool,
@@ -49,12 +67,32 @@ impl Settings {
             },
             cull_casters: self.cull_casters,
             cache: self.cache,
-            sides: [CasterSides::Nearest, CasterSides::Both, CasterSides::Far]
-                [usize::from(self.sides % 3)],
+            sides: map::sides(self.sides),
             max_faces_per_frame: self.budget.map(u32::from),
-            ..Default::default()
+            allocation: match self.at_once {
+                true => Allocation::AtOnce,
+                false => Allocation::WithFirstCaster,
+            },
+            reach: self.reach.radius(),
+            format: map::format(self.format),
+            passes: [
+                FacePasses::Auto,
+                FacePasses::Separate,
+                FacePasses::Multiview,
+            ][usize::from(self.passes % 3)],
+            still_layers: match self.still_layers {
+                Still::Auto => StillLayers::Auto,
+                Still::Never => StillLayers::Never,
+                Still::Almost(triangles) => StillLayers::AtLeast(u64::from(triangles % 16)),
+                Still::AtLeast(triangles) => StillLayers::AtLeast(triangles),
+            },
+            label: None,
         };
-        CubeShadowMap::new(&device().0, &descriptor).ok()
+        let made = CubeShadowMap::new(&device().0, &descriptor);
+        if made.is_ok() {
+            assert!(self.reach.is_in_range() && map::takes(descriptor.format));
+        }
+        made.ok()
     }
 }
 
@@ -65,12 +103,15 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
         return;
     };
     let scenes = story.upload();
+    let mut lights = Vec::new();
     for frame in &story.frames {
-        let lights: Vec<_> = frame.lights.iter().flatten().map(Light::point).collect();
+        if let Some(new) = &frame.lights {
+            lights = new.iter().flatten().map(Light::point).collect();
+        }
         let pinned: Vec<usize> = frame.pinned.iter().map(|&light| light.into()).collect();
         let camera = frame.camera.as_ref();
         let view = camera.and_then(|(camera, projection)| camera.view(*projection));
-        let casters = pick(&scenes, frame.casters);
+        let casters = &frame.casters.of(&scenes)[..];
         let before = map.statistics();
         let result = map.prepare(
             device,

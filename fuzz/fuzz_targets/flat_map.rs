@@ -3,11 +3,12 @@
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
-use shadows::mesh::Bounds;
-use shadows::{Bias, CasterSides, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows::glam::Vec3;
+use shadows::{Bias, DirectionalLight, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
-use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
-use shadows_fuzz::{Length, Number, vector};
+use shadows_fuzz::map::{self, Reach};
+use shadows_fuzz::scene::{Camera, Cast, Corners, Light, Projection, Story};
 
 #[derive(Arbitrary, Debug)]
 struct Settings {
@@ -16,15 +17,17 @@ struct Settings {
     sides: u8,
     unclipped_depth: bool,
     cache: bool,
+    reach: Reach,
+    format: u8,
 }
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    light: Light,
-    spot: bool,
-    casters: u8,
+    /// `None`: that of the frame before.
+    light: Option<(Light, bool)>,
+    casters: Cast,
     view: Option<(Camera, Projection, Length)>,
-    receivers: Option<[[Number; 3]; 2]>,
+    receivers: Option<Corners>,
     encoded: bool,
 }
 
@@ -38,13 +41,18 @@ impl Settings {
                 constant,
                 slope_scale,
             },
-            sides: [CasterSides::Nearest, CasterSides::Both, CasterSides::Far]
-                [usize::from(self.sides % 3)],
+            sides: map::sides(self.sides),
             unclipped_depth: self.unclipped_depth,
             cache: self.cache,
-            ..Default::default()
+            reach: self.reach.radius(),
+            format: map::format(self.format),
+            label: None,
         };
-        ShadowMap::new(&device().0, &descriptor).ok()
+        let made = ShadowMap::new(&device().0, &descriptor);
+        if made.is_ok() {
+            assert!(self.reach.is_in_range() && map::takes(descriptor.format));
+        }
+        made.ok()
     }
 }
 
@@ -55,7 +63,14 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
         return;
     };
     let scenes = story.upload();
+    let mut light = FlatLight::Directional(DirectionalLight::new(Vec3::Y));
     for frame in &story.frames {
+        if let Some((new, spot)) = frame.light {
+            light = match spot {
+                true => FlatLight::Spot(new.spot()),
+                false => FlatLight::Directional(new.directional()),
+            };
+        }
         let view = frame
             .view
             .as_ref()
@@ -63,27 +78,22 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
                 let view = camera.view(*projection)?;
                 Some((view, distance.0))
             });
-        let casters = pick(&scenes, frame.casters);
+        let casters = &frame.casters.of(&scenes)[..];
         let before = map.statistics();
         let result = map.prepare(
             device,
             queue,
             &ShadowFrame {
-                light: match frame.spot {
-                    true => FlatLight::Spot(frame.light.spot()),
-                    false => FlatLight::Directional(frame.light.directional()),
-                },
+                light,
                 casters,
                 view: view.as_ref().map(|(view, distance)| (view, *distance)),
-                receivers: frame.receivers.map(|[min, max]| Bounds {
-                    min: vector(min),
-                    max: vector(max),
-                }),
+                receivers: frame.receivers.map(|corners| corners.0),
             },
         );
         let s = map.statistics();
         match result {
             Ok(()) => {
+                assert!(frame.receivers.is_none_or(|corners| corners.are_box()));
                 let counted = (s.casters_drawn + s.casters_outside) as usize;
                 assert_eq!(counted, casters.len(), "{s:?}");
                 if let Some(matrix) = map.clip_from_world() {

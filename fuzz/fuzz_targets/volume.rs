@@ -3,13 +3,14 @@
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
+use shadows::glam::Vec3;
 use shadows::{
-    Caps, Extrusion, Method, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
-    Silhouettes, wgpu,
+    Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, HomogeneousLight, Method,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom, wgpu,
 };
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
-use shadows_fuzz::scene::{Camera, Light, Projection, Story, pick};
+use shadows_fuzz::scene::{Camera, Cast, Corners, Light, Projection, Story};
 
 const SIZE: [u8; 2] = [64, 48];
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
@@ -24,18 +25,24 @@ struct Settings {
     culling: bool,
     keep_between_frames: bool,
     silhouettes: u8,
+    away_facing: bool,
+    exact: bool,
 }
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    light: Light,
+    /// `None`: that of the frame before.
+    light: Option<Light>,
     range: Option<Length>,
     target_size: Option<[u8; 2]>,
-    casters: u8,
+    receivers: Option<Corners>,
+    casters: Cast,
     camera: Camera,
     /// Another than the renderer's.
     projection: Option<Projection>,
     encoded: bool,
+    /// Whether the renderer is asked about its frame.
+    asked: bool,
 }
 
 impl Settings {
@@ -57,6 +64,14 @@ impl Settings {
             keep_between_frames: self.keep_between_frames,
             silhouettes: [Silhouettes::Compute, Silhouettes::Cpu, Silhouettes::Vertex]
                 [usize::from(self.silhouettes % 3)],
+            start_from: match self.away_facing {
+                true => StartFrom::AwayFacing,
+                false => StartFrom::LightFacing,
+            },
+            counter: match self.exact {
+                true => Counter::Exact,
+                false => Counter::Stencil,
+            },
             ..Default::default()
         };
         ShadowVolumeRenderer::new(&device().0, &descriptor).expect("a sound descriptor")
@@ -69,27 +84,34 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
     let mut renderer = settings.renderer();
     // Of the last frame that was accepted.
     let mut target = [0; 2];
+    let mut light = HomogeneousLight::directional(Vec3::Y);
     let scenes = story.upload();
     for frame in &story.frames {
         let projection = frame.projection.unwrap_or(settings.projection);
         let Some(view) = frame.camera.view(projection) else {
             continue;
         };
-        let casters = pick(&scenes, frame.casters);
+        let casters = &frame.casters.of(&scenes)[..];
         let before = renderer.statistics();
-        let light = frame.light.homogeneous();
+        if let Some(new) = frame.light {
+            light = new.homogeneous();
+        }
         let result = renderer.prepare(
             device,
             queue,
             &ShadowVolumeFrame {
                 range: frame.range.map(|range| range.0),
                 target_size: frame.target_size.map(|size| size.map(u32::from)),
+                receivers: frame.receivers.map(|corners| corners.0),
                 ..ShadowVolumeFrame::new(&view, light, casters)
             },
         );
         let s = renderer.statistics();
         match result {
             Ok(()) => {
+                assert!(frame.receivers.is_none_or(|corners| corners.are_box()));
+                assert!(settings.away_facing || s.casters_away_facing == 0, "{s:?}");
+                assert!(s.casters_away_facing <= s.casters_drawn, "{s:?}");
                 target = frame.target_size.unwrap_or(SIZE).map(u32::from);
                 let counted = (s.casters_drawn + s.casters_skipped) as usize;
                 assert_eq!(counted, casters.len(), "{s:?}");
@@ -105,14 +127,19 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
             }
         }
         if frame.encoded && !target.contains(&0) {
-            draw(&renderer, target);
+            draw(&renderer, target, settings.exact);
+        }
+        if frame.asked {
+            let _ = renderer.may_wrap();
+            let fill = renderer.survey(target).fill();
+            assert!(fill.is_finite() && fill >= 0.0, "{fill}");
         }
     }
     tidy();
 });
 
 /// Records what a host would, for a target of the frame's size.
-fn draw(renderer: &ShadowVolumeRenderer, [width, height]: [u32; 2]) {
+fn draw(renderer: &ShadowVolumeRenderer, [width, height]: [u32; 2], exact: bool) {
     let target = device().0.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d {
@@ -130,6 +157,15 @@ fn draw(renderer: &ShadowVolumeRenderer, [width, height]: [u32; 2]) {
     let view = target.create_view(&Default::default());
     submit(|encoder| {
         renderer.encode(encoder);
+        if exact {
+            let descriptor = ExactCountDescriptor {
+                size: [width, height],
+                ..Default::default()
+            };
+            let count = ExactCount::new(&device().0, &descriptor).expect("it fits");
+            renderer.render(&mut count.begin(encoder, &view).expect("it fits"));
+            return count.encode(encoder, &view).expect("it fits");
+        }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &view,

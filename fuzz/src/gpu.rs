@@ -6,6 +6,12 @@ use shadows::wgpu;
 
 static DEVICE: OnceLock<(wgpu::Device, wgpu::Queue)> = OnceLock::new();
 
+/// For every depth convention, `Counter::Exact` and `FacePasses::Multiview`.
+const FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
+    .union(wgpu::Features::FLOAT32_BLENDABLE)
+    .union(wgpu::Features::MULTIVIEW)
+    .union(wgpu::Features::SELECTIVE_MULTIVIEW);
+
 /// The device that all runs share.
 pub fn device() -> &'static (wgpu::Device, wgpu::Queue) {
     DEVICE.get_or_init(|| {
@@ -22,7 +28,11 @@ pub fn device() -> &'static (wgpu::Device, wgpu::Queue) {
         pollster::block_on(async {
             let adapter = instance.request_adapter(&Default::default()).await.unwrap();
             let descriptor = wgpu::DeviceDescriptor {
-                required_features: wgpu::Features::DEPTH_CLIP_CONTROL,
+                required_features: FEATURES,
+                required_limits: wgpu::Limits {
+                    max_multiview_view_count: 6,
+                    ..Default::default()
+                },
                 ..Default::default()
             };
             adapter.request_device(&descriptor).await.unwrap()

@@ -2,6 +2,7 @@
 //! driver.
 
 pub mod gpu;
+pub mod map;
 pub mod mesh;
 pub mod scene;
 

@@ -1,11 +1,13 @@
 //! Casters, lights and views of any numbers.
 
 use arbitrary::{Arbitrary, Result, Unstructured};
-use shadows::glam::{Affine3A, Mat3A, Mat4, Vec3, camera::rh};
+use shadows::glam::{Affine3A, Mat3A, Mat4, Vec3, Vec3A, camera::rh};
+use shadows::mesh::Bounds;
 use shadows::{
-    Caster, CasterMesh, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight,
-    View,
+    Caster, CasterMesh, DepthConvention, DirectionalLight, HomogeneousLight, HostPositions,
+    PointLight, SpotLight, View, wgpu,
 };
+use wgpu::util::DeviceExt as _;
 
 use crate::gpu::device;
 use crate::mesh::Mesh;
@@ -37,10 +39,52 @@ impl Transform {
     }
 }
 
+/// Bounds: mostly a box, else any two corners.
+#[derive(Clone, Copy, Debug)]
+pub struct Corners(pub Bounds);
+
+impl<'a> Arbitrary<'a> for Corners {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        let [min, max] = <[[Number; 3]; 2]>::arbitrary(u)?.map(vector);
+        Ok(Self(match u.ratio(1, 16)? {
+            true => Bounds { min, max },
+            false => Bounds {
+                min: min.min(max),
+                max: min.max(max),
+            },
+        }))
+    }
+}
+
+impl Corners {
+    /// Whether they are a box, as receivers must be.
+    pub fn are_box(&self) -> bool {
+        let Bounds { min, max } = self.0;
+        min.is_finite() && max.is_finite() && min.cmple(max).all()
+    }
+}
+
+/// Where a mesh's positions are.
+#[derive(Clone, Copy, Debug)]
+pub enum Positions {
+    Uploaded,
+    /// In the host's buffer; the host says what encloses them, if not what does.
+    Host(Option<Corners>),
+}
+
+impl<'a> Arbitrary<'a> for Positions {
+    fn arbitrary(u: &mut Unstructured<'a>) -> Result<Self> {
+        Ok(match u.ratio(1, 8)? {
+            true => Self::Host(u.arbitrary()?),
+            false => Self::Uploaded,
+        })
+    }
+}
+
 /// Meshes, and which of them stands where.
 #[derive(Clone, Debug)]
 pub struct Casters {
-    meshes: Vec<Mesh>,
+    meshes: Vec<(Mesh, Positions)>,
     placed: Vec<(u8, Transform)>,
 }
 
@@ -76,11 +120,33 @@ impl<Frame> Story<Frame> {
     }
 }
 
-/// The scene at a place, counted round and round; no casters where there is no scene.
-pub fn pick(scenes: &[Vec<Caster>], place: u8) -> &[Caster] {
-    match scenes.len() {
-        0 => &[],
-        count => &scenes[usize::from(place) % count],
+/// What casts in a frame: a scene, of which a part may have moved since the frame before.
+#[derive(Arbitrary, Clone, Debug)]
+pub struct Cast {
+    scene: u8,
+    /// One of its casters, and by how much it is moved.
+    moved: Option<(u8, [Number; 3])>,
+    /// Whether the first of its meshes was deformed in the host's buffer.
+    deformed: bool,
+}
+
+impl Cast {
+    /// The scene counted round and round; no casters where there is no scene.
+    pub fn of(&self, scenes: &[Vec<Caster>]) -> Vec<Caster> {
+        let mut casters = match scenes.len() {
+            0 => Vec::new(),
+            count => scenes[usize::from(self.scene) % count].clone(),
+        };
+        let count = casters.len().max(1);
+        if let Some((place, by)) = self.moved
+            && let Some(caster) = casters.get_mut(usize::from(place) % count)
+        {
+            caster.world_from_object.translation += Vec3A::from(vector(by));
+        }
+        if let (true, Some(first)) = (self.deformed, casters.first()) {
+            first.mesh.bump_revision();
+        }
+        casters
     }
 }
 
@@ -99,10 +165,36 @@ impl Casters {
     }
 }
 
-fn upload(mesh: &Mesh) -> Option<CasterMesh> {
+fn upload((mesh, place): &(Mesh, Positions)) -> Option<CasterMesh> {
+    let (device, _) = device();
     let adjacency = mesh.adjacency().ok()?;
-    // The adjacency's own checks are stricter than what a mesh on the GPU needs.
-    Some(CasterMesh::new(&device().0, &mesh.positions(), &adjacency).expect("a sound mesh"))
+    let positions = mesh.positions();
+    let Positions::Host(bounds) = place else {
+        // The adjacency's own checks are stricter than what a mesh on the GPU needs.
+        return Some(CasterMesh::new(device, &positions, &adjacency).expect("a sound mesh"));
+    };
+    let bounds = match bounds {
+        Some(corners) => corners.0,
+        None => Bounds::of_points(positions.iter().map(|&position| position.into()))?,
+    };
+    let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: None,
+        contents: &positions
+            .as_flattened()
+            .iter()
+            .flat_map(|x| x.to_ne_bytes())
+            .collect::<Vec<_>>(),
+        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE,
+    });
+    let host = HostPositions {
+        buffer: &buffer,
+        stride: 12,
+        offset: 0,
+        bounds,
+    };
+    let made = CasterMesh::from_host_positions(device, &host, &adjacency).ok()?;
+    assert!(Corners(bounds).are_box(), "{bounds:?} was taken for a box");
+    Some(made)
 }
 
 /// A view: a camera somewhere, or any sixteen numbers.

@@ -123,6 +123,14 @@ pub enum CasterMeshError {
         /// The value.
         value: [f32; 3],
     },
+    /// The bounds of the host's positions are no box.
+    #[error("bounds from {min:?} to {max:?} are no box; pass corners with min <= max")]
+    Bounds {
+        /// The smallest corner passed.
+        min: [f32; 3],
+        /// The largest corner passed.
+        max: [f32; 3],
+    },
 }
 
 /// What can be wrong with a [`Caster`](crate::Caster).

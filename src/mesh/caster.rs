@@ -164,6 +164,11 @@ impl CasterMesh {
                 });
             }
         }
+        // Inside out they would hold nothing, and what is in them would be culled at random.
+        if !bounds.min.cmple(bounds.max).all() {
+            let [min, max] = [bounds.min, bounds.max].map(|corner| corner.to_array());
+            return Err(CasterMeshError::Bounds { min, max });
+        }
         let source = Source {
             buffer: buffer.clone(),
             stride,
