@@ -4,19 +4,20 @@ use std::fmt::Display;
 
 use anyhow::Result;
 use shadows::glam::{Affine3A, Mat4, Vec3, Vec4};
-use shadows::mesh::Adjacency;
+use shadows::mesh::{Adjacency, Topology};
 use shadows::{
     Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, HomogeneousLight, ShadowMap,
     ShadowMapDescriptor, View,
 };
 
+use super::cases::mesh::split_square;
 use super::situation::{Situation, at, lamp, sun};
 use super::table::Refusal;
-use super::{SIZE, named};
+use super::{SIZE, named, small};
 use crate::host::gpu::Gpu;
 use crate::host::random::Random;
 use crate::host::scene::Scene;
-use crate::host::shapes;
+use crate::host::shapes::{self, Shape};
 use crate::shadow::{Shadow, ShadowInputs};
 use crate::stage::Stage;
 use crate::technique::Technique;
@@ -27,7 +28,9 @@ use crate::technique::Technique;
 /// If the device cannot draw the scene that the input is a change of.
 pub fn refusals(gpu: &Gpu) -> Result<Vec<Refusal>> {
     let mut all = meshes();
+    all.push(t_junction(&split_square()));
     all.extend(sizes(gpu));
+    all.extend(small::maps(gpu)?);
     for name in ["cube-2x2", "flat-2x2", "volume"] {
         let technique = named(name)?;
         all.extend(frames(gpu, &technique)?);
@@ -81,6 +84,30 @@ fn meshes() -> Vec<Refusal> {
         refused("a view matrix of NaN", view(Mat4::NAN)),
         refused("a view matrix of zeros", view(Mat4::ZERO)),
     ]
+}
+
+/// What the topology report says of a square with a T-junction: beside its four sides, the split
+/// edge and its two parts are open.
+pub fn t_junction(shape: &Shape) -> Refusal {
+    let report = Adjacency::new(&shape.positions, &shape.indices).map(|mesh| *mesh.topology());
+    Refusal {
+        what: "a T-junction in a square".into(),
+        outcome: match report {
+            Ok(Topology {
+                closed: false,
+                open_edges: 7,
+                ..
+            }) => Ok(format!("reported: {}", report_line(&report))),
+            _ => Err(format!("not reported: {}", report_line(&report))),
+        },
+    }
+}
+
+fn report_line<T: Display, E: Display>(report: &Result<T, E>) -> String {
+    match report {
+        Ok(topology) => topology.to_string(),
+        Err(error) => error.to_string(),
+    }
 }
 
 fn sizes(gpu: &Gpu) -> Vec<Refusal> {

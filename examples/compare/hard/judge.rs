@@ -1,29 +1,11 @@
 //! What came out, against what is expected.
 
 use anyhow::Result;
+use shadows::glam::DVec3;
 use shadows::reference::{Class, Comparison, Interior, ReferenceImage, Verdict as PixelVerdict};
 
-use super::cases::Expect;
-
-/// The part of the pixels that may be wrong where [`Expect::Rare`] is said.
-const RARE: f64 = 4e-6;
-
-/// How a technique did on one situation, or on all of a case.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outcome {
-    /// Pixels whose surface faces the light.
-    pub counted: usize,
-    /// Wrong pixels, edges included.
-    pub wrong: usize,
-    /// Wrong pixels where resolution is no excuse, and pixels lit where nothing was drawn.
-    pub interior: usize,
-    /// In how many situations.
-    pub situations: usize,
-    /// Of how many of these something is to be said.
-    pub limits: Vec<&'static str>,
-    /// What failed, by situation.
-    pub failures: Vec<String>,
-}
+use super::expect::Expect;
+use super::outcome::Outcome;
 
 /// What one technique's frame gave.
 pub struct Frame<'a> {
@@ -31,6 +13,9 @@ pub struct Frame<'a> {
     pub interior: Interior,
     /// Whether the renderer says that its 8-bit counts may be wrong.
     pub may_wrap: bool,
+    /// Where the light is and how far it reaches, if the technique says itself that nothing is lit
+    /// beyond.
+    pub reach: Option<(DVec3, f32)>,
 }
 
 /// Compares a picture with the reference.
@@ -44,25 +29,26 @@ pub fn judge(
     expect: Expect,
 ) -> Result<Outcome> {
     let found = reference.compare(frame.visibility, frame.interior)?;
-    let background = drawn_on_nothing(reference, frame.visibility);
-    let interior = found.false_lit_interior + found.false_shadow_interior + background;
+    let unlit = lit_where_nothing_can_be(reference, frame);
     let mut outcome = Outcome {
         counted: found.lit_facing,
-        wrong: found.false_lit + found.false_shadow + background,
-        interior,
+        wrong: found.false_lit + found.false_shadow + unlit,
+        false_lit: found.false_lit_interior + unlit,
+        false_shadow: found.false_shadow_interior,
         situations: 1,
         ..Outcome::default()
     };
-    if let Expect::Reported(why) = expect {
-        // Loss that no interior pixel sees is to be said, too.
-        outcome.limits.extend((outcome.wrong > 0).then_some(why));
-        return Ok(outcome);
-    }
+    let interior = outcome.interior();
     let excuse = match expect {
+        // Whether it is within its bound is asked of a round; loss that no interior pixel sees is
+        // to be said, too.
+        Expect::Limit(limit) if outcome.wrong > 0 => Some(limit.why),
         _ if interior == 0 => return Ok(outcome),
         Expect::Rare(why) => Some(why),
         Expect::Streaks(why) if !has_blocks(&found, reference.width() as usize) => Some(why),
-        Expect::Wraps if frame.may_wrap => Some("8-bit counts wrap at 256; the renderer says so"),
+        Expect::Wraps if frame.may_wrap && only_falsely_lit(&outcome, unlit) => {
+            Some("8-bit counts wrap at 256; the renderer says so")
+        }
         _ => None,
     };
     match excuse {
@@ -74,22 +60,48 @@ pub fn judge(
     Ok(outcome)
 }
 
-/// Pixels that something was drawn at where the reference sees nothing, nor beside it: edges are
-/// rounded to parts of a pixel.
-fn drawn_on_nothing(reference: &ReferenceImage, visibility: &[u8]) -> usize {
+/// A count that wraps reads 0, which is lit; it makes no shadow, and nothing of nothing.
+fn only_falsely_lit(outcome: &Outcome, unlit: usize) -> bool {
+    outcome.false_shadow == 0 && unlit == 0
+}
+
+/// Pixels that are lit where the reference sees nothing or what is beyond the light's range, nor
+/// anything else beside it: edges are rounded to parts of a pixel.
+fn lit_where_nothing_can_be(reference: &ReferenceImage, frame: &Frame<'_>) -> usize {
     let (width, height) = (reference.width() as usize, reference.height() as usize);
-    let nothing: Vec<bool> = reference
+    let unlit: Vec<bool> = reference
         .classes()
-        .map(|class| class == Class::Background)
+        .enumerate()
+        .map(|(pixel, class)| match class {
+            Class::Background => true,
+            Class::OutOfRange => is_beyond(reference, pixel, frame.reach),
+            _ => false,
+        })
         .collect();
     let around = |place: usize, end: usize| place.saturating_sub(1)..(place + 2).min(end);
     let alone = |pixel: usize| {
         let mut rows = around(pixel / width, height);
-        rows.all(|row| around(pixel % width, width).all(|column| nothing[row * width + column]))
+        rows.all(|row| around(pixel % width, width).all(|column| unlit[row * width + column]))
     };
-    (0..nothing.len())
-        .filter(|&pixel| visibility[pixel] != 0 && alone(pixel))
+    (0..unlit.len())
+        .filter(|&pixel| frame.visibility[pixel] != 0 && alone(pixel))
         .count()
+}
+
+/// Whether a pixel is farther away than the range by what `f32` tells apart; those outside a cone
+/// need not be.
+fn is_beyond(reference: &ReferenceImage, pixel: usize, reach: Option<(DVec3, f32)>) -> bool {
+    let Some((light, range)) = reach else {
+        return false;
+    };
+    let place = [
+        pixel as u32 % reference.width(),
+        pixel as u32 / reference.width(),
+    ];
+    let hit = reference.hit(place[0], place[1]);
+    // From the middle between the range and the next number, which would be rounded to the latter.
+    let end = 0.5 * (f64::from(range) + f64::from(range.next_up()));
+    hit.is_some_and(|hit| hit.position.distance(light) > end)
 }
 
 /// Whether four wrong interior pixels form a square: a streak is thinner.
@@ -107,42 +119,4 @@ fn has_blocks(found: &Comparison, width: usize) -> bool {
                 .iter()
                 .all(|step| wrong(pixel + step))
         })
-}
-
-impl Outcome {
-    /// Adds what another situation gave.
-    pub fn add(&mut self, other: Self) {
-        self.counted += other.counted;
-        self.wrong += other.wrong;
-        self.interior += other.interior;
-        self.situations += other.situations;
-        for limit in other.limits {
-            if !self.limits.contains(&limit) {
-                self.limits.push(limit);
-            }
-        }
-        self.failures.extend(other.failures);
-    }
-
-    /// Fails where more is wrong in all than is rare.
-    pub fn settle(&mut self, expect: Expect) {
-        let allowed = RARE * self.counted as f64;
-        if matches!(expect, Expect::Rare(_)) && self.interior as f64 > allowed.max(1.0) {
-            let Self {
-                interior, counted, ..
-            } = self;
-            let failure = format!("{interior} of {counted} pixels are wrong, more than rare");
-            self.failures.push(failure);
-        }
-    }
-
-    /// Wrong pixels, edges included, in per cent of those that count.
-    pub fn wrong_percent(&self) -> f64 {
-        100.0 * self.wrong as f64 / self.counted.max(1) as f64
-    }
-
-    /// Interior errors in per cent of the pixels that count.
-    pub fn interior_percent(&self) -> f64 {
-        100.0 * self.interior as f64 / self.counted.max(1) as f64
-    }
 }

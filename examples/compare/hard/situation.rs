@@ -4,7 +4,7 @@ use shadows::glam::{Affine3A, DVec3, Vec3, Vec4};
 
 use crate::host::random::Random;
 use crate::host::renderer::Look;
-use crate::host::scene::{Camera, Mesh, Object, Scene};
+use crate::host::scene::{Camera, Cone, Mesh, Object, Scene};
 use crate::host::shapes::{self, Shape};
 
 /// One thing to try.
@@ -16,6 +16,10 @@ pub struct Situation {
     pub look: Look,
     /// Everything is this far away, placed in f64; the host draws it relative to the camera.
     pub offset: DVec3,
+    /// Whether it is made for 8-bit counts to wrap.
+    pub wraps: bool,
+    /// Whether no shadow falls on what is seen: then a map's resolution is no excuse either.
+    pub no_shadow_in_view: bool,
 }
 
 /// A point light above, to the left and in front, never twice in the same place.
@@ -40,6 +44,18 @@ pub fn either(random: &mut Random, turn: u32) -> Vec4 {
 
 pub fn at(x: f32, y: f32, z: f32) -> Affine3A {
     Affine3A::from_translation(Vec3::new(x, y, z))
+}
+
+/// With those under a lamp once more, each under a spot at the lamp's place.
+pub fn with_spots(mut situations: Vec<Situation>, target: Vec3, degrees: f32) -> Vec<Situation> {
+    let lamps = situations
+        .iter()
+        .filter(|situation| situation.scene.light.w != 0.0);
+    let spots: Vec<Situation> = lamps
+        .map(|lamp| lamp.clone().spot(target, degrees))
+        .collect();
+    situations.extend(spots);
+    situations
 }
 
 impl Situation {
@@ -68,6 +84,8 @@ impl Situation {
             scene,
             look: Look::default(),
             offset: DVec3::ZERO,
+            wraps: false,
+            no_shadow_in_view: false,
         }
     }
 
@@ -93,6 +111,16 @@ impl Situation {
     pub fn camera(mut self, eye: Vec3, target: Vec3) -> Self {
         self.scene.camera.eye = eye;
         self.scene.camera.target = target;
+        self
+    }
+
+    /// Under a spot at the lamp's place, that shines at a point, so many degrees to each side.
+    pub fn spot(mut self, target: Vec3, degrees: f32) -> Self {
+        self.what = format!("{}, spot of {degrees} degrees", self.what);
+        self.scene.cone = Some(Cone {
+            direction: target - self.scene.light.truncate(),
+            half_angle: degrees.to_radians(),
+        });
         self
     }
 

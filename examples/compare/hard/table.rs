@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::judge::Outcome;
+use super::limits;
+use super::outcome::Outcome;
+use super::seams::FACTOR;
 
 /// Pictures side by side on the sheet.
 const COLUMNS: usize = 6;
@@ -28,6 +30,8 @@ pub struct Table {
     pub size: [u32; 2],
     pub rounds: u32,
     pub techniques: Vec<String>,
+    /// In which way `volume` finds silhouettes on this driver.
+    pub way: String,
     pub rows: Vec<Row>,
     /// Bad input: what, and what happened.
     pub refusals: Vec<Refusal>,
@@ -69,13 +73,18 @@ impl Table {
              {width}x{height} pixels, against exact ray casting in f64. A pixel is *interior* where \
              resolution is no excuse: a pixel (volumes), or 1.5 texels plus the kernel's radius \
              (maps), away from any edge of the true shadow.\n\n\
-             `0` means: no interior pixel is wrong in any round. A figure is a **known limit**: the \
-             wrong interior pixels in per cent of those that face the light; why is said below the \
-             table. **FAILS** is a defect. `-`: does not apply.\n",
-            self.command, self.date, self.driver, self.rounds
+             `0` means: no interior pixel is wrong in any round; `0 (edges)`, that only edges suffer \
+             more than they do elsewhere. A figure is a **known limit**: the wrong interior pixels in \
+             per cent of those that face the light. Why is said below the table, and how much it may \
+             be: above that it fails. **FAILS** is a defect. `-`: does not apply.\n\n\
+             On this driver `volume` found its silhouettes in the way `Silhouettes::{}`, as did the \
+             other volumes that name no way: `Auto` takes `Compute` on a GPU, which `volume-compute` \
+             does here, and `Cpu` on a software adapter.\n",
+            self.command, self.date, self.driver, self.rounds, self.way
         );
         self.results(&mut text);
         self.limits(&mut text);
+        self.seams(&mut text);
         self.inputs(&mut text);
         self.descriptions(&mut text);
         text
@@ -99,17 +108,36 @@ impl Table {
                 for why in &outcome.limits {
                     let _ = writeln!(
                         text,
-                        "- {}, {technique}: {why} ({} of {} pixels; edges included {:.3} %).",
+                        "- {}, {technique}: {why} ({} of {} pixels; edges included {:.3} %{}).",
                         row.name,
-                        outcome.interior,
+                        outcome.interior(),
                         outcome.counted,
-                        outcome.wrong_percent()
+                        outcome.wrong_percent(),
+                        bound(row.name, technique)
                     );
                 }
             }
         }
         for failure in self.failures() {
             let _ = writeln!(text, "- **FAILS**: {failure}.");
+        }
+        text.push('\n');
+    }
+
+    fn seams(&self, text: &mut String) {
+        let _ = write!(
+            text,
+            "## Cube seams against face centres\n\n\
+             Wrong pixels at the edges of shadows near seams and corners, by how much of them the \
+             width of a texel there explains, over the same at face centres; above {FACTOR} fails.\n\n\
+             | Technique | Seams over centres |\n|---|---|\n"
+        );
+        for row in &self.rows {
+            for (technique, outcome) in self.techniques.iter().zip(&row.outcomes) {
+                if let Some(rates) = outcome.as_ref().and_then(|outcome| outcome.rates) {
+                    let _ = writeln!(text, "| {technique} | {:.2} |", rates.ratio());
+                }
+            }
         }
         text.push('\n');
     }
@@ -170,7 +198,10 @@ impl Table {
                 "situations": outcome.situations,
                 "pixels": outcome.counted,
                 "wrong": outcome.wrong,
-                "interior": outcome.interior,
+                "false_lit": outcome.false_lit,
+                "false_shadow": outcome.false_shadow,
+                "worst_round": outcome.worst,
+                "seams_against_middle": outcome.rates.map(|rates| rates.ratio()),
                 "limits": outcome.limits,
                 "failures": outcome.failures,
             })
@@ -200,11 +231,22 @@ impl Table {
     }
 }
 
+/// What a known limit is bounded by.
+fn bound(case: &str, technique: &str) -> String {
+    limits::of(case, technique).map_or(String::new(), |limit| {
+        let [lit, shadow, all] = limit.at_most;
+        format!(
+            "; in a round at most {lit} % lit and {shadow} % in shadow falsely, {all} % with edges"
+        )
+    })
+}
+
 fn cell(outcome: &Option<Outcome>) -> String {
     match outcome {
         None => "-".into(),
         Some(outcome) if !outcome.failures.is_empty() => "**FAILS**".into(),
         Some(outcome) if outcome.limits.is_empty() => "0".into(),
+        Some(outcome) if outcome.interior() == 0 => "0 (edges)".into(),
         Some(outcome) => format!("{:.4} %", outcome.interior_percent()),
     }
 }

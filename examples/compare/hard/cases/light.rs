@@ -2,34 +2,25 @@
 
 use shadows::glam::{Affine3A, Vec3, Vec4};
 
+use super::Case;
 use super::camera::name;
-use super::{Case, Expect};
-use crate::hard::situation::{Situation, at, lamp};
+use crate::hard::situation::{Situation, at, lamp, with_spots};
 use crate::host::random::Random;
 use crate::host::shapes;
 
-pub const CASES: [Case; 8] = [
+pub const CASES: [Case; 9] = [
     Case {
         name: "Light very near a caster",
         build: "light in view, 1e-2, 1e-4 and 1e-6 above a square",
         answer: "finite, equals the reference",
         situations: near_a_caster,
-        textbook_volumes: Some(Expect::Reported(
-            "full caps: far triangles almost in one plane with the light are nearly singular",
-        )),
-        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
         ..Case::EXACT
     },
     Case {
         name: "Light 1e-6 from a tilted caster",
         build: "1e-6 of a triangle's size off a tilted square and off a tilted box's edge",
-        answer: "finite, equals the reference; nearer than 1e-5 reported",
+        answer: "finite, equals the reference; facing in f32: reported",
         situations: near_a_tilted_caster,
-        volumes: Expect::Reported(
-            "nearer than 1e-5 of a triangle's size f32 does not tell the light from its plane; the \
-             CPU way decides facing in f64",
-        ),
-        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
         ..Case::EXACT
     },
     Case {
@@ -51,14 +42,20 @@ pub const CASES: [Case; 8] = [
         build: "light = v, light = (a + b) / 2, of a box and of a square",
         answer: "no NaN, equals the reference elsewhere",
         situations: on_a_vertex,
-        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
         ..Case::EXACT
     },
     Case {
         name: "Beyond the light's range",
-        build: "a range that ends on the ground in view",
+        build: "a range that ends on the ground in view; receivers at the range and 1 ulp to either side",
         answer: "outside is not lit by this light; no wrap",
         situations: range,
+        ..Case::EXACT
+    },
+    Case {
+        name: "Cone's edge",
+        build: "casters across the edge of a spot of 10, 30 and 60 degrees to each side",
+        answer: "equals the reference in the cone",
+        situations: cone_edge,
         ..Case::EXACT
     },
     Case {
@@ -66,7 +63,6 @@ pub const CASES: [Case; 8] = [
         build: "a box at half the map's near distance",
         answer: "volumes shadow; maps do not, reported",
         situations: inside_near,
-        maps: Expect::Reported("a map begins at its near plane: what is nearer casts nothing"),
         ..Case::EXACT
     },
     Case {
@@ -79,7 +75,7 @@ pub const CASES: [Case; 8] = [
 ];
 
 fn near_a_caster(random: &mut Random) -> Vec<Situation> {
-    [1e-2f32, 1e-4, 1e-6]
+    let situations: Vec<Situation> = [1e-2f32, 1e-4, 1e-6]
         .into_iter()
         .map(|height| {
             // Just above 1, where f32 still tells 1e-6 apart.
@@ -92,7 +88,9 @@ fn near_a_caster(random: &mut Random) -> Vec<Situation> {
                     at(-1.5, 2.5, -1.0) * Affine3A::from_scale(Vec3::splat(0.7)),
                 )
         })
-        .collect()
+        .collect();
+    // At the sphere, which is lit; the lower side of the cone is all in the square's shadow.
+    with_spots(situations, Vec3::new(-1.5, 2.2, -1.0), 60.0)
 }
 
 fn near_a_tilted_caster(random: &mut Random) -> Vec<Situation> {
@@ -171,7 +169,7 @@ fn on_a_vertex(random: &mut Random) -> Vec<Situation> {
 }
 
 fn range(random: &mut Random) -> Vec<Situation> {
-    [6.5f32, 8.0]
+    let situations = [6.5f32, 8.0]
         .into_iter()
         .map(|range| {
             let light = lamp(random);
@@ -180,6 +178,52 @@ fn range(random: &mut Random) -> Vec<Situation> {
                 .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
             situation.scene.range = range;
             situation
+        })
+        .collect();
+    let mut situations = with_spots(situations, Vec3::ZERO, 45.0);
+    let ends = [6.0f32.next_down(), 6.0, 6.0f32.next_up()];
+    situations.extend(ends.map(|range| at_the_range(range, random)));
+    situations
+}
+
+/// A receiver 6 from the light, so small that all of it is: to its corners it is a third of an ulp
+/// farther. With a caster in range, which does not shadow it.
+fn at_the_range(range: f32, random: &mut Random) -> Situation {
+    let ulps = (range.to_bits() as i32) - 6.0f32.to_bits() as i32;
+    let light = Vec4::new(0.0, 6.0, 0.0, 1.0);
+    let mut situation = Situation::new(format!("6 away, range {ulps:+} ulp"), light, random)
+        .bare()
+        .receiver(&shapes::square(1e-3), Affine3A::IDENTITY)
+        .caster(&shapes::sphere(10), at(1.0, 2.0, 1.0))
+        .camera(Vec3::new(2e-4, 3e-3, 2e-3), Vec3::ZERO);
+    situation.scene.range = range;
+    situation.scene.camera.near = 1e-4;
+    situation.no_shadow_in_view = true;
+    situation
+}
+
+fn cone_edge(random: &mut Random) -> Vec<Situation> {
+    [10.0f32, 30.0, 60.0]
+        .into_iter()
+        .map(|degrees| {
+            let light = lamp(random);
+            let from = light.truncate();
+            let target = Vec3::new(0.0, 0.5, 0.0) + random.point(0.3);
+            let axis = (target - from).normalize();
+            let across = axis.cross(Vec3::Z).normalize();
+            let situation = Situation::new("lamp", light, random)
+                .spot(target, degrees)
+                .camera(Vec3::new(1.0, 8.0, 14.0), Vec3::ZERO);
+            // A little more than halfway to the ground along the cone's edge, on either side.
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            [-sine, sine]
+                .into_iter()
+                .fold(situation, |situation, side| {
+                    let ray = cosine * axis + side * across;
+                    let place = Affine3A::from_translation(from - 0.6 * from.y / ray.y * ray);
+                    let small = Affine3A::from_scale(Vec3::splat(0.35));
+                    situation.caster(&shapes::cube().tilted(), place * small)
+                })
         })
         .collect()
 }
@@ -194,7 +238,7 @@ fn inside_near(random: &mut Random) -> Vec<Situation> {
         )
         .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
     situation.scene.shadow_near = 1.0;
-    vec![situation]
+    with_spots(vec![situation], Vec3::ZERO, 40.0)
 }
 
 fn in_view(random: &mut Random) -> Vec<Situation> {

@@ -2,10 +2,11 @@
 
 mod camera;
 mod light;
-mod mesh;
+pub mod mesh;
 mod place;
 mod views;
 
+use super::expect::Expect;
 use super::situation::Situation;
 use crate::host::random::Random;
 
@@ -19,30 +20,13 @@ pub struct Case {
     pub answer: &'static str,
     /// Some scenes of it, other ones each time.
     pub situations: fn(&mut Random) -> Vec<Situation>,
+    /// But for the known limits, as for maps.
     pub volumes: Expect,
-    /// Of volumes as textbooks have them, where they are not expected to do as well.
-    pub textbook_volumes: Option<Expect>,
     pub maps: Expect,
-    /// Of maps of 16 bits, which are tried only where this is not [`Expect::Nothing`].
-    pub sixteen_bits: Expect,
-}
-
-/// What is expected of a kind of technique.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Expect {
-    /// Not one interior pixel is wrong.
-    Exact,
-    /// It cannot be right, for this reason; how wrong it is gets reported and is no failure.
-    Reported(&'static str),
-    /// At most four interior pixels of a million are wrong, for this reason.
-    Rare(&'static str),
-    /// Streaks of one pixel may be wrong, for this reason: no wrong interior pixel has a wrong
-    /// neighbour both beside it and above or below it.
-    Streaks(&'static str),
-    /// Wrong only where the renderer says that its 8-bit counts may have wrapped.
-    Wraps,
-    /// Not tried.
-    Nothing,
+    /// Whether maps of 16 bits are tried, too.
+    pub sixteen_bits: bool,
+    /// Whether cube maps are asked if their seams are worse than their faces.
+    pub seams: bool,
 }
 
 impl Case {
@@ -52,9 +36,9 @@ impl Case {
         answer: "",
         situations: |_| Vec::new(),
         volumes: Expect::Exact,
-        textbook_volumes: None,
         maps: Expect::Exact,
-        sixteen_bits: Expect::Nothing,
+        sixteen_bits: false,
+        seams: false,
     };
 }
 

@@ -1,0 +1,203 @@
+//! What is known not to be right, and how wrong it may be.
+//!
+//! A bound is a quarter above the worst of four rounds, for another driver's and other seeds' sake,
+//! but at most one point above it: a technique that loses most of a shadow has no room for more. It
+//! is 0 where that kind of error did not occur.
+
+/// Why a technique cannot be right, and the bound of its errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    pub why: &'static str,
+    /// In each round, in per cent of the pixels that face the light: interior pixels lit falsely,
+    /// interior pixels in shadow falsely, and all that are wrong, edges included.
+    pub at_most: [f64; 3],
+}
+
+/// The limit of a technique on a case, if one is known.
+pub fn of(case: &str, technique: &str) -> Option<Limit> {
+    let row = ALL.iter().find(|row| row.is_of(case, technique))?;
+    Some(row.limit)
+}
+
+/// A known limit, and what has it. The first that fits counts.
+pub struct Known {
+    /// A case's name, or `*` for all of them.
+    pub case: &'static str,
+    /// A technique's name, or the beginning of several before a `*`.
+    pub technique: &'static str,
+    pub limit: Limit,
+}
+
+impl Known {
+    /// Whether it is about this technique on this case.
+    pub fn is_of(&self, case: &str, technique: &str) -> bool {
+        fits(self.case, case) && fits(self.technique, technique)
+    }
+}
+
+fn fits(pattern: &str, name: &str) -> bool {
+    match pattern.strip_suffix('*') {
+        Some(start) => name.starts_with(start),
+        None => name == pattern,
+    }
+}
+
+const fn known(
+    case: &'static str,
+    technique: &'static str,
+    why: &'static str,
+    at_most: [f64; 3],
+) -> Known {
+    Known {
+        case,
+        technique,
+        limit: Limit { why, at_most },
+    }
+}
+
+/// A few pixels of any scene, and more where distances are short or very long; a hundredth of a per cent
+/// is the least bound, since so few pixels are a matter of chance.
+const TEXTBOOK: &str = "the textbook's constant bias is 0.15, whatever the scene";
+const GRAZING: &str = "one texel covers 1/N.L texels of ground along the light";
+const NEAR: &str = "a cube map begins at its near plane: what is nearer casts nothing";
+const RIM: &str = "outside the map all is lit: where a spot's cone touches its side, half of a disk \
+                   lies outside";
+const FULL_CAPS: &str =
+    "full caps: far triangles almost in one plane with the light are nearly singular";
+const FACING: &str = "nearer than 1e-5 of a triangle's size f32 does not tell the light from its \
+                      plane; the CPU way decides facing in f64";
+const THIN: &str = "what no texel's centre sees casts nothing";
+const SIXTEEN_BITS: &str = "steps of depth/65535 of a range of 1000";
+
+/// All of them.
+pub const ALL: &[Known] = &[
+    known(
+        "Camera inside a shadow volume",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.021, 0.43],
+    ),
+    known(
+        "Receiver far away",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.029, 0.15],
+    ),
+    known(
+        "Nothing drawn at a pixel",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 3.1, 4.2],
+    ),
+    known(
+        "Grazing light",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.01, 15.0],
+    ),
+    known(
+        "Light very near a caster",
+        "cube-textbook",
+        TEXTBOOK,
+        [90.8, 0.04, 91.8],
+    ),
+    known(
+        "Light 1e-6 from a tilted caster",
+        "cube-textbook",
+        TEXTBOOK,
+        [34.9, 0.01, 35.7],
+    ),
+    known(
+        "Beyond the light's range",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.98, 3.3],
+    ),
+    known(
+        "Caster inside the near sphere",
+        "cube-textbook",
+        TEXTBOOK,
+        [3.2, 0.025, 3.8],
+    ),
+    known(
+        "Non-manifold edge",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.05, 0.2],
+    ),
+    known("Instances", "cube-textbook", TEXTBOOK, [0.01, 0.067, 0.31]),
+    known(
+        "Far from the origin",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.12, 0.22],
+    ),
+    known("Scale", "cube-textbook", TEXTBOOK, [5.1, 4.1, 9.2]),
+    known("Touching", "cube-textbook", TEXTBOOK, [0.01, 0.46, 0.48]),
+    known(
+        "Courtyard from anywhere",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.046, 2.2],
+    ),
+    known(
+        "Teapot from anywhere",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.018, 0.031, 0.3],
+    ),
+    known("Cone's edge", "flat-disk", RIM, [0.0022, 0.0, 0.014]),
+    known(
+        "Thin caster",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.01, 0.082],
+    ),
+    known("*", "cube-textbook", TEXTBOOK, [0.01, 0.01, 0.57]),
+    known("Grazing light", "cube-*", GRAZING, [0.0, 0.0, 15.0]),
+    known("Grazing light", "flat-*", GRAZING, [0.0, 0.00029, 8.4]),
+    known(
+        "Light very near a caster",
+        "volume-textbook",
+        FULL_CAPS,
+        [1.4, 0.0, 1.4],
+    ),
+    known(
+        "Light very near a caster",
+        "cube-*",
+        NEAR,
+        [90.8, 0.0, 91.8],
+    ),
+    known(
+        "Light 1e-6 from a tilted caster",
+        "cube-*",
+        NEAR,
+        [34.9, 0.0, 35.7],
+    ),
+    known(
+        "Light 1e-6 from a tilted caster",
+        "volume-compute",
+        FACING,
+        [35.0, 0.0, 35.7],
+    ),
+    known(
+        "Light 1e-6 from a tilted caster",
+        "volume-vertex",
+        FACING,
+        [35.0, 0.0, 35.7],
+    ),
+    known(
+        "Caster inside the near sphere",
+        "cube-*",
+        NEAR,
+        [3.2, 0.0, 3.8],
+    ),
+    known("Thin caster", "cube-*", THIN, [0.0, 0.0, 0.05]),
+    known("Thin caster", "flat-*", THIN, [0.0, 0.0, 0.04]),
+    known(
+        "16-bit map",
+        "cube-2x2-16-bit",
+        SIXTEEN_BITS,
+        [0.0, 0.0, 0.057],
+    ),
+];
