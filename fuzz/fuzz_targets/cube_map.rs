@@ -28,6 +28,9 @@ struct Settings {
     format: u8,
     passes: u8,
     still_layers: Still,
+    /// Whether the first lights stay and every frame is encoded: what is drawn again and again shows
+    /// only then what is kept under it.
+    steady: bool,
 }
 
 /// Where casters that stand still are kept.
@@ -105,7 +108,9 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
     let scenes = story.upload();
     let mut lights = Vec::new();
     for frame in &story.frames {
-        if let Some(new) = &frame.lights {
+        if let Some(new) = &frame.lights
+            && (lights.is_empty() || !settings.steady)
+        {
             lights = new.iter().flatten().map(Light::point).collect();
         }
         let pinned: Vec<usize> = frame.pinned.iter().map(|&light| light.into()).collect();
@@ -130,7 +135,7 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
                 assert_eq!(map.statistics(), before, "{error}: as it was");
             }
         }
-        if frame.encoded {
+        if frame.encoded || settings.steady {
             submit(|encoder| map.encode(encoder));
         }
     }
