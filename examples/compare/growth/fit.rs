@@ -35,7 +35,7 @@ pub fn added(points: &[(f64, f64)]) -> Option<Fit> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
     let ((_, start), (_, end)) = (*sorted.first()?, *sorted.last()?);
-    if !(end > 1.25 * start) {
+    if end.is_nan() || end <= 1.25 * start {
         return None;
     }
     let rest: Vec<(f64, f64)> = sorted[1..].iter().map(|&(x, y)| (x, y - start)).collect();
