@@ -41,7 +41,7 @@ fn at(mesh: &CasterMesh, place: Vec3) -> Caster {
 }
 
 fn light_at(position: Vec3) -> PointLight {
-    PointLight::new(position, 0.1, 12.0)
+    PointLight::new(position, 12.0)
 }
 
 /// Casters that stand around on all faces, and one before them on the face +X, the last.

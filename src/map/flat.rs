@@ -11,6 +11,7 @@ use super::flat_descriptor::{
     FlatLight, FlatLightUniform, ShadowFrame, ShadowMapDescriptor, ShadowMapStatistics,
 };
 use super::flat_frame::{Fit, FlatFrame, fit};
+use super::near::NearPlane;
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
 use super::texture;
@@ -52,6 +53,7 @@ pub struct ShadowMap {
     texture: wgpu::Texture,
     view: wgpu::TextureView,
     kind: PipelineKind,
+    near_plane: NearPlane,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -124,6 +126,7 @@ impl ShadowMap {
                 label: Some(&label),
                 ..Default::default()
             }),
+            near_plane: NearPlane::new(device, kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -263,7 +266,10 @@ impl ShadowMap {
     /// Where the map lies for a frame, if anything casts.
     fn place(&mut self, frame: &ShadowFrame<'_>) -> Result<(), ShadowMapError> {
         let (placed, width) = match &frame.light {
-            FlatLight::Spot(light) => (Some(FlatFrame::of_spot(light)), self.width),
+            FlatLight::Spot(light) => {
+                let near = self.near_plane.of_spot(light);
+                (Some(FlatFrame::of_spot(light, near)), self.width)
+            }
             FlatLight::Directional(light) => {
                 let fitted = fit(
                     &Fit {

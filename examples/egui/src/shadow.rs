@@ -60,7 +60,6 @@ pub enum DebugView {
 pub struct Frame<'a> {
     pub view: View,
     pub light: HomogeneousLight,
-    pub near: f32,
     pub range: f32,
     pub casters: &'a [Caster],
     /// Pixels of the picture.
@@ -201,7 +200,7 @@ impl Shadows {
         let casters = frame.casters;
         match &mut self.means {
             Means::Cube(cube) => {
-                let lights = [PointLight::new(position, frame.near, frame.range)];
+                let lights = [PointLight::new(position, frame.range)];
                 let frame = CubeFrame {
                     lights: &lights,
                     casters,

@@ -184,7 +184,6 @@ impl Viewport {
         let frame = Frame {
             view: renderer::view(&self.scene, paint.size)?,
             light: HomogeneousLight(paint.light),
-            near: self.scene.shadow_near,
             range: self.scene.range,
             casters: &self.scene_gpu.casters,
             size: paint.size,
