@@ -156,13 +156,13 @@ fn more_casters_than_a_buffer_holds_are_refused() {
         casters: &casters[..count],
         ..Default::default()
     };
-    let encode = |map: &CubeShadowMap| {
+    let encode = |map: &mut CubeShadowMap| {
         let mut encoder = device.create_command_encoder(&Default::default());
         map.encode(&mut encoder);
         queue.submit([encoder.finish()]);
     };
     map.prepare(&device, &queue, &of(85)).unwrap();
-    encode(&map);
+    encode(&mut map);
     let before = map.statistics();
     let error = map.prepare(&device, &queue, &of(86)).unwrap_err();
     assert_eq!(
@@ -175,7 +175,7 @@ fn more_casters_than_a_buffer_holds_are_refused() {
     );
     // What was drawn before still stands, and is known to.
     assert_eq!(map.statistics(), before);
-    encode(&map);
+    encode(&mut map);
     map.prepare(&device, &queue, &of(85)).unwrap();
     let after = map.statistics();
     assert_eq!((before.faces_rendered, after.faces_rendered), (6, 0));

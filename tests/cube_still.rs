@@ -137,7 +137,7 @@ impl Stage<'_> {
                 self.deformed.mesh.bump_revision();
             }
             Step::OwnPass(face) => {
-                for map in &self.maps {
+                for map in &mut self.maps {
                     self.gpu
                         .run(|encoder| drop(map.begin_face(encoder, 0, CubeFace::ALL[face])));
                 }

@@ -218,8 +218,8 @@ impl Shadow {
     }
 
     /// Records what finds the shadows: the map, or the volumes and their stencil pass.
-    pub fn generate(&self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
-        match &self.means {
+    pub fn generate(&mut self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+        match &mut self.means {
             Means::Cube { map, .. } => map.encode(encoder),
             Means::Flat { map, .. } => map.encode(encoder),
             Means::Volume { volumes, counts } => {

@@ -192,7 +192,7 @@ impl ShadowMap {
 
     /// Records the pass that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if !self.pending.swap(false, Ordering::Relaxed) {
             return;
         }
@@ -214,7 +214,7 @@ impl ShadowMap {
     /// pass such a host's other casters through its own draws too. The casters of
     /// [`prepare`](Self::prepare) still decide where a directional light's map lies.
     pub fn begin_pass<'encoder>(
-        &self,
+        &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
         self.pending.store(false, Ordering::Relaxed);

@@ -222,7 +222,7 @@ impl Shadows {
 
     /// Second verb: what is drawn before the lit pass, once the scene's depth is there.
     pub fn encode(&self, renderer: &Renderer, encoder: &mut wgpu::CommandEncoder) {
-        match &self.means {
+        match &mut self.means {
             Means::Cube(cube) => cube.map.encode(encoder),
             Means::Flat(map, _) => map.encode(encoder),
             Means::Volumes(volumes) => {
