@@ -61,7 +61,6 @@ const TEXTBOOK: &str = "the textbook's constant bias is 0.15, whatever the scene
 const GRAZING: &str = "one texel covers 1/N.L texels of ground along the light";
 const CLIPPED: &str = "rasterisers clip in f32: the edges of a triangle a million times as large as its \
                        distance from the light move by a texel where they leave a face";
-seen from as near, that turns its silhouette";
 const RIM: &str = "outside the map all is lit: where a spot's cone touches its side, half of a disk \
                    lies outside";
 const FULL_CAPS: &str =
