@@ -273,7 +273,10 @@ fn instances_are_drawn_where_they_stand() {
         ("SCALE", FLOAT, "VEC3", 1, floats(&[1.0; 3])),
     ]);
     assert_refused(&unequal, "of one count, not {1, 2}");
-    assert_refused(&instanced(&[]), "node 3: its EXT_mesh_gpu_instancing");
+    assert_refused(
+        &instanced(&[]),
+        "node 3: EXT_mesh_gpu_instancing: it needs attributes",
+    );
     let missing = glb("missing.glb", |json, _| {
         let extension = json!({ "attributes": { "TRANSLATION": 99 } });
         json["nodes"][1]["extensions"] = json!({ "EXT_mesh_gpu_instancing": extension });

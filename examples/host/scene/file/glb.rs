@@ -7,12 +7,13 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use gltf::mesh::Mode;
 use gltf::{Document, Node, Primitive, Semantic};
-use shadows::glam::{Affine3A, DMat4, DQuat, Mat4, Quat, Vec3};
+use shadows::glam::{Affine3A, DMat4, Mat4};
 
 use super::{Model, checked};
 
 mod accessor;
 mod document;
+mod instances;
 
 use accessor::Buffers;
 
@@ -110,61 +111,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Node space from each instance's (EXT_mesh_gpu_instancing), or the node's own alone.
+    /// Node space from each instance's, or the node's own alone.
     fn instances(&self, node: &Node) -> Result<Vec<DMat4>> {
-        let Some(extension) = node.extension_value(document::INSTANCING) else {
-            return Ok(vec![DMat4::IDENTITY]);
-        };
-        let context = || format!("its {}", document::INSTANCING);
-        let attributes = &extension["attributes"];
-        let accessor = |name: &str| {
-            let place = attributes.get(name)?;
-            let index = place.as_u64().and_then(|index| usize::try_from(index).ok());
-            let found = index.and_then(|index| self.document.accessors().nth(index));
-            Some(found.with_context(|| format!("{name} has no accessor {place}")))
-        };
-        let vectors = |name| {
-            let found = accessor(name).transpose()?;
-            found.map(|a| self.buffers.floats::<3>(&a)).transpose()
-        };
-        let read = || -> Result<_> {
-            let rotations = accessor("ROTATION").transpose()?;
-            let rotations = rotations.map(|a| self.buffers.floats::<4>(&a));
-            Ok((
-                vectors("TRANSLATION")?,
-                rotations.transpose()?,
-                vectors("SCALE")?,
-            ))
-        };
-        let (translations, rotations, scales) = read().with_context(context)?;
-        let counts: BTreeSet<usize> = [
-            translations.as_ref().map(Vec::len),
-            rotations.as_ref().map(Vec::len),
-            scales.as_ref().map(Vec::len),
-        ]
-        .into_iter()
-        .flatten()
-        .collect();
-        ensure!(
-            counts.len() == 1,
-            "its {} needs attributes of one count, not {counts:?}",
-            document::INSTANCING
-        );
-        let instance = |i: usize| {
-            let translation = translations.as_ref().map_or(Vec3::ZERO, |t| t[i].into());
-            let rotation = rotations
-                .as_ref()
-                .map(|r| Quat::from_array(r[i]).as_dquat());
-            let scale = scales.as_ref().map_or(Vec3::ONE, |s| s[i].into());
-            DMat4::from_scale_rotation_translation(
-                scale.as_dvec3(),
-                rotation.map_or(DQuat::IDENTITY, DQuat::normalize),
-                translation.as_dvec3(),
-            )
-        };
-        Ok((0..counts.into_iter().next().unwrap_or(0))
-            .map(instance)
-            .collect())
+        match node.extension_value(document::INSTANCING) {
+            Some(extension) => instances::read(self.document, &self.buffers, extension)
+                .context(document::INSTANCING),
+            None => Ok(vec![DMat4::IDENTITY]),
+        }
     }
 
     /// Reads the triangles of a primitive, if it has some, and says where they are.
