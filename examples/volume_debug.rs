@@ -5,7 +5,8 @@
 //! `cargo run --release --example volume_debug -- --start docs/volume-start.png`
 //!
 //! From the top left: the shaded scene; the volumes' surfaces and silhouette edges; stencil counts;
-//! casters by what was decided for them.
+//! casters by what was decided for them. The eye is in the shadow of the sphere before it, which is why that
+//! one is counted by z-fail, and why the sides of its volume (orange) are all around.
 
 #[path = "host/mod.rs"]
 mod host;
