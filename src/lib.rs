@@ -149,6 +149,7 @@ pub mod light;
 pub mod map;
 pub mod mesh;
 pub mod pcf;
+mod record;
 #[cfg(feature = "reference")]
 pub mod reference;
 pub mod support;
