@@ -119,7 +119,9 @@ impl Studio {
         prepare
             + self.timer.time(&self.gpu, |encoder| {
                 volumes.encode(encoder);
-                volumes.render(&mut self.host.begin_stencil_pass(encoder));
+                volumes
+                    .render(&mut self.host.begin_stencil_pass(encoder))
+                    .expect("it is encoded");
             })
     }
 

@@ -183,7 +183,8 @@ impl<'a> Panels<'a> {
             self.volumes.encode(encoder);
             self.renderer.draw_ambient(encoder, &self.scene);
             self.volumes
-                .render(&mut self.renderer.begin_stencil_pass(encoder));
+                .render(&mut self.renderer.begin_stencil_pass(encoder))
+                .expect("it is encoded");
             self.renderer.draw_lit(encoder, &self.scene, &lit, None);
             over(&mut self.renderer.begin_overlay_pass(encoder));
         });

@@ -5,7 +5,7 @@ use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
 use super::silhouette::{Way, Ways};
-use crate::record::Uploads;
+use crate::uploads::Uploads;
 
 /// A buffer that grows.
 #[derive(Debug)]

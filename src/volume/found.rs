@@ -4,7 +4,7 @@ use super::buffers::Buffers;
 use super::kept::Slot;
 use super::silhouette::CpuVolume;
 use crate::mesh::MeshData;
-use crate::record::{Copy, Stream, Uploads};
+use crate::uploads::{Copy, Stream, Uploads};
 
 /// Bytes of one list of a chunk that lie together, where they wait as well as where they go.
 struct Run {

@@ -14,7 +14,8 @@ use super::subject::words;
 use super::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
 use crate::error::{ShadowVolumeError, VolumeRenderError};
-use crate::record::{Submissions, Uploads};
+use crate::submissions::Submissions;
+use crate::uploads::Uploads;
 
 /// Stencil shadow volumes of one light for any number of casters.
 ///
@@ -169,7 +170,7 @@ impl ShadowVolumeRenderer {
             keep: self.keep,
         };
         let outline = Outline::new(frame, device, &self.limits, &means)?;
-        self.forget();
+        let [not_encoded, encoder_dropped] = self.forget();
         self.kept.update(&outline.subjects, frame.casters);
         let found = self.find();
         let mut plan = Plan::new(outline, frame, &self.options, &self.limits, &self.kept);
@@ -180,7 +181,12 @@ impl ShadowVolumeRenderer {
             self.buffers.write(device, &mut self.uploads, &plan);
             found.write(&mut self.uploads, &self.buffers);
         }
-        plan.statistics.gpu_bytes = self.buffers.bytes();
+        plan.statistics = VolumeStatistics {
+            gpu_bytes: self.buffers.bytes(),
+            not_encoded,
+            encoder_dropped,
+            ..plan.statistics
+        };
         self.plan = plan;
         self.encoded = false;
         self.bind();
@@ -242,7 +248,7 @@ impl ShadowVolumeRenderer {
         if !self.encoded {
             return Err(VolumeRenderError::NotEncoded);
         }
-        if self.submissions.is_one_lost() {
+        if self.submissions.is_dropped() {
             return Err(VolumeRenderError::Dropped);
         }
         if self.plan.draws.is_empty() {
@@ -354,14 +360,18 @@ impl ShadowVolumeRenderer {
         self.count_bound() >= self.counter.end()
     }
 
-    /// Lets go what of the last frame cannot be counted on.
-    fn forget(&mut self) {
+    /// Lets go what of the last frame cannot be counted on. Whether it was not encoded, and whether
+    /// an encoder was dropped.
+    fn forget(&mut self) -> [bool; 2] {
         self.uploads.clear();
-        if self.submissions.forgive() || !self.keep {
+        let dropped = self.submissions.take_dropped();
+        let not_encoded = !(self.encoded || self.plan.draws.is_empty());
+        if dropped || !self.keep {
             self.kept.clear();
-        } else if !self.encoded {
+        } else if not_encoded {
             self.kept.forget_wanted();
         }
+        [not_encoded, dropped]
     }
 
     /// Finds a place for everything that is new, and on the CPU what is found there.

@@ -221,7 +221,9 @@ impl Means {
             Self::Volumes(volumes) => {
                 for volumes in volumes {
                     volumes.encode(encoder);
-                    volumes.render(&mut renderer.begin_stencil_pass(encoder));
+                    volumes
+                        .render(&mut renderer.begin_stencil_pass(encoder))
+                        .expect("it is encoded");
                 }
             }
         }

@@ -23,6 +23,8 @@ pub(crate) struct Copy {
 #[derive(Debug)]
 pub(crate) struct Uploads {
     belt: StagingBelt,
+    /// The device's largest buffer.
+    limit: u64,
     /// What a buffer held that was made anew: copied before everything else.
     moved: Vec<Copy>,
     copies: Vec<Copy>,
@@ -32,8 +34,10 @@ pub(crate) struct Uploads {
 
 impl Uploads {
     pub fn new(device: &wgpu::Device) -> Self {
+        let limit = device.limits().max_buffer_size;
         Self {
-            belt: StagingBelt::new(device.clone(), CHUNK),
+            belt: StagingBelt::new(device.clone(), CHUNK.min(limit)),
+            limit,
             moved: Vec::new(),
             copies: Vec::new(),
             waits: false,
@@ -93,7 +97,8 @@ impl Uploads {
 
     fn block(&mut self, size: wgpu::BufferSize) -> Option<Block> {
         // Few sizes, so that a buffer that comes back fits again.
-        let size = size.get().checked_next_power_of_two()?.max(CHUNK);
+        let room = size.get().checked_next_power_of_two()?.max(CHUNK);
+        let size = room.min(self.limit).max(size.get());
         let alignment = wgpu::BufferSize::new(wgpu::COPY_BUFFER_ALIGNMENT)?;
         self.waits = true;
         let slice = self.belt.allocate(wgpu::BufferSize::new(size)?, alignment);
