@@ -14,6 +14,7 @@ use super::flat_frame::{Fit, FlatFrame, fit};
 use super::near::NearPlane;
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
+use super::step::depth_step;
 use super::texture;
 use crate::error::ShadowMapError;
 use crate::mesh::Caster;
@@ -54,6 +55,7 @@ pub struct ShadowMap {
     view: wgpu::TextureView,
     kind: PipelineKind,
     near_plane: NearPlane,
+    depth_step: f32,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -127,6 +129,7 @@ impl ShadowMap {
                 ..Default::default()
             }),
             near_plane: NearPlane::new(device, kind.format, kind.encoding),
+            depth_step: depth_step(device, kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -346,8 +349,8 @@ impl ShadowMap {
     }
 
     fn upload(&self, queue: &wgpu::Queue) {
-        let format = self.texture.format();
-        let light = FlatLightUniform::new(self.frame.as_ref(), &self.bias, self.size, format);
+        let (frame, step) = (self.frame.as_ref(), self.depth_step);
+        let light = FlatLightUniform::new(frame, &self.bias, self.size, step);
         queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
         if let Some(frame) = self.frame {
             let face = FaceUniform {
