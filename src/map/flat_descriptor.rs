@@ -28,7 +28,7 @@ pub struct ShadowMapDescriptor<'a> {
     /// Whether casters before the near plane are pulled onto it, on devices with
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL). Default true. On others a
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
-    /// than its `near`.
+    /// than its [`near`](SpotLight::near).
     pub unclipped_depth: bool,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
     /// that reads the map. A directional light's map is fitted that much wider than what is seen and
@@ -166,12 +166,7 @@ pub(crate) struct FlatLightUniform {
 
 impl FlatLightUniform {
     /// `frame` is `None` where nothing casts.
-    pub(super) fn new(
-        frame: Option<&FlatFrame>,
-        bias: &Bias,
-        size: u32,
-        format: wgpu::TextureFormat,
-    ) -> Self {
+    pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32, quantum: f32) -> Self {
         let Some(frame) = frame else {
             return Self {
                 quantum: -1.0,
@@ -195,7 +190,7 @@ impl FlatLightUniform {
                 false => bias.constant * texel / frame.range,
             },
             perspective: f32::from(u8::from(frame.perspective)),
-            quantum: quantum(format).unwrap_or(0.0),
+            quantum,
         }
     }
 }
