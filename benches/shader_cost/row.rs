@@ -69,7 +69,29 @@ fn row(case: &Case, stages: &[&Stage]) -> Result<Row> {
     let mut loops = Vec::new();
     let (mut vgprs, mut waves) = (0, u32::MAX);
     for stage in stages {
-        let (outside, found) = assembly::count(&stage.assembly);)
+        let (outside, found) = assembly::count(&stage.assembly);
+        sum += outside;
+        loops.extend(found);
+        vgprs = vgprs.max(stage.statistic("VGPRs")?);
+        waves = waves.min(stage.statistic("Subgroups per SIMD")?);
+    }
+    ensure!(
+        loops.len() == case.trips.len(),
+        "{} loops in the code, {} expected: {loops:?}",
+        loops.len(),
+        case.trips.len()
+    );
+    let loops: Vec<Loop> = loops
+        .iter()
+        .zip(&case.trips)
+        .map(|(counts, &trips)| {
+            sum += counts.times(trips.into());
+            Loop {
+                trips,
+                valu: counts.valu,
+                texture: counts.texture,
+            }
+        })
         .collect();
     Ok(Row {
         name: case.name.clone(),
