@@ -10,9 +10,8 @@
 //! cargo bench --bench shader_cost -- --keep             # what `--check` compares with, from now on
 //! ```
 //!
-//! What is kept belongs to a version of Mesa: `shader_cost/kept/VERSION.json`, with the reason for its
-//! last change in its first line. Without RADV or without a file for its version nothing is compared, and
-//! that is said.
+//! What is kept belongs to a version of Mesa: `shader_cost/kept/`. Without RADV, or without a file for its
+//! version, nothing is compared, and that is said.
 
 #[path = "shader_cost/assembly.rs"]
 mod assembly;
