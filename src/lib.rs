@@ -60,7 +60,7 @@
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
 //! let mesh = CasterMesh::new(&device, &positions, &adjacency)?;
 //! let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
-//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 0.1, 30.0);
+//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 30.0);
 //!
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;

@@ -10,6 +10,7 @@ use super::draws::DrawLists;
 use super::face::CubeFace;
 use super::joint::Joint;
 use super::light::LightUniform;
+use super::near::NearPlane;
 use super::plan::SlotPlan;
 use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
@@ -73,6 +74,7 @@ pub struct CubeShadowMap {
     pub(super) array: bool,
     pub(super) format: wgpu::TextureFormat,
     pub(super) encoding: DepthEncoding,
+    pub(super) near_plane: NearPlane,
     pub(super) allocation: Allocation,
     pub(super) cache: bool,
     pub(super) budget: Option<u32>,
@@ -161,6 +163,7 @@ impl CubeShadowMap {
             array: cube_array,
             format,
             encoding,
+            near_plane: NearPlane::new(device, format, encoding),
             allocation: descriptor.allocation,
             cache: descriptor.cache,
             budget: descriptor.max_faces_per_frame,
@@ -229,7 +232,8 @@ impl CubeShadowMap {
     pub fn clip_from_world(&self, light: usize, face: CubeFace) -> Option<Mat4> {
         let slot = &self.slots[*self.order.get(light)?];
         let light = slot.shown.or(slot.light)?;
-        Some(face.clip_from_light(light.near) * Mat4::from_translation(-light.position))
+        let near = self.near_plane.of_point(&light);
+        Some(face.clip_from_light(near) * Mat4::from_translation(-light.position))
     }
 
     /// A light's texture and the first of its six layers, in the order of [`CubeFace::ALL`]; `None`

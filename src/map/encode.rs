@@ -10,7 +10,7 @@ use super::resources::UNIFORM_STRIDE;
 impl CubeShadowMap {
     /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         // A bind group that was made before there were texels, and is not made again, says lit.
         for view in self.textures.blank() {
             drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -80,7 +80,7 @@ impl CubeShadowMap {
     /// is cleared, so pass such a host's other casters through its own draws too. The next
     /// `prepare` takes the face's content for unknown and draws it again.
     pub fn begin_face<'encoder>(
-        &self,
+        &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
         light: usize,
         face: CubeFace,

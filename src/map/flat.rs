@@ -11,6 +11,7 @@ use super::flat_descriptor::{
     FlatLight, FlatLightUniform, ShadowFrame, ShadowMapDescriptor, ShadowMapStatistics,
 };
 use super::flat_frame::{Fit, FlatFrame, fit};
+use super::near::NearPlane;
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
 use super::texture;
@@ -52,6 +53,7 @@ pub struct ShadowMap {
     texture: wgpu::Texture,
     view: wgpu::TextureView,
     kind: PipelineKind,
+    near_plane: NearPlane,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -124,6 +126,7 @@ impl ShadowMap {
                 label: Some(&label),
                 ..Default::default()
             }),
+            near_plane: NearPlane::new(device, kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -192,7 +195,7 @@ impl ShadowMap {
 
     /// Records the pass that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if !self.pending.swap(false, Ordering::Relaxed) {
             return;
         }
@@ -214,7 +217,7 @@ impl ShadowMap {
     /// pass such a host's other casters through its own draws too. The casters of
     /// [`prepare`](Self::prepare) still decide where a directional light's map lies.
     pub fn begin_pass<'encoder>(
-        &self,
+        &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
         self.pending.store(false, Ordering::Relaxed);
@@ -263,7 +266,10 @@ impl ShadowMap {
     /// Where the map lies for a frame, if anything casts.
     fn place(&mut self, frame: &ShadowFrame<'_>) -> Result<(), ShadowMapError> {
         let (placed, width) = match &frame.light {
-            FlatLight::Spot(light) => (Some(FlatFrame::of_spot(light)), self.width),
+            FlatLight::Spot(light) => {
+                let near = self.near_plane.of_spot(light);
+                (Some(FlatFrame::of_spot(light, near)), self.width)
+            }
             FlatLight::Directional(light) => {
                 let fitted = fit(
                     &Fit {

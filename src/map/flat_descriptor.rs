@@ -28,7 +28,7 @@ pub struct ShadowMapDescriptor<'a> {
     /// Whether casters before the near plane are pulled onto it, on devices with
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL). Default true. On others a
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
-    /// than its `near`.
+    /// than its [`near`](SpotLight::near).
     pub unclipped_depth: bool,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
     /// that reads the map. A directional light's map is fitted that much wider than what is seen and

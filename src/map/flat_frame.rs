@@ -33,7 +33,7 @@ fn axes(forward: DVec3) -> [Vec3; 3] {
 }
 
 impl FlatFrame {
-    pub fn of_spot(light: &SpotLight) -> Self {
+    pub fn of_spot(light: &SpotLight, near: f32) -> Self {
         let [right, up, forward] = axes(light.direction.as_dvec3());
         Self {
             origin: light.position,
@@ -41,7 +41,7 @@ impl FlatFrame {
             up,
             forward,
             scale: 1.0 / light.half_angle.tan(),
-            near: light.near,
+            near,
             range: light.range,
             perspective: true,
         }

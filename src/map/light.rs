@@ -32,6 +32,7 @@ pub(crate) struct LightUniform {
 impl LightUniform {
     pub(super) fn new(
         light: &PointLight,
+        near: f32,
         depths: Depths,
         size: u32,
         bias: &Bias,
@@ -40,7 +41,7 @@ impl LightUniform {
         let texel = 2.0 / size as f32;
         Self {
             position: light.position.to_array(),
-            near: light.near,
+            near,
             range: light.range,
             size: size as f32,
             normal_offset: bias.normal_offset * texel,

@@ -14,6 +14,7 @@ mod flat_frame;
 mod joint;
 mod light;
 mod masks;
+mod near;
 mod plan;
 mod reach;
 mod resources;

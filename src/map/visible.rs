@@ -212,7 +212,7 @@ mod tests {
                 (DVec3::new(random(&mut state), random(&mut state), random(&mut state)) * scale)
                     .as_vec3()
             };
-            let light = PointLight::new(vector(10.0), 0.1, 6.0);
+            let light = PointLight::new(vector(10.0), 6.0);
             let (eye, target, up) = match i % 2 {
                 0 => (vector(15.0), vector(5.0), Vec3::new(0.1, 1.0, 0.0)),
                 // Nearly all of one face, and nothing of the others.

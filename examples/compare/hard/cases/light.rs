@@ -237,7 +237,7 @@ fn inside_near(random: &mut Random) -> Vec<Situation> {
             Affine3A::from_translation(below) * Affine3A::from_scale(Vec3::splat(0.05)),
         )
         .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
-    situation.scene.shadow_near = 1.0;
+    situation.scene.shadow_near = Some(1.0);
     with_spots(vec![situation], Vec3::ZERO, 40.0)
 }
 
