@@ -163,6 +163,7 @@ pub use {glam, wgpu};
 extern crate self as shadows;
 
 pub mod error;
+mod gl;
 pub mod light;
 pub mod map;
 pub mod mesh;
@@ -185,8 +186,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
-    AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,
-    VogelDisk,
+    AnyMap, ContactHardening, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
+    RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -33,7 +33,7 @@ fn cross(gpu: &Gpu, map: &CubeShadowMap, encoding: DepthEncoding) -> Vec<[u8; 4]
                 ..Default::default()
             },
         );
-        let group = cross.bind_group(&gpu.device, map, 0);
+        let group = cross.bind_group(&gpu.device, map, 0).unwrap();
         gpu.run(|encoder| {
             let view = target.create_view(&Default::default());
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -14,6 +14,7 @@ use super::flat_frame::{Fit, FlatFrame, fit};
 use super::near::NearPlane;
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
+use super::step::depth_step;
 use super::texture;
 use crate::error::ShadowMapError;
 use crate::mesh::Caster;
@@ -54,6 +55,7 @@ pub struct ShadowMap {
     view: wgpu::TextureView,
     kind: PipelineKind,
     near_plane: NearPlane,
+    depth_step: f32,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -98,9 +100,6 @@ impl ShadowMap {
         let (size, bias) = (descriptor.size, descriptor.bias);
         let texture = texture::create(device, &label, size, descriptor.format, 1);
         let (face, layout, face_group) = resources::faces(device, &label, 1);
-        let clip_control = device
-            .features()
-            .contains(wgpu::Features::DEPTH_CLIP_CONTROL);
         let kind = PipelineKind {
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(&label),
@@ -114,7 +113,7 @@ impl ShadowMap {
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
-            unclipped_depth: descriptor.unclipped_depth && clip_control,
+            unclipped_depth: descriptor.unclipped_depth && resources::can_pull_casters(device),
             constants: &[],
         };
         Ok(Self {
@@ -127,6 +126,7 @@ impl ShadowMap {
                 ..Default::default()
             }),
             near_plane: NearPlane::new(device, kind.format, kind.encoding),
+            depth_step: depth_step(device, kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -346,8 +346,8 @@ impl ShadowMap {
     }
 
     fn upload(&self, queue: &wgpu::Queue) {
-        let format = self.texture.format();
-        let light = FlatLightUniform::new(self.frame.as_ref(), &self.bias, self.size, format);
+        let (frame, step) = (self.frame.as_ref(), self.depth_step);
+        let light = FlatLightUniform::new(frame, &self.bias, self.size, step);
         queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
         if let Some(frame) = self.frame {
             let face = FaceUniform {
