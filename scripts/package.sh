@@ -10,7 +10,8 @@ package=$target/package
 cargo package --no-verify --allow-dirty --quiet --target-dir "$target"
 archive=$(ls -t "$package"/shadows-*.crate | head -n 1)
 rm -rf "${archive%.crate}"
-tar -xzf "$archive" -C "$package"
+# Times of now: those in the archive are all one, and cargo would take a change for none.
+tar -xzmf "$archive" -C "$package"
 cd "${archive%.crate}"
 export CARGO_TARGET_DIR="$target"
 "$@"
