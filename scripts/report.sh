@@ -2,7 +2,7 @@
 # Every picture and every measured figure of README.md and docs/, anew on this machine.
 #
 #   scripts/report.sh             all of them (an hour on two cores)
-#   scripts/report.sh PART...     some: scenes kernels volume-debug volume-start models egui
+#   scripts/report.sh PART...     some: scenes kernels volume-debug volume-start picture models egui
 #                                 speed-vs-error growth hard-cases temporal benches
 #   scripts/report.sh --check     whether those that take seconds are what it makes, times aside
 #   SMALL=1 scripts/report.sh ..  tries the script itself: the least sizes, docs/ left alone
@@ -54,6 +54,11 @@ volume_debug() {
 
 volume_start() {
     example volume_debug --start $docs/volume-start.png
+}
+
+# The picture in the crate's documentation.
+picture() {
+    [ -n "${SMALL:-}" ] || scripts/picture.sh
 }
 
 # Well-known models that are not part of this repository.
@@ -169,11 +174,11 @@ if [ -n "${SMALL:-}" ]; then
     swept='--technique volume,cube-2x2,cube-hard'
     BENCH_RUNS=1
 fi
-[ $# -gt 0 ] || set -- scenes kernels volume-debug volume-start models egui speed-vs-error growth \
-    hard-cases temporal benches
+[ $# -gt 0 ] || set -- scenes kernels volume-debug volume-start picture models egui speed-vs-error \
+    growth hard-cases temporal benches
 for part in "$@"; do
     case $part in
-    scenes | kernels | models | egui | growth | temporal | benches) $part ;;
+    scenes | kernels | picture | models | egui | growth | temporal | benches) $part ;;
     volume-debug) volume_debug ;;
     volume-start) volume_start ;;
     speed-vs-error) speed_vs_error ;;
