@@ -151,6 +151,7 @@ pub mod mesh;
 pub mod pcf;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod submissions;
 pub mod support;
 pub mod view;
 pub mod volume;

@@ -33,7 +33,7 @@ fn cross(gpu: &Gpu, map: &CubeShadowMap, encoding: DepthEncoding) -> Vec<[u8; 4]
                 ..Default::default()
             },
         );
-        let group = cross.bind_group(&gpu.device, map, 0);
+        let group = cross.bind_group(&gpu.device, map, 0).unwrap();
         gpu.run(|encoder| {
             let view = target.create_view(&Default::default());
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -69,7 +69,7 @@ fn expected(
             let (x, y) = (column * SIZE + i % SIZE, row * SIZE + i / SIZE);
             let along = match encoding {
                 DepthEncoding::MajorAxis => NEAR / (depth * LIGHT.range),
-                DepthEncoding::LinearDistance => depth,
+                _ => depth,
             };
             let grey = (255.0 * (1.0 - along.min(1.0))).round() as u8;
             picture[(y * 4 * SIZE + x) as usize] = match depth == encoding.clear_depth() {

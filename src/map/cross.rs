@@ -3,6 +3,7 @@
 use super::cube::CubeShadowMap;
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
+use crate::error::PcfError;
 
 /// How to make a [`CubeCross`].
 #[derive(Clone, Debug)]
@@ -43,6 +44,7 @@ pub struct CubeCross {
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
     pipeline: wgpu::RenderPipeline,
+    encoding: DepthEncoding,
 }
 
 impl CubeCross {
@@ -61,18 +63,32 @@ impl CubeCross {
             }),
             layout,
             label,
+            encoding: descriptor.encoding,
         }
     }
 
     /// The bind group for the light at place `light` of a map's frame. To be made again when
     /// [`CubeShadowMap::texture_revision`] changes.
+    ///
+    /// # Errors
+    /// [`PcfError`] if the map has another encoding, or was made for fewer lights.
     pub fn bind_group(
         &self,
         device: &wgpu::Device,
         map: &CubeShadowMap,
         light: usize,
-    ) -> wgpu::BindGroup {
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
+    ) -> Result<wgpu::BindGroup, PcfError> {
+        if map.encoding() != self.encoding {
+            return Err(PcfError::Encoding {
+                map: map.encoding(),
+                sampler: self.encoding,
+            });
+        }
+        let lights = map.most_lights();
+        if light >= lights {
+            return Err(PcfError::Light { light, lights });
+        }
+        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
             entries: &[
@@ -89,7 +105,7 @@ impl CubeCross {
                     resource: map.light_uniform(light),
                 },
             ],
-        })
+        }))
     }
 
     /// Draws into the pass's viewport. Group 0 and the pipeline are set to others after.

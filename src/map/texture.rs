@@ -1,7 +1,6 @@
 //! The textures of a cube map, made when the first light casts.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use super::face::CubeFace;
 
@@ -12,9 +11,8 @@ pub(super) struct SlotTexture {
     pub first_layer: u32,
     pub cube: wgpu::TextureView,
     pub faces: [wgpu::TextureView; 6],
-    /// Faces that have been cleared or drawn since the texture was made. Atomic because `encode`
-    /// borrows the map shared.
-    pub cleared: AtomicU8,
+    /// Faces that have been cleared or drawn since the texture was made.
+    pub cleared: u8,
     layers: OnceLock<wgpu::TextureView>,
 }
 
@@ -28,15 +26,10 @@ pub(super) struct Textures {
     array: Option<Array>,
     /// A texel for each face, bound as long as there is nothing else.
     placeholder: wgpu::TextureView,
-    blank: Blank,
+    /// The faces of the placeholder, and whether they are clear.
+    blank: [wgpu::TextureView; 6],
+    blank_is_clear: bool,
     revision: u64,
-}
-
-/// The faces of the placeholder, and whether they are clear.
-#[derive(Debug)]
-struct Blank {
-    faces: [wgpu::TextureView; 6],
-    clear: AtomicBool,
 }
 
 #[derive(Debug)]
@@ -64,10 +57,8 @@ impl Textures {
                 placeholder: array_view(&placeholder, label),
                 view: None,
             }),
-            blank: Blank {
-                faces: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
-                clear: AtomicBool::new(false),
-            },
+            blank: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
+            blank_is_clear: false,
             placeholder: cube_view(&placeholder, label, 0),
             revision: 0,
         }
@@ -114,11 +105,31 @@ impl Textures {
         self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube)
     }
 
-    /// The faces of the placeholder, the first time that it is asked for them.
-    pub fn blank(&self) -> &[wgpu::TextureView] {
-        match self.blank.clear.swap(true, Ordering::Relaxed) {
+    /// The faces of the placeholder, until they are said to be clear.
+    pub fn to_be_cleared(&self) -> &[wgpu::TextureView] {
+        match self.blank_is_clear {
             true => &[],
-            false => &self.blank.faces,
+            false => &self.blank,
+        }
+    }
+
+    /// Learns that the placeholder is clear.
+    pub fn placeholder_cleared(&mut self) {
+        self.blank_is_clear = true;
+    }
+
+    /// Learns that some faces of a slot were cleared or drawn.
+    pub fn cleared(&mut self, slot: usize, mask: u8) {
+        if let Some(slot) = self.slots.get_mut(slot).and_then(Option::as_mut) {
+            slot.cleared |= mask;
+        }
+    }
+
+    /// Nothing is known of any texel any more.
+    pub fn doubt(&mut self) {
+        self.blank_is_clear = false;
+        for slot in self.slots.iter_mut().flatten() {
+            slot.cleared = 0;
         }
     }
 
@@ -151,7 +162,7 @@ impl SlotTexture {
         Self {
             cube: cube_view(&texture, label, first_layer),
             faces: CubeFace::ALL.map(|face| face_view(&texture, label, first_layer, face)),
-            cleared: AtomicU8::new(0),
+            cleared: 0,
             layers: OnceLock::new(),
             texture,
             first_layer,

@@ -315,7 +315,7 @@ impl Cube {
             self.groups = Some((
                 revision,
                 self.sampler.bind_group(device, &self.map)?,
-                self.cross.bind_group(device, &self.map, 0),
+                self.cross.bind_group(device, &self.map, 0)?,
             ));
         }
         Ok(())
