@@ -145,6 +145,7 @@
 pub use {glam, wgpu};
 
 pub mod error;
+mod gl;
 pub mod light;
 pub mod map;
 pub mod mesh;
@@ -168,8 +169,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
-    AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,
-    VogelDisk,
+    AnyMap, ContactHardening, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
+    RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -31,8 +31,8 @@ pub struct PointLight {
     /// the range: with infinite reverse-Z in floats a small value costs no precision (Upchurch and
     /// Desbrun, "Tightening the Precision of Perspective Rendering", 2012). In fixed point it would,
     /// and the map takes the square root of the format's step, 1/256 of the range for
-    /// `Depth16Unorm`, 1/4096 for `Depth24Plus` (and for floats on GL, which lose their digits near
-    /// 0): a step at the range is then as wide as the near plane is far from the light.
+    /// `Depth16Unorm`, 1/4096 for `Depth24Plus` (on GL 1/2900 for floats, which lose their digits near
+    /// 0 there, see [`Support`](crate::Support), and 1/2400 for `Depth24Plus`): a step at the range is then as wide as the near plane is far from the light.
     /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) has 2^-24 in every format.
     ///
     /// [`CubeShadowMap`]: crate::CubeShadowMap

@@ -112,7 +112,7 @@ fn cross(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         "cube cross/bind_group",
         &mut cube,
         |_| {},
-        |cube| cross.bind_group(device, &cube.map, 0),
+        |cube| cross.bind_group(device, &cube.map, 0).unwrap(),
     );
     let group = cross.bind_group(device, &cube.map, 0)?;
     let draw = |_: &mut Cube<'_>, encoder: &mut wgpu::CommandEncoder| {

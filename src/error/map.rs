@@ -87,6 +87,29 @@ pub enum CubeShadowMapError {
         "StillLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false) or several faces at once (FacePasses::Multiview); pass StillLayers::Auto or Never"
     )]
     NoStillLayers,
+    /// A view of one cube of a cube array, on a back end that has none.
+    #[error(
+        "wgpu's GL back end reads no single cube out of a cube array; read the array (PcfDescriptor::many_lights), or make the map without cube_array"
+    )]
+    CubeView,
+    /// A view of a map that holds something else.
+    #[error(
+        "the map holds {map:?} depths, the view was made for {cross:?}; make both with the same"
+    )]
+    Encoding {
+        /// What the map holds.
+        map: crate::DepthEncoding,
+        /// What the view shows.
+        cross: crate::DepthEncoding,
+    },
+    /// A light that the map has no place for.
+    #[error("light {light} was asked for of a map for {lights}, counted from 0")]
+    NoSuchLight {
+        /// The place that was passed.
+        light: usize,
+        /// Lights the map was made for.
+        lights: usize,
+    },
     /// More lights in a frame than the map was made for.
     #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
     TooManyLights {
@@ -249,6 +272,11 @@ pub enum PcfError {
         "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for many_lights: each light is then read through a bind group of its own"
     )]
     CubeArray,
+    /// Gathers on a device that has none.
+    #[error(
+        "the device has no texture gathers (it is a GL device without compute shaders, as WebGL 2); pass Gather::Auto or Gather::Never"
+    )]
+    Gather,
     /// A sampler for many lights and a map with one texture for each.
     #[error(
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
@@ -274,6 +302,11 @@ pub enum PcfError {
         /// The maps that the sampler is to read.
         map: crate::MapKind,
     },
+    /// A sampler for one light and a cube array, on a back end that reads no single cube out of it.
+    #[error(
+        "wgpu's GL back end reads no single cube out of a cube array; make the sampler with many_lights, or the map without cube_array"
+    )]
+    CubeView,
     /// A bind group for a light that the map has no place for.
     #[error(
         "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"

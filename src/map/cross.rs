@@ -3,7 +3,7 @@
 use super::cube::CubeShadowMap;
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
-use crate::error::PcfError;
+use crate::error::CubeShadowMapError;
 
 /// How to make a [`CubeCross`].
 #[derive(Clone, Debug)]
@@ -71,30 +71,32 @@ impl CubeCross {
     /// [`CubeShadowMap::texture_revision`] changes.
     ///
     /// # Errors
-    /// [`PcfError`] if the map has another encoding, or was made for fewer lights.
+    /// [`CubeShadowMapError`] if the map has another encoding or was made for fewer lights; and
+    /// [`CubeShadowMapError::CubeView`], as [`CubeShadowMap::view`].
     pub fn bind_group(
         &self,
         device: &wgpu::Device,
         map: &CubeShadowMap,
         light: usize,
-    ) -> Result<wgpu::BindGroup, PcfError> {
+    ) -> Result<wgpu::BindGroup, CubeShadowMapError> {
         if map.encoding() != self.encoding {
-            return Err(PcfError::Encoding {
+            return Err(CubeShadowMapError::Encoding {
                 map: map.encoding(),
-                sampler: self.encoding,
+                cross: self.encoding,
             });
         }
         let lights = map.most_lights();
         if light >= lights {
-            return Err(PcfError::Light { light, lights });
+            return Err(CubeShadowMapError::NoSuchLight { light, lights });
         }
+        let view = map.view(light)?;
         Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry {
                     binding: 0,
-                    resource: wgpu::BindingResource::TextureView(map.view(light)),
+                    resource: wgpu::BindingResource::TextureView(view),
                 },
                 wgpu::BindGroupEntry {
                     binding: 1,

@@ -209,13 +209,11 @@ impl CubeShadowMapDescriptor<'_> {
     }
 }
 
-pub(super) const STEP_OF_24_BITS: f32 = 1.0 / 16_777_215.0;
-
 /// One step of a format's depths, 0 for floats; `None` for formats that are not supported.
 pub(super) fn quantum(format: wgpu::TextureFormat) -> Option<f32> {
     match format {
         wgpu::TextureFormat::Depth32Float => Some(0.0),
-        wgpu::TextureFormat::Depth24Plus => Some(STEP_OF_24_BITS),
+        wgpu::TextureFormat::Depth24Plus => Some(1.0 / 16_777_215.0),
         wgpu::TextureFormat::Depth16Unorm => Some(1.0 / 65_535.0),
         _ => None,
     }

@@ -13,6 +13,7 @@ use super::flat_frame::{FlatFrame, LightBox};
 use super::near::NearPlane;
 use super::resources::{self, FaceUniform, PipelineKey, PipelineKind};
 use super::scene::Scene;
+use super::step::depth_step;
 use super::texture;
 use super::transfers::Transfers;
 use crate::error::ShadowMapError;
@@ -60,6 +61,7 @@ pub struct ShadowMap {
     view: wgpu::TextureView,
     pub(super) kind: PipelineKind,
     pub(super) near_plane: NearPlane,
+    pub(super) depth_step: f32,
     pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     pub(super) face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -132,6 +134,7 @@ impl ShadowMap {
                 ..Default::default()
             }),
             near_plane: NearPlane::new(device, kind.format, kind.encoding),
+            depth_step: depth_step(device, kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),

@@ -208,12 +208,7 @@ impl FlatLightUniform {
     };
 
     /// `frame` is `None` where nothing casts.
-    pub(super) fn new(
-        frame: Option<&FlatFrame>,
-        bias: &Bias,
-        size: u32,
-        format: wgpu::TextureFormat,
-    ) -> Self {
+    pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32, quantum: f32) -> Self {
         let Some(frame) = frame else {
             return Self {
                 quantum: -1.0,
@@ -237,7 +232,7 @@ impl FlatLightUniform {
                 false => bias.constant * texel / frame.range,
             },
             perspective: f32::from(u8::from(frame.perspective)),
-            quantum: quantum(format).unwrap_or(0.0),
+            quantum,
         }
     }
 }

@@ -24,6 +24,7 @@ mod scene;
 mod schedule;
 mod slot;
 mod statistics;
+mod step;
 mod still;
 mod still_layer;
 mod texture;

@@ -1,6 +1,7 @@
 //! Where the shadow map of a light with a position begins, unless the host says where.
 
-use super::descriptor::{DepthEncoding, STEP_OF_24_BITS, quantum};
+use super::descriptor::DepthEncoding;
+use super::step::depth_step;
 use crate::{PointLight, SpotLight};
 
 /// A light's near plane for one kind of texels, as a share of the light's range.
@@ -23,15 +24,11 @@ impl NearPlane {
         format: wgpu::TextureFormat,
         encoding: DepthEncoding,
     ) -> Self {
-        // On GL a vertex's depth becomes 2 z - w before it is stored, and near zero its digits go.
-        let fixed_point = device.adapter_info().backend == wgpu::Backend::Gl;
-        let step = match (quantum(format), encoding) {
+        Self::of_step(match encoding {
             // Written by the fragment shader: the near plane only clips.
-            (_, DepthEncoding::LinearDistance) | (None, _) => 0.0,
-            (Some(0.0), _) if fixed_point => STEP_OF_24_BITS,
-            (Some(step), _) => step,
-        };
-        Self::of_step(step)
+            DepthEncoding::LinearDistance => 0.0,
+            DepthEncoding::MajorAxis => depth_step(device, format, encoding),
+        })
     }
 
     /// One step of depth is `range * step / share` wide at the range. With a share of the square root
@@ -61,6 +58,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::map::descriptor::quantum;
 
     const FORMATS: [wgpu::TextureFormat; 3] = [
         wgpu::TextureFormat::Depth32Float,
