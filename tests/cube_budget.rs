@@ -336,7 +336,7 @@ fn what_a_view_shows_is_the_same_with_and_without_hidden_faces() {
         (32, Kernel::FourTaps),
         (256, contact),
         (512, wide),
-        (32, world),
+        (256, world),
     ] {
         let seen = Seen::by(&gpu, kernel, size, |module| module);
         assert!(seen.hidden > 20, "{} faces hidden, {kernel:?}", seen.hidden);

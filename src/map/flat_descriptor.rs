@@ -191,7 +191,7 @@ pub(crate) struct FlatLightUniform {
 }
 
 impl FlatLightUniform {
-    /// A spot without range.
+    /// A spot that reaches nothing, not even itself.
     pub(super) const DARK: Self = Self {
         position: [0.0; 3],
         near: 0.0,
@@ -200,7 +200,7 @@ impl FlatLightUniform {
         right: [0.0; 3],
         size: 0.0,
         down: [0.0; 3],
-        range: 0.0,
+        range: -1.0,
         normal_offset: 0.0,
         depth_bias: 0.0,
         perspective: 1.0,
