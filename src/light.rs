@@ -35,6 +35,10 @@ pub struct PointLight {
     /// 0 there, see [`Support`](crate::Support), and 1/2400 for `Depth24Plus`): a step at the range is then as wide as the near plane is far from the light.
     /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) has 2^-24 in every format.
     ///
+    /// Casters nearer than this are pulled onto that plane where the device has
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), and so cast on all that is beyond it;
+    /// elsewhere they cast nothing. What receives before the plane is lit.
+    ///
     /// [`CubeShadowMap`]: crate::CubeShadowMap
     pub near: Option<f32>,
 }

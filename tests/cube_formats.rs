@@ -36,8 +36,12 @@ fn descriptor(
     }
 }
 
+/// Its near plane at 1, so that depths are one over distances.
 fn light() -> PointLight {
-    PointLight::new(Vec3::new(0.1, -0.2, 0.3), RANGE)
+    PointLight {
+        near: Some(1.0),
+        ..PointLight::new(Vec3::new(0.1, -0.2, 0.3), RANGE)
+    }
 }
 
 /// Small casters around the light, receivers behind and between them on a sphere.

@@ -150,8 +150,7 @@ impl CubeShadowMap {
             format,
             encoding,
             slope_scale: bias.slope_scale,
-            // A point light has no plane to pull casters onto.
-            unclipped_depth: false,
+            unclipped_depth: resources::can_pull_casters(device),
             constants: &[],
         };
         let joint = descriptor

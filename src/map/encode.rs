@@ -97,7 +97,8 @@ impl CubeShadowMap {
 
     /// Begins a pass that clears one face of a light, for a host that draws its own geometry
     /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
-    /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding).
+    /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding), and
+    /// unclipped depth where the device has it, so that what is nearer than the near plane casts.
     /// `None` if the light has no texels (see [`Allocation::AtOnce`](crate::Allocation::AtOnce)) or
     /// the last frame had no such light.
     ///

@@ -105,9 +105,6 @@ impl ShadowMap {
         let (size, bias) = (descriptor.size, descriptor.bias);
         let texture = texture::create(device, &label, size, descriptor.format, 1);
         let (face, layout, face_group) = resources::faces(device, &label, 1);
-        let clip_control = device
-            .features()
-            .contains(wgpu::Features::DEPTH_CLIP_CONTROL);
         let kind = PipelineKind {
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(&label),
@@ -121,7 +118,7 @@ impl ShadowMap {
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
-            unclipped_depth: descriptor.unclipped_depth && clip_control,
+            unclipped_depth: descriptor.unclipped_depth && resources::can_pull_casters(device),
             constants: &[],
         };
         Ok(Self {

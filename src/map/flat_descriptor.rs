@@ -105,8 +105,13 @@ pub struct ShadowFrame<'a> {
     pub light: FlatLight,
     /// Everything that may cast; what cannot be on the map is left out by the map itself.
     pub casters: &'a [Caster],
-    /// The host's camera, and the distance along its axis, in world units, up to which shadows are
-    /// to be seen. A directional light's map then covers no more than that. `None`: everything.
+    /// The host's camera, and the distance from its eye, along its axis and in world units, up to
+    /// which shadows are to be seen. A directional light's map then covers no more than what the view
+    /// shows up to there, or up to its far plane where that is nearer. `None`: everything.
+    ///
+    /// An orthographic view has no eye to count from (its near plane may even lie behind the camera),
+    /// and shows all of its depth at one scale. It counts from its near to its far plane, whatever the
+    /// distance; for less, pass a view whose far plane is nearer.
     pub view: Option<(&'a View, f32)>,
     /// Bounds of all receivers in world space. A directional light's map then covers no more than
     /// those. `None`: receivers may be anywhere.
