@@ -17,6 +17,11 @@ impl Submissions {
         encoder.on_submitted_work_done(move || recorded.submitted());
     }
 
+    /// Whether [`take_dropped`](Self::take_dropped) would say so.
+    pub fn is_dropped(&self) -> bool {
+        self.dropped.load(Ordering::Relaxed)
+    }
+
     /// Whether an encoder was dropped since this was last asked.
     pub fn take_dropped(&mut self) -> bool {
         self.dropped.swap(false, Ordering::Relaxed)
@@ -59,7 +64,7 @@ mod tests {
         let recorded = encoder();
         submissions.watch(&recorded);
         drop(recorded);
-        assert!(submissions.take_dropped());
+        assert!(submissions.is_dropped() && submissions.take_dropped());
         assert!(!submissions.take_dropped(), "told once");
         let recorded = encoder();
         submissions.watch(&recorded);
