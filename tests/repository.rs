@@ -3,6 +3,8 @@
 
 #[path = "repository/dependencies.rs"]
 mod dependencies;
+#[path = "repository/features.rs"]
+mod features;
 #[path = "repository/figures.rs"]
 mod figures;
 #[path = "repository/pages.rs"]
