@@ -79,6 +79,7 @@ fn shadows_cube_filter(
         shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, receiver, size, texel));
         sum += weight;
     }
-    // Shadow over the sum of the same products: exactly 0 or 1 where all texels agree.
+    // Shadow over the sum of the same products: exactly 0 or 1 where all texels agree, or some units in
+    // the last place from it where a driver contracts the products into one of the sums.
     return 1.0 - shadow / sum;
 }

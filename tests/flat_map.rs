@@ -148,7 +148,7 @@ fn wrong(gpu: &Gpu, map: &ShadowMap, kernel: Kernel, points: &[(Vec3, bool)]) ->
         .map(|(_, blocked)| f32::from(u8::from(!blocked)));
     seen.iter()
         .zip(truth)
-        .filter(|(seen, truth)| **seen != *truth)
+        .filter(|(seen, truth)| (*seen - truth).abs() > 4.0 * f32::EPSILON) // of contracted products
         .count()
 }
 
@@ -251,6 +251,7 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
             &points,
             |module| {
                 module
+                .replace(test, border)
                 .replace("(texel + 0.5) / size;", "clamp((texel + 0.5) / size, vec2f(0.01), vec2f(0.99));")
                 .replace("return true;", "return corner_inside(size);")
                 .replace("fn shadows_flat_gathers", "fn corner_inside(size: f32) -> bool { return size < 0.0; }\nfn shadows_flat_gathers")

@@ -14,7 +14,6 @@ use super::flat_frame::{Fit, FlatFrame, fit};
 use super::near::NearPlane;
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
-use super::step::depth_step;
 use super::texture;
 use crate::error::ShadowMapError;
 use crate::mesh::Caster;
@@ -55,7 +54,6 @@ pub struct ShadowMap {
     view: wgpu::TextureView,
     kind: PipelineKind,
     near_plane: NearPlane,
-    depth_step: f32,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -106,10 +104,8 @@ impl ShadowMap {
                 bind_group_layouts: &[Some(&layout)],
                 immediate_size: 0,
             }),
-            shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(&label),
-                source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CASTER.into()),
-            }),
+            shader: resources::caster_shader(device, &label),
+            depth_written: resources::writes_depth(device),
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
@@ -125,8 +121,7 @@ impl ShadowMap {
                 label: Some(&label),
                 ..Default::default()
             }),
-            near_plane: NearPlane::new(device, kind.format, kind.encoding),
-            depth_step: depth_step(device, kind.format, kind.encoding),
+            near_plane: NearPlane::new(kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -211,7 +206,8 @@ impl ShadowMap {
 
     /// Begins a pass that clears the map, for a host that draws its own geometry (skinned,
     /// alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format, one sample,
-    /// depth compare `Greater`.
+    /// depth compare `Greater`. For spots on wgpu's GL back end see
+    /// [`begin_face`](crate::CubeShadowMap::begin_face).
     ///
     /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew is cleared, so
     /// pass such a host's other casters through its own draws too. The casters of
@@ -346,8 +342,8 @@ impl ShadowMap {
     }
 
     fn upload(&self, queue: &wgpu::Queue) {
-        let (frame, step) = (self.frame.as_ref(), self.depth_step);
-        let light = FlatLightUniform::new(frame, &self.bias, self.size, step);
+        let format = self.texture.format();
+        let light = FlatLightUniform::new(self.frame.as_ref(), &self.bias, self.size, format);
         queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
         if let Some(frame) = self.frame {
             let face = FaceUniform {
