@@ -253,10 +253,6 @@ fn texels(kernel: Kernel) -> f32 {
     }
 }
 
-/// Drivers that contract a product into a sum (Mesa's GL) leave the quotient of two sums of the same
-/// products some units in the last place from 1.
-const ROUNDING: f32 = 4.0 * f32::EPSILON;
-
 /// Wrong and asked-for points among those on the shell whose surroundings all see the same.
 fn errors(
     gpu: &Gpu,
@@ -299,7 +295,7 @@ fn errors(
     let wrong = interior
         .iter()
         .zip(seen)
-        .filter(|((_, blocked), seen)| (*seen - if *blocked { 0.0 } else { 1.0 }).abs() > ROUNDING)
+        .filter(|((_, blocked), seen)| *seen != if *blocked { 0.0 } else { 1.0 })
         .count();
     (wrong, interior.len())
 }
