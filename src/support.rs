@@ -18,7 +18,10 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 ///   than 2^23 near planes. Shadow maps are drawn there with depth written by their fragments, and hold
 ///   what they hold elsewhere, at the price of early depth tests. A host that draws into them itself
 ///   ([`begin_face`](crate::CubeShadowMap::begin_face)) has to do likewise. A host's own depth buffer
-///   is as coarse as that, and shadow volumes with it.
+///   is as coarse as that, and shadow volumes with it: of 235 random scenes that are exact elsewhere,
+///   232 are there (`tests/volume/random.rs`), receivers a million near planes away have 1.4 % of their
+///   pixels wrong, and a host whose vertices are not multiplied as the crate's are
+///   ([`wgsl::POSITION`](crate::wgsl::POSITION)) 0.07 %, at their caps.
 /// - Textures of several samples cannot be read in shaders: [`LightJoin`](crate::LightJoin) and
 ///   [`ExactCount`](crate::ExactCount) take one sample.
 /// - A cube array cannot be read as single cubes, a [`ShadowMask`](crate::ShadowMask) may have a spare
@@ -68,6 +71,7 @@ pub struct Support {
 
 /// What is missing from an adapter and what is done instead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Fallback {
     /// The missing ability.
     pub missing: &'static str,
