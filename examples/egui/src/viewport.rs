@@ -198,7 +198,9 @@ impl Viewport {
     fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.renderer.draw_ambient(encoder, &self.scene_gpu);
         if let Some((_, shadows)) = &mut self.shadows {
-            shadows.encode(&self.renderer, encoder);
+            if let Err(error) = shadows.encode(&self.renderer, encoder) {
+                self.problem.get_or_insert_with(|| format!("{error:#}"));
+            }
             shadows.shade(&self.renderer, &self.scene_gpu, encoder);
         }
     }
