@@ -221,9 +221,6 @@ impl Shadows {
     }
 
     /// Second verb: what is drawn before the lit pass, once the scene's depth is there.
-    ///
-    /// # Errors
-    /// If nothing was ever prepared.
     pub fn encode(
         &mut self,
         renderer: &Renderer,
