@@ -37,6 +37,7 @@ fn shadows_volume_facing(
             position(corners.z),
             instance.light,
             instance.light_rest,
+            instance.zero,
         );
         count = counted(count, instance.both_sides);
         facing[instance.facing_base + triangle] = count;

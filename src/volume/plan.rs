@@ -254,6 +254,10 @@ impl Plan {
             object_light: subject.light.light,
             object_light_rest: subject.light.rest,
             both_sides: subject.counted as u32,
+            anchor: subject.light.origin.anchor,
+            zero: 0,
+            anchor_from_light: subject.light.origin.from_light,
+            depth_step: rule::depth_step(frame.view),
         });
         self.draw(subject, &form, frame, [instance, params_place]);
         Ok(())
@@ -358,7 +362,7 @@ fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
         facing_base: place.facing,
         cap_base: place.cap,
         side_base: place.side,
-        padding: 0,
+        zero: 0,
     }
 }
 
