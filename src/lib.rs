@@ -53,7 +53,7 @@
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
 //! let mesh = CasterMesh::new(&device, &positions, &adjacency)?;
 //! let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
-//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 0.1, 30.0);
+//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 30.0);
 //!
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
@@ -152,6 +152,7 @@
 pub use {glam, wgpu};
 
 pub mod error;
+mod gl;
 pub mod light;
 pub mod map;
 pub mod mesh;
@@ -174,8 +175,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
-    AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,
-    VogelDisk,
+    AnyMap, ContactHardening, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
+    RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt as _;
 use super::kernel::KernelUniform;
 use super::layout::create_layout;
 use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, Kernel, MapKind, offsets, text};
+use super::{AnyMap, Gather, Kernel, MapKind, offsets, text};
 use crate::error::PcfError;
 use crate::{CubeShadowMap, DepthEncoding};
 
@@ -29,6 +29,8 @@ pub struct PcfDescriptor<'a> {
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). Default
     /// false. Cube maps.
     pub textbook: bool,
+    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
+    pub gather: Gather,
 }
 
 /// Reads a [`CubeShadowMap`] or a [`ShadowMap`](crate::ShadowMap) in the host's lighting shader.
@@ -61,7 +63,7 @@ impl PcfSampler {
     ///
     /// # Errors
     /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
-    /// many lights, or textbook receivers are to read another encoding than theirs.
+    /// many lights or no gathers for [`Gather::Always`], or textbook receivers are to read another encoding than theirs.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -74,6 +76,7 @@ impl PcfSampler {
             encoding,
             many_lights,
             textbook,
+            gather,
         } = descriptor;
         kernel.validate()?;
         let many_lights = many_lights && map == MapKind::Cube;
@@ -97,6 +100,7 @@ impl PcfSampler {
             encoding,
             many_lights,
             border,
+            gather: gather.on(device, map)?,
         };
         let label = match label {
             Some(label) => format!("shadows pcf {label}"),
@@ -152,7 +156,7 @@ impl PcfSampler {
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering),
     /// 2 the light (uniform buffer of 48 bytes, for flat maps 80; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
-    /// 24 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
+    /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -212,7 +216,10 @@ impl PcfSampler {
                 let lights = map.most_lights();
                 return Err(PcfError::Light { light, lights });
             }
-            (false, _) => (map.view(light), map.light_uniform(light)),
+            (false, _) => {
+                let view = map.view(light).map_err(|_| PcfError::CubeView)?;
+                (view, map.light_uniform(light))
+            }
         };
         Ok(self.group(device, view, lights))
     }

@@ -143,7 +143,7 @@ impl Quantity {
             scene: ground(),
             caster: shapes::cube(),
             transforms: grid(100),
-            lights: vec![PointLight::new(Vec3::new(0.5, 6.0, 0.3), 0.1, RANGE)],
+            lights: vec![PointLight::new(Vec3::new(0.5, 6.0, 0.3), RANGE)],
             size: [640, 360],
             side: 1024,
         };
@@ -222,7 +222,7 @@ fn circle(count: u32) -> Vec<PointLight> {
     (0..count)
         .map(|n| {
             let (z, x) = (TAU * n as f32 / count as f32).sin_cos();
-            PointLight::new(Vec3::new(4.0 * x, 6.0, 4.0 * z), 0.1, RANGE)
+            PointLight::new(Vec3::new(4.0 * x, 6.0, 4.0 * z), RANGE)
         })
         .collect()
 }

@@ -213,7 +213,7 @@ impl Means {
         Ok(())
     }
 
-    fn generate(&self, place: &Place, encoder: &mut wgpu::CommandEncoder) {
+    fn generate(&mut self, place: &Place, encoder: &mut wgpu::CommandEncoder) {
         let renderer = &place.stage.renderer;
         match self {
             Self::One(shadow) => shadow.generate(renderer, encoder),
