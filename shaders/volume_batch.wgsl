@@ -18,7 +18,9 @@ struct Batch {
     position_offset: u32,
     // 0: an edge record names its two triangles; 1: its first use and their number.
     general: u32,
-    padding: vec2u,
+    // See `settled` in volume_light_side.wgsl.
+    zero: u32,
+    padding: u32,
 }
 
 struct Instance {
@@ -32,8 +34,8 @@ struct Instance {
     facing_base: u32,
     cap_base: u32,
     side_base: u32,
-    // See `settled` in volume_light_side.wgsl.
-    zero: u32,
+    // Which indirect arguments are its own.
+    arguments: u32,
 }
 
 @group(0) @binding(0) var<uniform> batch: Batch;

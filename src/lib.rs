@@ -119,7 +119,7 @@
 //!     }),
 //!     ..Default::default()
 //! });
-//! volumes.render(&mut pass);
+//! volumes.render(&mut pass)?;
 //! drop(pass);
 //! // ... and adds this light where the stencil is 0, with `light_pass_stencil` in its pipeline,
 //! // or everywhere, times `shadows_visibility`, with `group` bound as group 1 ...
@@ -159,7 +159,9 @@ pub mod mesh;
 pub mod pcf;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod submissions;
 pub mod support;
+mod uploads;
 pub mod view;
 pub mod volume;
 pub mod wgsl;

@@ -39,7 +39,7 @@ fn exact(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let depth_stencil = stage.host.depth_stencil();
     let count = |volumes: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         let mut pass = counts.begin(encoder, depth_stencil).expect("it fits");
-        volumes.renderer.render(&mut pass);
+        volumes.renderer.render(&mut pass).expect("it is encoded");
     };
     bench.gpu("exact count/begin and render", &mut volumes, |_| {}, count);
     let mark = |_: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {

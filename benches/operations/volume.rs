@@ -53,7 +53,7 @@ impl<'a> Volumes<'a> {
     /// Counts in the host's stencil.
     pub fn count(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = self.stage.host.begin_stencil_pass(encoder);
-        self.renderer.render(&mut pass);
+        self.renderer.render(&mut pass).expect("it is encoded");
     }
 
     /// The light, so that all silhouettes are searched.

@@ -225,11 +225,15 @@ impl Shadow {
             Means::Volume { volumes, counts } => {
                 volumes.encode(encoder);
                 let Some(counts) = counts else {
-                    return volumes.render(&mut host.begin_stencil_pass(encoder));
+                    return volumes
+                        .render(&mut host.begin_stencil_pass(encoder))
+                        .expect("it is encoded");
                 };
                 let fits = "made for the renderer's buffer";
                 let buffer = host.depth_stencil();
-                volumes.render(&mut counts.begin(encoder, buffer).expect(fits));
+                volumes
+                    .render(&mut counts.begin(encoder, buffer).expect(fits))
+                    .expect("it is encoded");
                 counts.encode(encoder, buffer).expect(fits);
             }
         }

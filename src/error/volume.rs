@@ -117,6 +117,22 @@ pub enum ShadowVolumeError {
     },
 }
 
+/// Why [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render) draws nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum VolumeRenderError {
+    /// What was prepared is not on its way to the GPU.
+    #[error(
+        "render was called before encode; call prepare, then encode, then render in every frame (and for every view)"
+    )]
+    NotEncoded,
+    /// What was recorded never comes to the GPU.
+    #[error(
+        "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
+    )]
+    Dropped,
+}
+
 /// What can be wrong with a [`ShadowMask`](crate::ShadowMask), a
 /// [`LightJoin`](crate::LightJoin) or an [`ExactCount`](crate::ExactCount).
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -12,7 +12,9 @@ pub(super) struct BatchParams {
     pub position_stride: u32,
     pub position_offset: u32,
     pub general: u32,
-    pub padding: [u32; 2],
+    /// See `settled` in `volume_light_side.wgsl`.
+    pub zero: u32,
+    pub padding: u32,
 }
 
 /// `Instance` in `volume_batch.wgsl`.
@@ -25,8 +27,7 @@ pub(super) struct InstanceParams {
     pub facing_base: u32,
     pub cap_base: u32,
     pub side_base: u32,
-    /// See `settled` in `volume_light_side.wgsl`.
-    pub zero: u32,
+    pub arguments: u32,
 }
 
 /// `Caster` in `volume_extrude.wgsl`.
@@ -144,6 +145,7 @@ mod tests {
                 position_stride,
                 position_offset,
                 general,
+                zero,
                 padding
             );
             assert_layout!(
@@ -156,7 +158,7 @@ mod tests {
                 facing_base,
                 cap_base,
                 side_base,
-                zero
+                arguments
             );
         }
         for source in [draw, vertex] {

@@ -1,6 +1,7 @@
 //! `compare --hard-cases`: where shadows usually break, every technique, against the reference.
 
 pub mod cases;
+pub mod course;
 pub mod expect;
 pub mod input;
 pub mod judge;

@@ -221,7 +221,7 @@ impl Shadows {
     }
 
     /// Second verb: what is drawn before the lit pass, once the scene's depth is there.
-    pub fn encode(&self, renderer: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&mut self, renderer: &Renderer, encoder: &mut wgpu::CommandEncoder) {
         match &mut self.means {
             Means::Cube(cube) => cube.map.encode(encoder),
             Means::Flat(map, _) => map.encode(encoder),
@@ -229,7 +229,7 @@ impl Shadows {
                 volumes.renderer.encode(encoder);
                 volumes
                     .renderer
-                    .render(&mut renderer.begin_stencil_pass(encoder));
+                    .render(&mut renderer.begin_stencil_pass(encoder)).expect("it is encoded");
             }
             Means::None => {}
         }

@@ -1,11 +1,13 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
 mod camera;
+mod frames;
 mod light;
 pub mod mesh;
 mod place;
 mod views;
 
+pub use super::course::Course;
 use super::expect::Expect;
 use super::situation::Situation;
 use crate::host::random::Random;
@@ -27,6 +29,8 @@ pub struct Case {
     pub sixteen_bits: bool,
     /// Whether cube maps are asked if their seams are worse than their faces.
     pub seams: bool,
+    /// What a technique has been through before.
+    pub course: Course,
 }
 
 impl Case {
@@ -39,6 +43,7 @@ impl Case {
         maps: Expect::Exact,
         sixteen_bits: false,
         seams: false,
+        course: Course::Fresh,
     };
 }
 
@@ -50,4 +55,5 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(mesh::CASES)
         .chain(place::CASES)
         .chain(views::CASES)
+        .chain(frames::CASES)
 }
