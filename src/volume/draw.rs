@@ -400,6 +400,7 @@ impl Factory<'_> {
     }
 
     fn depth_stencil(&self, style: Style, counting: Counting) -> wgpu::DepthStencilState {
+        let bias = self.bias(style) * self.descriptor.depth.away();
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),
@@ -407,9 +408,24 @@ impl Factory<'_> {
             depth_compare: Some(counting.depth_compare),
             stencil: counting.stencil,
             bias: wgpu::DepthBiasState {
-                constant: self.bias(style) * self.descriptor.depth.away(),
+                constant: bias,
+                clamp: self.bias_clamp(bias),
                 ..Default::default()
             },
+        }
+    }
+
+    /// The most that a bias may be: as many last places of depth 1.
+    ///
+    /// In a float format the unit is the last place of the largest depth on the face. Where depth is not
+    /// clipped, a face has corners far beyond the far plane (in an orthographic view without an end), or
+    /// just before the eye, and some GPUs (NVIDIA's) go by those: all of it would be behind everything.
+    fn bias_clamp(&self, constant: i32) -> f32 {
+        // GL has no such bound.
+        let bounded = self.device.adapter_info().backend != wgpu::Backend::Gl;
+        match bounded && self.descriptor.depth.clips_far() {
+            true => constant as f32 * f32::EPSILON,
+            false => 0.0,
         }
     }
 }
