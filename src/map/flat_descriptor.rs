@@ -162,6 +162,8 @@ pub(crate) struct FlatLightUniform {
     pub perspective: f32,
     /// Negative where nothing casts.
     pub quantum: f32,
+    pub rounding: f32,
+    padding: [f32; 3],
 }
 
 impl FlatLightUniform {
@@ -196,6 +198,8 @@ impl FlatLightUniform {
             },
             perspective: f32::from(u8::from(frame.perspective)),
             quantum: quantum(format).unwrap_or(0.0),
+            rounding: bias.rounding(),
+            padding: [0.0; 3],
         }
     }
 }
@@ -223,7 +227,8 @@ mod tests {
             normal_offset,
             depth_bias,
             perspective,
-            quantum
+            quantum,
+            rounding
         );
     }
 }

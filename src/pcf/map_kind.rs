@@ -65,6 +65,7 @@ pub(super) struct MapWgsl {
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
+    pub slope: &'static str,
 }
 
 impl MapWgsl {
@@ -88,6 +89,7 @@ impl MapWgsl {
             texel: "",
             four: include_str!("../../shaders/flat_four.wgsl"),
             tap: include_str!("../../shaders/flat_tap.wgsl"),
+            slope: include_str!("../../shaders/flat_slope.wgsl"),
         }
     }
 
@@ -114,6 +116,7 @@ impl MapWgsl {
             texel: include_str!("../../shaders/cube_texel.wgsl"),
             four: include_str!("../../shaders/cube_four.wgsl"),
             tap: include_str!("../../shaders/cube_tap.wgsl"),
+            slope: include_str!("../../shaders/cube_slope.wgsl"),
         }
     }
 

@@ -150,7 +150,7 @@ impl PcfSampler {
 
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering),
-    /// 2 the light (uniform buffer of 48 bytes, for flat maps 80; with `many_lights` a read-only
+    /// 2 the light (uniform buffer of 48 bytes, for flat maps 96; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
     /// 24 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {

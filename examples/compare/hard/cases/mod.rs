@@ -25,6 +25,8 @@ pub struct Case {
     pub maps: Expect,
     /// Whether maps of 16 bits are tried, too.
     pub sixteen_bits: bool,
+    /// Whether maps of 4096 texels are tried, too.
+    pub fine: bool,
     /// Whether cube maps are asked if their seams are worse than their faces.
     pub seams: bool,
 }
@@ -38,6 +40,7 @@ impl Case {
         volumes: Expect::Exact,
         maps: Expect::Exact,
         sixteen_bits: false,
+        fine: false,
         seams: false,
     };
 }
