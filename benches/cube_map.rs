@@ -118,7 +118,7 @@ fn frame(gpu: &Gpu, map: &mut CubeShadowMap, light: PointLight, casters: &[Caste
 
 fn spheres(gpu: &Gpu, rounds: u32) {
     let scene = spheres_moving(0.0);
-    let light = PointLight::new(scene.light.truncate(), scene.shadow_near, scene.range);
+    let light = PointLight::new(scene.light.truncate(), scene.range);
     let mut casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
     let mut textbook = new_map(gpu, &CubeShadowMapDescriptor::textbook());
     let mut map = new_map(gpu, &CubeShadowMapDescriptor::default());
@@ -160,7 +160,7 @@ fn many_in_a_row(mut work: impl FnMut() -> Duration) -> Duration {
 
 fn multiview(gpu: &Gpu, name: &str, size: u32, rounds: u32) {
     let scene = spheres_moving(0.0);
-    let light = PointLight::new(scene.light.truncate(), scene.shadow_near, scene.range);
+    let light = PointLight::new(scene.light.truncate(), scene.range);
     let casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
     let [mut joint, mut separate] = [FacePasses::Multiview, FacePasses::Separate].map(|passes| {
         let descriptor = CubeShadowMapDescriptor {
@@ -203,7 +203,7 @@ impl World {
         };
         let lights = (0..16).map(|i| {
             let at = |k: usize| (k as f32 + 0.5) / 4.0 * side;
-            PointLight::new(Vec3::new(at(i % 4), 2.0, at(i / 4)), 0.1, range)
+            PointLight::new(Vec3::new(at(i % 4), 2.0, at(i / 4)), range)
         });
         Self {
             casters: (0..count)
@@ -283,7 +283,7 @@ impl Moved {
     fn among(gpu: &Gpu, count: usize) -> Self {
         let mut world = World::new(gpu, count, 15.0);
         let centre = 0.5 * (count as f32).sqrt().ceil();
-        world.lights = vec![PointLight::new(Vec3::new(centre, 2.0, centre), 0.1, 15.0)];
+        world.lights = vec![PointLight::new(Vec3::new(centre, 2.0, centre), 15.0)];
         let light = Vec3A::from(world.lights[0].position);
         let mut nearest: Vec<usize> = (0..count).collect();
         let place = |i: &usize| world.casters[*i].world_from_object.translation;

@@ -20,10 +20,15 @@
 //! Then a closed mesh of a million triangles: `ratio extraction_vs_best_loop` and what else
 //! `shadow_volume/extraction.rs` says.
 //!
+//! Then four thousand casters: `ratio distinct_meshes_4000_vs_one_mesh` and what else
+//! `shadow_volume/distinct.rs` says. `--distinct` measures nothing else.
+//!
 //! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
 //! `--quick` takes fewer rounds.
 
+#[path = "shadow_volume/distinct.rs"]
+mod distinct;
 #[path = "shadow_volume/extraction.rs"]
 mod extraction;
 #[path = "../examples/host/mod.rs"]
@@ -119,7 +124,9 @@ impl Studio {
         prepare
             + self.timer.time(&self.gpu, |encoder| {
                 volumes.encode(encoder);
-                volumes.render(&mut self.host.begin_stencil_pass(encoder));
+                volumes
+                    .render(&mut self.host.begin_stencil_pass(encoder))
+                    .expect("it is encoded");
             })
     }
 
@@ -203,6 +210,10 @@ fn main() -> anyhow::Result<()> {
         eprintln!("skipped: no adapter");
         return Ok(());
     };
+    if std::env::args().any(|argument| argument == "--distinct") {
+        distinct::run(&gpu, rounds.min(7));
+        return Ok(());
+    }
     let studio = Studio::new(gpu)?;
     println!(
         "adapter {}, clock {} and the CPU's",
@@ -272,6 +283,7 @@ fn main() -> anyhow::Result<()> {
     let [extracted, moved] = extracted_on_the_walk(&studio)?;
     println!("extracted {extracted} while the camera moves, drawn {moved}");
     extraction::run(&studio.gpu, rounds);
+    distinct::run(&studio.gpu, rounds.min(7));
     let [auto, zfail, infinite, textbook, unbounded, nothing] = &times;
     for (name, ours) in [
         ("auto", auto),

@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let adjacency = Adjacency::new(&positions, &indices)?;
     let mesh = CasterMesh::new(&device, &positions, &adjacency)?;
     let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
-    let light = PointLight::new(Vec3::new(-1.3, 2.6, 2.2), 0.05, 20.0);
+    let light = PointLight::new(Vec3::new(-1.3, 2.6, 2.2), 20.0);
     let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
     let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
 

@@ -162,6 +162,7 @@ impl<'a> Panels<'a> {
         };
         volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
         debug.prepare(&gpu.device, &frame, &volumes)?;
+        gpu.run(|encoder| volumes.encode(encoder));
         Ok(Self {
             gpu,
             scene: scene_gpu,
@@ -180,10 +181,10 @@ impl<'a> Panels<'a> {
         };
         let lit = self.renderer.lit_pipeline(self.gpu, &access);
         self.gpu.run(|encoder| {
-            self.volumes.encode(encoder);
             self.renderer.draw_ambient(encoder, &self.scene);
             self.volumes
-                .render(&mut self.renderer.begin_stencil_pass(encoder));
+                .render(&mut self.renderer.begin_stencil_pass(encoder))
+                .expect("it is encoded");
             self.renderer.draw_lit(encoder, &self.scene, &lit, None);
             over(&mut self.renderer.begin_overlay_pass(encoder));
         });

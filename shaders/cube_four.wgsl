@@ -18,7 +18,7 @@ fn shadows_cube_stored(
     let face = receiver.face;
     let direction = face.forward + uv.x * face.right + uv.y * face.down;
     // Halfway between the texel centres, so no rounding of the address picks other texels.
-    let found = shadows_cube_gather(map, map_sampler, receiver, direction);
+    let found = shadows_cube_gather(map, map_sampler, receiver, size, direction);
     let s = uv.x + 0.5 * step * vec4f(-1.0, 1.0, 1.0, -1.0);
     let t = uv.y + 0.5 * step * vec4f(1.0, 1.0, -1.0, -1.0);
     return shadows_cube_depth(receiver, found, 1.0 + s * s + t * t);

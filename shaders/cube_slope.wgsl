@@ -10,7 +10,10 @@ fn shadows_cube_derived(
     reach: vec2f,
 ) -> ShadowsCubeDerived {
     let from_light = position - light.position;
-    let doubtful = shadows_cube_doubtful(position, x, y, from_light);
+    let normal = cross(x, y);
+    let facing = abs(dot(normal, from_light));
+    let doubt = shadows_cube_doubt(position, x, y) * length(from_light);
+    let doubtful = !(doubt < 0.25 * facing);
     let face = shadows_cube_face(from_light, light.size);
     var receiver: ShadowsCubeReceiver;
     receiver.face = face;
@@ -31,10 +34,13 @@ fn shadows_cube_derived(
     // Texels around the receiver, and around where it is taken to be.
     let world = reach.y + light.rounding * length(position);
     let texels = reach.x + 0.5 * world * light.size / major;
-    let nearer = own / (own + texels * found.bend);
+    let beside = own / (own + texels * found.bend);
+    // As far as the derivatives' plane may be off where the kernel ends.
+    let end = reach.x * 2.0 * major / light.size + reach.y;
+    let tilted = max(1.0 - end * doubt * length(normal) / (facing * facing), 0.03125);
     return ShadowsCubeDerived(
-        select(cross(x, y), mapped, doubtful),
-        vec2f(select(1.0, nearer, doubtful), 0.0),
+        select(normal, mapped, doubtful),
+        vec2f(select(tilted, beside, doubtful), 0.0),
     );
 }
 

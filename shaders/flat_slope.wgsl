@@ -13,7 +13,11 @@ fn shadows_flat_derived(
     let from_light = position - light.position;
     let spot = light.perspective > 0.5;
     let ray = select(light.forward, from_light, spot);
-    let doubtful = shadows_flat_doubtful(position, x, y, ray);
+    let normal = cross(x, y);
+    let facing = abs(dot(normal, ray));
+    let distance = length(ray);
+    let doubt = shadows_flat_doubt(position, x, y) * distance;
+    let doubtful = !(doubt < 0.25 * facing);
     let local = from_light * axes;
     let away = select(1.0, local.x, spot);
     let uv = local.yz * light.scale / away;
@@ -31,10 +35,14 @@ fn shadows_flat_derived(
     let world = reach.y + light.rounding * length(position);
     let texels = reach.x + 0.5 * world * light.size * light.scale / away;
     let bend = texels * found.bend;
-    let nearer = select(vec2f(1.0, bend * light.range), vec2f(own / (own + bend), 0.0), spot);
+    let beside = select(vec2f(1.0, bend * light.range), vec2f(own / (own + bend), 0.0), spot);
+    // As far as the derivatives' plane may be off where the kernel ends, against the distance.
+    let end = reach.x * 2.0 * away / (light.size * light.scale) + reach.y;
+    let shift = end * doubt * length(normal) / (facing * facing);
+    let tilted = select(vec2f(1.0, shift), vec2f(max(1.0 - shift, 0.03125), 0.0), spot);
     return ShadowsFlatDerived(
-        select(cross(x, y), mapped, doubtful),
-        select(vec2f(1.0, 0.0), nearer, doubtful),
+        select(normal, mapped, doubtful),
+        select(tilted, beside, doubtful),
     );
 }
 

@@ -15,16 +15,13 @@ struct ShadowsCubeSlopes {
     bend: f32,
 }
 
-// Whether rounding may tilt the plane of two differences by more than a fortieth of the angle between
-// it and a light ray.
-fn shadows_cube_doubtful(position: vec3f, x: vec3f, y: vec3f, ray: vec3f) -> bool {
+// How far rounding may move the end of the cross product of two differences of positions.
+fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
     // As far as the difference of two positions side by side may be off.
     let a = abs(position);
     let off = 1.2e-7 * max(a.x, max(a.y, a.z));
-    // Of a product of differences, with room for those that are rounded to nothing.
-    let doubt = 2.0 * off * off * (dot(x, x) + dot(y, y) + off * off);
-    let facing = dot(cross(x, y), ray);
-    return !(doubt * dot(ray, ray) < 6.25e-4 * facing * facing);
+    // With room for differences that are rounded to nothing.
+    return 1.42 * off * sqrt(dot(x, x) + dot(y, y) + off * off);
 }
 
 // The slopes of the map around a texel, for a receiver that says which map. Along each axis the lesser

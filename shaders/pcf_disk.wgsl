@@ -13,6 +13,8 @@ struct ShadowsCubeKernel {
     // Taps of the blocker search; or of the first batch, after which the rest is skipped where
     // all agree.
     first_taps: u32,
+    // WebGL 2 takes uniforms in units of 16 bytes.
+    padding: vec2u,
 }
 
 // The disk's axes, as long as its radius, along the same axes as `receiver.local`.

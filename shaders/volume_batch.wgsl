@@ -32,7 +32,8 @@ struct Instance {
     facing_base: u32,
     cap_base: u32,
     side_base: u32,
-    padding: u32,
+    // Which indirect arguments are its own.
+    arguments: u32,
 }
 
 @group(0) @binding(0) var<uniform> batch: Batch;

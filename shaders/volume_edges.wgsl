@@ -32,8 +32,7 @@ fn shadows_volume_edges(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let index = batch.first_instance + group.y;
-    let instance = instances[index];
+    let instance = instances[batch.first_instance + group.y];
     let edge = element(group, groups, local);
     var sum = 0i;
     var slot = 0u;
@@ -49,7 +48,7 @@ fn shadows_volume_edges(
         let total = atomicLoad(&side_count);
         if total > 0u {
             // Which of the two is drawn depends on the camera; the list does not.
-            let word = index * ARGS_STRIDE;
+            let word = instance.arguments * ARGS_STRIDE;
             let before = atomicAdd(&args[word + ARGS_QUADS], total * 6u);
             atomicAdd(&args[word + ARGS_TRIANGLES], total * 3u);
             side_first = instance.side_base + before / 6u;

@@ -22,8 +22,7 @@ fn shadows_volume_facing(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let index = batch.first_instance + group.y;
-    let instance = instances[index];
+    let instance = instances[batch.first_instance + group.y];
     let triangle = element(group, groups, local);
     var corners = vec3u(0u);
     var count = 0i;
@@ -50,7 +49,7 @@ fn shadows_volume_facing(
     if local == 0u {
         // One global atomic a workgroup. The list of -1 grows down from the end of the region: the
         // two cannot meet, for together they are no longer than the list of triangles.
-        let word = index * ARGS_STRIDE;
+        let word = instance.arguments * ARGS_STRIDE;
         let front = atomicLoad(&front_count);
         if front > 0u {
             front_first = instance.cap_base + atomicAdd(&args[word + ARGS_FRONT], front);

@@ -46,7 +46,7 @@
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
 //! let mesh = CasterMesh::new(&device, &positions, &adjacency)?;
 //! let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
-//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 0.1, 30.0);
+//! let light = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 30.0);
 //!
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
@@ -112,7 +112,7 @@
 //!     }),
 //!     ..Default::default()
 //! });
-//! volumes.render(&mut pass);
+//! volumes.render(&mut pass)?;
 //! drop(pass);
 //! // ... and adds this light where the stencil is 0, with `light_pass_stencil` in its pipeline,
 //! // or everywhere, times `shadows_visibility`, with `group` bound as group 1 ...
@@ -145,13 +145,16 @@
 pub use {glam, wgpu};
 
 pub mod error;
+mod gl;
 pub mod light;
 pub mod map;
 pub mod mesh;
 pub mod pcf;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod submissions;
 pub mod support;
+mod uploads;
 pub mod view;
 pub mod volume;
 pub mod wgsl;
@@ -167,8 +170,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostPositions};
 pub use pcf::{
-    AnyMap, ContactHardening, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk,
-    VogelDisk,
+    AnyMap, ContactHardening, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
+    RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

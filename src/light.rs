@@ -7,32 +7,49 @@ use crate::error::LightError;
 /// A light that shines from one point in all directions, up to a range.
 ///
 /// World space, any unit of length, as long as `near` and `range` are in the same one.
+///
+/// ```
+/// use shadows::{PointLight, glam::Vec3};
+/// let lamp = PointLight::new(Vec3::new(0.0, 4.0, 1.0), 30.0);
+/// // Only where a host has a reason, such as a lamp inside its own bulb.
+/// let bulb = PointLight { near: Some(0.05), ..lamp };
+/// # assert!(bulb.validate().is_ok());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
     /// Position in world space.
     pub position: Vec3,
-    /// Distance along the major axis at which the shadow map's frusta begin; greater than 0.
-    ///
-    /// Casters (or parts of them) nearer than this are not in a [`CubeShadowMap`]. Shadow volumes
-    /// do not use it. With infinite reverse-Z a small value costs no precision
-    /// (Upchurch and Desbrun, "Tightening the Precision of Perspective Rendering", 2012).
-    ///
-    /// [`CubeShadowMap`]: crate::CubeShadowMap
-    pub near: f32,
-    /// Distance beyond which the light has no effect; greater than `near`.
+    /// Distance beyond which the light has no effect; greater than 0.
     ///
     /// Casters wholly beyond it are not drawn. A receiver beyond it is unlit by this light:
     /// [`PcfSampler`](crate::PcfSampler) returns visibility 0 there.
     pub range: f32,
+    /// Distance along the major axis at which the frusta of a [`CubeShadowMap`] begin; greater than
+    /// 0, less than `range`, and no less than 1.2e-38 of it. Shadow volumes do not use it.
+    ///
+    /// `None` (default) leaves it to the map. In the usual format, `Depth32Float`, that is 2^-24 of
+    /// the range: with infinite reverse-Z in floats a small value costs no precision (Upchurch and
+    /// Desbrun, "Tightening the Precision of Perspective Rendering", 2012). In fixed point it would,
+    /// and the map takes the square root of the format's step, 1/256 of the range for
+    /// `Depth16Unorm`, 1/4096 for `Depth24Plus` (on GL 1/2900 for floats, which lose their digits near
+    /// 0 there, see [`Support`](crate::Support), and 1/2400 for `Depth24Plus`): a step at the range is then as wide as the near plane is far from the light.
+    /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) has 2^-24 in every format.
+    ///
+    /// Casters nearer than this are pulled onto that plane where the device has
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), and so cast on all that is beyond it;
+    /// elsewhere they cast nothing. What receives before the plane is lit.
+    ///
+    /// [`CubeShadowMap`]: crate::CubeShadowMap
+    pub near: Option<f32>,
 }
 
 impl PointLight {
-    /// A point light; `near` and `range` in world units.
-    pub fn new(position: Vec3, near: f32, range: f32) -> Self {
+    /// A point light; `range` in world units. The map chooses its near plane.
+    pub fn new(position: Vec3, range: f32) -> Self {
         Self {
             position,
-            near,
             range,
+            near: None,
         }
     }
 
@@ -44,16 +61,16 @@ impl PointLight {
         if !self.position.is_finite() {
             return Err(LightError::Position(self.position.to_array()));
         }
-        if !(self.range.is_finite() && self.range > 0.0) {
+        if !(self.range.is_normal() && self.range > 0.0) {
             return Err(LightError::Range(self.range));
         }
-        if !(self.near.is_finite() && self.near > 0.0 && self.near < self.range) {
-            return Err(LightError::Near {
-                near: self.near,
+        match self.near {
+            Some(near) if !is_near_plane(near, self.range) => Err(LightError::Near {
+                near,
                 range: self.range,
-            });
+            }),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// The light as `(position, 1)`.
@@ -75,22 +92,41 @@ pub struct SpotLight {
     /// The map's square is drawn around the cone. How light falls off toward the side is the
     /// host's: the map knows shadows only, and what is outside it is lit.
     pub half_angle: f32,
-    /// Distance along the direction at which the shadow map's frustum begins; greater than 0.
-    /// Casters nearer than this are pulled onto that plane where the device has
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), and are lost elsewhere.
-    pub near: f32,
-    /// Distance beyond which the light has no effect; greater than `near`. A receiver beyond it is
+    /// Distance beyond which the light has no effect; greater than 0. A receiver beyond it is
     /// unlit by this light: visibility 0.
     pub range: f32,
+    /// Distance along the direction at which the shadow map's frustum begins. `None` (default)
+    /// leaves it to the map: see [`PointLight::near`].
+    pub near: Option<f32>,
 }
 
 impl SpotLight {
+    /// A spot; `half_angle` in radians, `range` in world units. The map chooses its near plane.
+    pub fn new(position: Vec3, direction: Vec3, half_angle: f32, range: f32) -> Self {
+        Self {
+            position,
+            direction,
+            half_angle,
+            range,
+            near: None,
+        }
+    }
+
+    /// The same light shining all around.
+    fn all_around(&self) -> PointLight {
+        PointLight {
+            position: self.position,
+            range: self.range,
+            near: self.near,
+        }
+    }
+
     /// Checks that every number is finite and in its range.
     ///
     /// # Errors
     /// [`LightError`] names the field that is wrong.
     pub fn validate(&self) -> Result<(), LightError> {
-        PointLight::new(self.position, self.near, self.range).validate()?;
+        self.all_around().validate()?;
         DirectionalLight::new(self.direction).validate()?;
         if self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
             Ok(())
@@ -103,6 +139,12 @@ impl SpotLight {
     pub fn homogeneous(&self) -> HomogeneousLight {
         HomogeneousLight::point(self.position)
     }
+}
+
+/// Whether a map may begin there: the depth at the range, `near / range`, must not be so small that
+/// GPUs take it for 0, which means that there is no caster.
+fn is_near_plane(near: f32, range: f32) -> bool {
+    near > 0.0 && near < range && (near / range).is_normal()
 }
 
 /// A light so far away that its rays are parallel.
@@ -206,19 +248,19 @@ mod tests {
 
     #[test]
     fn a_sound_light_passes() {
-        assert_eq!(PointLight::new(Vec3::ONE, 0.1, 30.0).validate(), Ok(()));
+        assert_eq!(PointLight::new(Vec3::ONE, 30.0).validate(), Ok(()));
+        let near = Some(0.1);
+        let light = PointLight {
+            near,
+            ..PointLight::new(Vec3::ONE, 30.0)
+        };
+        assert_eq!(light.validate(), Ok(()));
         assert_eq!(HomogeneousLight::directional(Vec3::Y).validate(), Ok(()));
     }
 
     #[test]
     fn a_cone_must_be_one() {
-        let light = SpotLight {
-            position: Vec3::ONE,
-            direction: Vec3::NEG_Y,
-            half_angle: 0.5,
-            near: 0.1,
-            range: 10.0,
-        };
+        let light = SpotLight::new(Vec3::ONE, Vec3::NEG_Y, 0.5, 10.0);
         assert_eq!(light.validate(), Ok(()));
         for half_angle in [0.0, -0.1, 1.6, f32::INFINITY] {
             let wrong = SpotLight {
@@ -230,25 +272,27 @@ mod tests {
         let direction = Vec3::ZERO;
         let wrong = SpotLight { direction, ..light };
         assert_eq!(wrong.validate(), Err(LightError::Direction));
-        let wrong = SpotLight { near: 0.0, ..light };
+        let near = Some(0.0);
+        let wrong = SpotLight { near, ..light };
         assert!(matches!(wrong.validate(), Err(LightError::Near { .. })));
     }
 
     #[test]
     fn each_bad_field_is_named() {
-        let light = PointLight::new(Vec3::ZERO, 0.1, 30.0);
+        let light = PointLight::new(Vec3::ZERO, 30.0);
         let position = Vec3::new(f32::NAN, 0.0, 0.0);
         assert!(matches!(
             PointLight { position, ..light }.validate(),
             Err(LightError::Position(_))
         ));
-        for range in [f32::NAN, f32::INFINITY, 0.0, -1.0] {
+        for range in [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e-40] {
             assert!(matches!(
                 PointLight { range, ..light }.validate(),
                 Err(LightError::Range(_))
             ));
         }
-        for near in [f32::NAN, 0.0, -1.0, 30.0, 31.0] {
+        for near in [f32::NAN, 0.0, -1.0, 30.0, 31.0, f32::INFINITY, 1e-40, 2e-37] {
+            let near = Some(near);
             assert!(matches!(
                 PointLight { near, ..light }.validate(),
                 Err(LightError::Near { .. })

@@ -5,12 +5,26 @@ use std::future::Future as _;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-use wgpu::{DownlevelFlags, Features, Limits};
+use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 
 /// The abilities of an adapter that matter to shadows.
 ///
 /// Everything in this crate runs at WebGPU's default limits without any feature; each field that
 /// is `false` costs what its [`Fallback`] says.
+///
+/// # wgpu's GL back end
+/// It differs from the others in what none of the fields says:
+/// - Depth goes through `2 z - w`, which leaves reverse-Z no more than 23 bits after the binary point:
+///   `Depth32Float` is no finer there than fixed point (`tests/gl.rs` measures up to 1.5 of 2^-24).
+///   Receivers are given 2^-23 of depth as bias, in world units `d * d / (near * 2^23)` at distance
+///   `d`. That is below a texel of a cube map of `n` texels up to the range if `range / near` is
+///   below 2^24 / n, 16,000 for 1024 texels; the near plane that maps choose by themselves has 2,900.
+///   Depths of [`LinearDistance`](crate::DepthEncoding::LinearDistance) keep all their digits. A host's
+///   own depth buffer loses them as well, and with it shadow volumes.
+/// - Textures of several samples cannot be read in shaders: [`LightJoin`](crate::LightJoin) and
+///   [`ExactCount`](crate::ExactCount) take one sample.
+/// - A cube array cannot be read as single cubes, a [`ShadowMask`](crate::ShadowMask) may have a spare
+///   layer, and depth is not copied ([`StillLayers`](crate::StillLayers)).
 ///
 /// ```
 /// # fn host(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
@@ -43,6 +57,14 @@ pub struct Support {
     pub compute: bool,
     /// Samplers with a border: flat maps are lit beyond their edge without a test in the shader.
     pub clamp_to_border: bool,
+    /// Texture gathers: square kernels read four texels of a flat map at once. Every device has them
+    /// but those of the GL back end without compute shaders, which are WebGL 2 and OpenGL ES 3.0.
+    pub gather: bool,
+    /// Texture gathers of cube maps that can be relied on: [`gather`](Self::gather), except on Intel's
+    /// GPUs, whose drivers for Windows and macOS give other texels
+    /// (<https://github.com/gpuweb/gpuweb/issues/4857>, 2024). Browsers do not tell the vendor, so
+    /// there it is true; see [`Gather`](crate::Gather).
+    pub cube_gather: bool,
     limits: Limits,
 }
 
@@ -78,11 +100,20 @@ impl Support {
             adapter.features(),
             adapter.limits(),
             adapter.get_downlevel_capabilities().flags,
+            &adapter.get_info(),
         )
     }
 
-    fn new(features: Features, limits: Limits, downlevel: DownlevelFlags) -> Self {
+    fn new(
+        features: Features,
+        limits: Limits,
+        downlevel: DownlevelFlags,
+        info: &AdapterInfo,
+    ) -> Self {
+        let gather = info.backend != Backend::Gl || downlevel.contains(COMPUTE);
         Self {
+            gather,
+            cube_gather: gather && gathers_cubes(info),
             cube_arrays: downlevel.contains(DownlevelFlags::CUBE_ARRAY_TEXTURES),
             depth_clip_control: features.contains(Features::DEPTH_CLIP_CONTROL),
             depth32float_stencil8: features.contains(Features::DEPTH32FLOAT_STENCIL8),
@@ -167,6 +198,16 @@ impl Support {
                 "ADDRESS_MODE_CLAMP_TO_BORDER",
                 "each tap on a flat map is tested against the map's edge",
             ),
+            (
+                self.gather,
+                "texture gathers",
+                "square kernels fetch texels of flat maps one by one",
+            ),
+            (
+                self.cube_gather,
+                "right gathers of cube maps",
+                "square kernels fetch texels of cube maps one by one",
+            ),
         ]
         .into_iter()
         .filter(|(offered, ..)| !offered)
@@ -184,6 +225,31 @@ pub(crate) fn has_cube_arrays(device: &wgpu::Device) -> bool {
             source: wgpu::ShaderSource::Wgsl(source.into()),
         }));
     })
+}
+
+/// Whether a device's shaders gather texels. GL has gathers from the versions on that have compute
+/// shaders and indirect draws, and of those wgpu can be asked.
+pub(crate) fn has_gather(device: &wgpu::Device) -> bool {
+    device.adapter_info().backend != Backend::Gl
+        || takes(device, || {
+            drop(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("shadows indirect"),
+                size: 16,
+                usage: wgpu::BufferUsages::INDIRECT,
+                mapped_at_creation: false,
+            }));
+        })
+}
+
+/// Whether a device's gathers of cube maps are right.
+pub(crate) fn has_cube_gather(device: &wgpu::Device) -> bool {
+    gathers_cubes(&device.adapter_info()) && has_gather(device)
+}
+
+/// As far as the vendor goes.
+fn gathers_cubes(info: &AdapterInfo) -> bool {
+    const INTEL: u32 = 0x8086;
+    info.vendor != INTEL
 }
 
 /// Whether a device takes storage buffers in vertex shaders.
@@ -220,12 +286,40 @@ fn takes(device: &wgpu::Device, make: impl FnOnce()) -> bool {
 mod tests {
     use super::*;
 
+    fn info(backend: Backend, vendor: u32) -> AdapterInfo {
+        AdapterInfo {
+            vendor,
+            ..AdapterInfo::new(wgpu::DeviceType::Other, backend)
+        }
+    }
+
+    fn full(limits: Limits, info: &AdapterInfo) -> Support {
+        Support::new(Features::all(), limits, DownlevelFlags::all(), info)
+    }
+
+    #[test]
+    fn gl_gathers_where_it_computes_and_intel_does_not_gather_cubes() {
+        let none = DownlevelFlags::empty();
+        let gathers = |backend, vendor, flags| {
+            let limits = Limits::defaults();
+            let support = Support::new(Features::empty(), limits, flags, &info(backend, vendor));
+            [support.gather, support.cube_gather]
+        };
+        assert_eq!(gathers(Backend::Gl, 0, none), [false, false]);
+        assert_eq!(gathers(Backend::Gl, 0, COMPUTE), [true, true]);
+        assert_eq!(gathers(Backend::Vulkan, 0x10de, none), [true, true]);
+        assert_eq!(gathers(Backend::Dx12, 0x8086, COMPUTE), [true, false]);
+        let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+        assert!(has_gather(&device) && has_cube_gather(&device));
+    }
+
     #[test]
     fn a_bare_adapter_asks_for_nothing_and_says_what_it_does_instead() {
         let limits = Limits::downlevel_webgl2_defaults();
-        let support = Support::new(Features::empty(), limits, DownlevelFlags::empty());
+        let info = info(Backend::Gl, 0);
+        let support = Support::new(Features::empty(), limits, DownlevelFlags::empty(), &info);
         assert_eq!(support.features(), Features::empty());
-        assert_eq!(support.fallbacks().len(), 8);
+        assert_eq!(support.fallbacks().len(), 10);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);
     }
 
@@ -235,7 +329,7 @@ mod tests {
             max_multiview_view_count: 32,
             ..Limits::defaults()
         };
-        let support = Support::new(Features::all(), limits, DownlevelFlags::all());
+        let support = full(limits, &info(Backend::Vulkan, 0));
         assert!(support.fallbacks().is_empty());
         assert_eq!(support.limits().max_multiview_view_count, 6);
         assert!(support.features().contains(Features::MULTIVIEW));
@@ -257,7 +351,7 @@ mod tests {
 
     #[test]
     fn multiview_needs_six_views() {
-        let support = Support::new(Features::all(), Limits::defaults(), DownlevelFlags::all());
+        let support = full(Limits::defaults(), &info(Backend::Vulkan, 0));
         assert!(!support.multiview);
         assert!(!support.features().contains(Features::MULTIVIEW));
     }

@@ -92,7 +92,8 @@ impl View {
         if !eye.is_finite() || eye == DVec4::ZERO {
             return Err(ViewError::Singular);
         }
-        let near_corners = near_corners(matrix, depth).ok_or(ViewError::Singular)?;
+        let near = f64::from(1.0 - depth.clear_depth());
+        let near_corners = corners(matrix, near).ok_or(ViewError::Singular)?;
         Ok(Self {
             clip_from_world,
             depth,
@@ -140,18 +141,38 @@ impl View {
     /// For each corner of the near rectangle, the direction of the sight line through it, away from
     /// the viewer, of any length.
     pub(crate) fn sight_lines(&self) -> [DVec3; 4] {
-        if self.eye.w != 0.0 {
-            let eye = self.eye.xyz() / self.eye.w;
-            return self.near_corners.map(|corner| corner - eye);
+        let matrix = self.clip_from_world.as_dmat4();
+        let (x, y, w) = (matrix.row(0), matrix.row(1), matrix.row(3));
+        let away = self.forward();
+        // Where two planes through the eye meet: without the differences of points that a near plane
+        // close to the eye would make small.
+        CORNERS.map(|(right, up)| {
+            let along = (x - right * w).xyz().cross((y - up * w).xyz());
+            if along.dot(away) < 0.0 { -along } else { along }
+        })
+    }
+
+    /// Where the eye is; `None` if the view is orthographic, whose eye is infinitely far away.
+    pub(crate) fn eye_point(&self) -> Option<DVec3> {
+        (self.eye.w != 0.0).then(|| self.eye.xyz() / self.eye.w)
+    }
+
+    /// The direction in which what is seen gets farther away, of any length: in perspective clip w
+    /// does so, in an orthographic view, where it is the same everywhere, depth.
+    pub(crate) fn forward(&self) -> DVec3 {
+        let row = |index| self.clip_from_world.row(index).xyz().as_dvec3();
+        match self.eye_point() {
+            Some(_) => row(3),
+            None => row(2) * f64::from(self.depth.away()),
         }
-        let depth = self.clip_from_world.row(2).xyz().as_dvec3();
-        let deeper = depth * f64::from(self.depth.away());
-        let along = self.eye.xyz();
-        [if along.dot(deeper) < 0.0 {
-            -along
-        } else {
-            along
-        }; 4]
+    }
+
+    /// The corners of the far rectangle, in the order of [`near_corners`](Self::near_corners);
+    /// `None` where nothing is too far away.
+    pub(crate) fn far_corners(&self) -> Option<[DVec3; 4]> {
+        let far = f64::from(self.depth.clear_depth());
+        let matrix = self.clip_from_world.as_dmat4();
+        self.depth.clips_far().then(|| corners(matrix, far))?
     }
 
     /// A sphere around the near rectangle: centre and radius in world space.
@@ -197,11 +218,14 @@ pub(crate) fn null_vector(a: DVec4, b: DVec4, c: DVec4) -> DVec4 {
     )
 }
 
-fn near_corners(clip_from_world: DMat4, depth: DepthConvention) -> Option<[DVec3; 4]> {
+/// x and y of the corners of the picture in clip space.
+const CORNERS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+
+/// Where the corners of the picture are in the world at a depth.
+fn corners(clip_from_world: DMat4, depth: f64) -> Option<[DVec3; 4]> {
     let world_from_clip = clip_from_world.inverse();
-    let near = f64::from(1.0 - depth.clear_depth());
-    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        .map(|(x, y)| world_from_clip * DVec4::new(x, y, near, 1.0))
+    let corners = CORNERS
+        .map(|(x, y)| world_from_clip * DVec4::new(x, y, depth, 1.0))
         .map(|corner| corner.xyz() / corner.w);
     corners.iter().all(|c| c.is_finite()).then_some(corners)
 }
@@ -234,6 +258,63 @@ mod tests {
         let projection = proj::orthographic(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
         let view = View::new(projection * look_at(), DepthConvention::Standard).unwrap();
         assert!(view.eye().w.abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_orthographic_view_may_begin_behind_its_camera() {
+        let camera = look_at();
+        let camera_at = DVec3::new(0.0, 9.0, 16.0);
+        let along = (DVec3::new(0.0, 0.5, 0.0) - camera_at).normalize();
+        for (near, far) in [(0.1_f32, 10.0_f32), (-20.0, 30.0), (-1000.0, -3.0)] {
+            let off_centre = |near, far| proj::orthographic(-1.0, 2.0, -1.0, 4.0, near, far);
+            for (projection, depth) in [
+                (off_centre(near, far), DepthConvention::Standard),
+                (off_centre(far, near), DepthConvention::FiniteReverse),
+            ] {
+                let view = View::new(projection * camera, depth).unwrap();
+                assert_eq!(view.eye_point(), None);
+                let depths = |corners: [DVec3; 4]| corners.map(|c| (c - camera_at).dot(along));
+                let size = f64::from(near.abs().max(far.abs()));
+                let is = |depth: f64, plane: f32| (depth - f64::from(plane)).abs() < 1e-4 * size;
+                assert!(depths(view.near_corners()).iter().all(|d| is(*d, near)));
+                let far_corners = view.far_corners().unwrap();
+                assert!(depths(far_corners).iter().all(|d| is(*d, far)));
+                for (line, (start, end)) in view
+                    .sight_lines()
+                    .into_iter()
+                    .zip(view.near_corners().into_iter().zip(far_corners))
+                {
+                    let parallel = line.normalize().dot((end - start).normalize());
+                    assert!((parallel - 1.0).abs() < 1e-6, "{parallel}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sight_lines_run_from_the_eye_through_the_near_rectangle() {
+        let mut off_centre = proj::perspective_infinite_reverse(0.8, 1.5, 0.1);
+        off_centre.z_axis.x = 0.4;
+        off_centre.z_axis.y = -0.3;
+        for (projection, depth) in [
+            (off_centre, DepthConvention::InfiniteReverse),
+            (
+                proj::perspective(0.8, 1.5, 0.1, 100.0),
+                DepthConvention::Standard,
+            ),
+            (
+                proj::perspective(0.8, 1.5, 100.0, 0.1),
+                DepthConvention::FiniteReverse,
+            ),
+        ] {
+            let view = View::new(projection * look_at(), depth).unwrap();
+            let eye = view.eye_point().unwrap();
+            assert_eq!(view.far_corners().is_none(), !depth.clips_far());
+            for (line, corner) in view.sight_lines().into_iter().zip(view.near_corners()) {
+                let along = line.normalize().dot((corner - eye).normalize());
+                assert!((along - 1.0).abs() < 1e-9, "{along}");
+            }
+        }
     }
 
     #[test]

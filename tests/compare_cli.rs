@@ -138,21 +138,6 @@ fn an_adapter_that_is_not_there_is_named() {
 }
 
 #[test]
-fn a_range_within_the_shadow_near_plane_is_refused() {
-    if host::gpu::Gpu::for_test().is_some() {
-        let args = [
-            "--range",
-            "1e-9",
-            "--size",
-            "8x8",
-            "--technique",
-            "cube-hard",
-        ];
-        assert_refused(&args, "near");
-    }
-}
-
-#[test]
 fn a_file_in_the_way_is_left_alone() {
     let scratch = Scratch::new("in-the-way");
     let out = scratch.path("out");

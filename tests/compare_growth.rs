@@ -117,6 +117,7 @@ fn series_reach_as_far_as_asked() {
     assert_eq!(ends(Quantity::Triangles, 1e6), [1024.0, 4e6]);
     assert_eq!(ends(Quantity::Triangles, 16.0), [1024.0, 16_384.0]);
     assert_eq!(ends(Quantity::Casters, 1e6), [1.0, 1e5]);
+    assert_eq!(ends(Quantity::Meshes, 1e6), [1.0, 1e4]);
     assert_eq!(ends(Quantity::Lights, 1e6), [1.0, 64.0]);
     assert_eq!(
         ends(Quantity::Pixels, 1e6),
@@ -132,6 +133,10 @@ fn series_reach_as_far_as_asked() {
             // The triangles at the poles have no area.
             Quantity::Triangles => situation.caster.indices.len() / 3 * situation.transforms.len(),
             Quantity::Casters => situation.transforms.len(),
+            Quantity::Meshes => {
+                assert!(situation.distinct);
+                situation.transforms.len()
+            }
             Quantity::Lights => situation.lights.len(),
             Quantity::Pixels => (situation.size[0] * situation.size[1]) as usize,
             Quantity::Texels => (situation.side * situation.side) as usize,

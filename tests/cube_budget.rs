@@ -43,7 +43,7 @@ impl Crowd {
         let mesh = cuboid(Vec3::splat(0.4)).mesh(&gpu.device);
         let mut random = Random::new(21);
         let lights = [-2.0, 0.0, 2.0]
-            .map(|x| PointLight::new(Vec3::new(x, 0.1, 0.2), 0.1, 9.0))
+            .map(|x| PointLight::new(Vec3::new(x, 0.1, 0.2), 9.0))
             .to_vec();
         let casters = (0..40)
             .map(|_| Affine3A::from_translation(random.vec3() * 5.0))
@@ -146,7 +146,7 @@ fn what_changed_most_and_matters_most_to_the_eye_goes_first() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mesh = cuboid(Vec3::splat(0.3)).mesh(&gpu.device);
     let at = |place: Vec3| Caster::new(mesh.clone(), Affine3A::from_translation(place));
-    let lights = [-20.0, 20.0].map(|x| PointLight::new(Vec3::X * x, 0.1, 9.0));
+    let lights = [-20.0, 20.0].map(|x| PointLight::new(Vec3::X * x, 9.0));
     // Before each light a caster that takes much of a face, on +Y, and one that takes little, on +Z.
     let mut casters: Vec<Caster> = lights
         .iter()

@@ -36,7 +36,7 @@ fn at(mesh: &CasterMesh, x: f32, y: f32, z: f32) -> Caster {
 }
 
 fn light_at(position: Vec3) -> PointLight {
-    PointLight::new(position, 0.1, 12.0)
+    PointLight::new(position, 12.0)
 }
 
 /// Something that a host does between two frames.

@@ -42,7 +42,7 @@ impl World {
             casters: Vec::new(),
         };
         for _ in 0..LIGHTS {
-            let light = PointLight::new(world.place(), 0.1, 4.0);
+            let light = PointLight::new(world.place(), 4.0);
             world.lights.push(light);
         }
         (0..900).for_each(|_| world.add());

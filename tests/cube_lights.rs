@@ -40,7 +40,7 @@ fn one_light() -> CubeShadowMapDescriptor<'static> {
 
 fn lights() -> Vec<PointLight> {
     [(0.0, 0.3, 8.0), (6.0, -1.0, 9.0), (-3.0, 2.0, 7.0)]
-        .map(|(x, y, range)| PointLight::new(Vec3::new(x, y, 0.2), 0.1, range))
+        .map(|(x, y, range)| PointLight::new(Vec3::new(x, y, 0.2), range))
         .to_vec()
 }
 
@@ -100,7 +100,7 @@ fn only_its_own_faces(gpu: &Gpu, array: bool) {
         map.statistics().faces_rendered
     };
     assert_eq!(step(&lights), 0);
-    lights.push(PointLight::new(Vec3::new(1.0, 1.0, 4.0), 0.1, 9.0));
+    lights.push(PointLight::new(Vec3::new(1.0, 1.0, 4.0), 9.0));
     assert!((1..=6).contains(&step(&lights)), "one came");
     lights.remove(0);
     assert_eq!(step(&lights), 0, "one went, the others moved up");
@@ -117,7 +117,7 @@ fn receivers_ask_for_a_light_by_its_place() {
     let Some(gpu) = Gpu::for_test() else { return };
     let (casters, mut lights) = (casters(&gpu), lights());
     // One more that reaches no caster: lit in its range.
-    lights.push(PointLight::new(Vec3::splat(30.0), 0.1, 5.0));
+    lights.push(PointLight::new(Vec3::splat(30.0), 5.0));
     let mut random = Random::new(8);
     let points: Vec<(Vec3, Vec3)> = (0..3000)
         .map(|_| (random.vec3() * 6.0, random.vec3()))
@@ -239,7 +239,7 @@ fn lights_that_reach_no_caster_for_a_while_give_their_texels_back() {
                 (0..2).filter(|&at| map.texture(at).is_some()).count() == left
             })
         };
-        let far = PointLight::new(Vec3::splat(90.0), 0.1, 5.0);
+        let far = PointLight::new(Vec3::splat(90.0), 5.0);
         let one_casts = [lights[0], far];
         let one_left = frame_of(1, &one_casts, &casters);
         assert_eq!(one_left, (!array).then_some(60), "an array stays whole");

@@ -55,11 +55,10 @@ fn plane(gpu: &Gpu, scale: f32, turn: f32, depths: f32) -> Plane {
         .map(|point| (world.transform_point3(point), normal))
         .collect();
     Plane {
-        light: PointLight::new(
-            world.transform_point3(Vec3::Y),
-            range / depths * scale,
-            range * scale,
-        ),
+        light: PointLight {
+            near: Some(range / depths * scale),
+            ..PointLight::new(world.transform_point3(Vec3::Y), range * scale)
+        },
         caster: square(150.0).caster(&gpu.device, world),
         points,
     }
@@ -172,7 +171,7 @@ fn no_acne_in_any_format_however_far_the_light_reaches() {
 #[test]
 fn a_wall_on_the_floor_lets_no_light_in_at_the_contact() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let light = PointLight::new(Vec3::new(-3.0, 2.0, 0.1), 0.05, 30.0);
+    let light = PointLight::new(Vec3::new(-3.0, 2.0, 0.1), 30.0);
     let floor = square(10.0).caster(&gpu.device, Affine3A::IDENTITY);
     // A wall without any thickness, in the plane x = 0.5.
     let upright = Affine3A::from_translation(Vec3::new(0.5, 0.5, 0.0))
@@ -223,7 +222,7 @@ const SHELL: f32 = 10.0;
 
 fn shell(gpu: &Gpu, seed: u64) -> Shell {
     let mut random = Random::new(seed);
-    let light = PointLight::new(random.vec3(), 0.1, 30.0);
+    let light = PointLight::new(random.vec3(), 30.0);
     let shape = cuboid(Vec3::new(1.0, 0.6, 0.8));
     let mesh = shape.mesh(&gpu.device);
     let mut truth = Vec::new();
@@ -353,7 +352,7 @@ fn edges_and_corners_of_the_cube_show_no_seam() {
 #[test]
 fn beyond_the_range_nothing_is_lit() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let light = PointLight::new(Vec3::ZERO, 0.1, 10.0);
+    let light = PointLight::new(Vec3::ZERO, 10.0);
     let map = map(&gpu, 64, Bias::default(), &light, &[]);
     let at = |distance: f32| (Vec3::X * distance, Vec3::X);
     let points = [

@@ -41,7 +41,7 @@ fn at(mesh: &CasterMesh, place: Vec3) -> Caster {
 }
 
 fn light_at(position: Vec3) -> PointLight {
-    PointLight::new(position, 0.1, 12.0)
+    PointLight::new(position, 12.0)
 }
 
 /// Casters that stand around on all faces, and one before them on the face +X, the last.
@@ -137,7 +137,7 @@ impl Stage<'_> {
                 self.deformed.mesh.bump_revision();
             }
             Step::OwnPass(face) => {
-                for map in &self.maps {
+                for map in &mut self.maps {
                     self.gpu
                         .run(|encoder| drop(map.begin_face(encoder, 0, CubeFace::ALL[face])));
                 }

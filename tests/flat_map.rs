@@ -19,13 +19,8 @@ use shadows::{
 };
 
 fn spot(position: Vec3, direction: Vec3, half_angle: f32, scale: f32) -> FlatLight {
-    FlatLight::Spot(SpotLight {
-        position: position * scale,
-        direction,
-        half_angle,
-        near: 0.05 * scale,
-        range: 100.0 * scale,
-    })
+    let (position, range) = (position * scale, 100.0 * scale);
+    FlatLight::Spot(SpotLight::new(position, direction, half_angle, range))
 }
 
 fn sun(toward_light: Vec3) -> FlatLight {
@@ -334,8 +329,8 @@ fn casters_before_the_near_plane_still_cast() {
         position: Vec3::Y * 8.0,
         direction: Vec3::NEG_Y,
         half_angle: 0.6,
-        near: 4.0,
         range: 20.0,
+        near: Some(4.0),
     });
     let receivers = shadows::mesh::Bounds {
         min: Vec3::new(-9.0, 0.0, -9.0),

@@ -16,8 +16,8 @@ const SPOT: SpotLight = SpotLight {
     position: Vec3::new(0.0, 4.0, 0.0),
     direction: Vec3::NEG_Y,
     half_angle: 0.28,
-    near: 0.1,
     range: 30.0,
+    near: None,
 };
 
 #[test]

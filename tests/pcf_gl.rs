@@ -36,7 +36,7 @@ fn cube(gpu: &Gpu, casters: &[Caster]) -> CubeShadowMap {
     };
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
     let frame = CubeFrame {
-        lights: &[PointLight::new(LIGHT, 0.05, 30.0)],
+        lights: &[PointLight::new(LIGHT, 30.0)],
         casters,
         ..Default::default()
     };
@@ -66,13 +66,12 @@ fn seen(gpu: &Gpu, shift: Vec3) -> Vec<(String, Vec<f32>)> {
         .map(|point| (point + shift, Vec3::Y))
         .collect();
     let casters = casters(gpu);
-    let spot = FlatLight::Spot(SpotLight {
-        position: LIGHT,
-        direction: Vec3::NEG_Y,
-        half_angle: std::f32::consts::FRAC_PI_4,
-        near: 0.05,
-        range: 30.0,
-    });
+    let spot = FlatLight::Spot(SpotLight::new(
+        LIGHT,
+        Vec3::NEG_Y,
+        std::f32::consts::FRAC_PI_4,
+        30.0,
+    ));
     let sun = FlatLight::Directional(DirectionalLight::new(Vec3::new(0.3, 1.0, 0.2)));
     let cube = cube(gpu, &casters);
     let [spot, sun] = [spot, sun].map(|light| flat(gpu, light, &casters));

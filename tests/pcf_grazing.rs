@@ -64,7 +64,7 @@ fn cube(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> CubeShadowMap {
     };
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
     let frame = CubeFrame {
-        lights: &[PointLight::new(light, 0.002, 10.0)],
+        lights: &[PointLight::new(light, 10.0)],
         casters,
         ..Default::default()
     };
@@ -86,13 +86,7 @@ fn flat(gpu: &Gpu, frame: &ShadowFrame<'_>) -> ShadowMap {
 }
 
 fn spot(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> ShadowMap {
-    let light = FlatLight::Spot(SpotLight {
-        position: light,
-        direction: Vec3::X,
-        half_angle: 0.7,
-        near: 0.002,
-        range: 10.0,
-    });
+    let light = FlatLight::Spot(SpotLight::new(light, Vec3::X, 0.7, 10.0));
     flat(gpu, &ShadowFrame::new(light, casters))
 }
 

@@ -108,7 +108,7 @@ impl Sky {
             size: SIZE,
             ..Default::default()
         };
-        let light = PointLight::new(Vec3::ZERO, 0.05, 30.0);
+        let light = PointLight::new(Vec3::ZERO, 30.0);
         let map = cubes::fresh(gpu, &descriptor, &[light], &casters);
         Self {
             cluster,

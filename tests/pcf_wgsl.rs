@@ -4,9 +4,9 @@ mod common;
 #[path = "common/pcf.rs"]
 mod pcf;
 
-use common::{noop, noop_with, to_glsl, validate, validation_error};
-use pcf::{descriptors, host, made, validate_arrays};
-use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+use common::{noop, noop_with, to_glsl, to_webgl, validate, validation_error};
+use pcf::{SQUARES, descriptors, host, made, validate_arrays};
+use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
 
 /// The samplers of all configurations, on devices without any feature and with borders.
 fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
@@ -209,6 +209,75 @@ fn every_kernel_of_one_light_translates_to_gl() {
         if !descriptor.many_lights {
             let text = sampler.wgsl_module(0) + &host(&descriptor);
             to_glsl(&text, "host").unwrap();
+        }
+    }
+}
+
+/// Found 16: what WebGL 2 has no word for, in GLSL that naga wrote for it.
+fn beyond_webgl(glsl: &str) -> Option<&'static str> {
+    assert!(glsl.starts_with("#version 300 es"), "{glsl}");
+    let missing = ["textureGather", "imageLoad", "buffer ", "samplerCubeArray"];
+    missing.into_iter().find(|word| glsl.contains(word))
+}
+
+/// Sizes in bytes of what a module has as uniforms. In WebGL 2 they come in units of 16.
+fn uniform_sizes(module: &naga::Module) -> Vec<u32> {
+    let uniforms = module.global_variables.iter().filter_map(|(_, variable)| {
+        let is_uniform = variable.space == naga::AddressSpace::Uniform;
+        is_uniform.then_some(variable.ty)
+    });
+    uniforms
+        .map(|ty| module.types[ty].inner.size(module.to_ctx()))
+        .collect()
+}
+
+#[test]
+fn every_kernel_of_one_light_without_gathers_is_webgl_2() {
+    let mut squares = 0;
+    for (descriptor, sampler) in samplers() {
+        if descriptor.many_lights {
+            continue; // a storage buffer and a cube array, neither of which is there
+        }
+        let text = sampler.wgsl_module(0) + &host(&descriptor);
+        let glsl = to_webgl(&text, "host").unwrap();
+        let gathers = SQUARES.contains(&descriptor.kernel) && descriptor.gather == Gather::Auto;
+        // The broken twin: the same kernels with gathers.
+        let missing = gathers.then_some("textureGather");
+        assert_eq!(beyond_webgl(&glsl), missing, "{descriptor:?}");
+        squares += usize::from(gathers);
+        let sizes = uniform_sizes(&validate(&text).unwrap());
+        assert!(sizes.iter().all(|size| size % 16 == 0), "{sizes:?}");
+    }
+    assert_eq!(squares, 2 * 3 * SQUARES.len());
+    // The broken twin: parameters of a disk without padding.
+    let (_, disk) = samplers()
+        .into_iter()
+        .find(|(descriptor, _)| descriptor.kernel.uses_pixel() && !descriptor.many_lights)
+        .unwrap();
+    let short = disk.wgsl_module(0).replace("padding: vec2u,", "");
+    assert!(uniform_sizes(&validate(&short).unwrap()).contains(&24));
+}
+
+#[test]
+fn gathers_are_in_the_squares_alone_and_only_where_they_are_wanted() {
+    for (descriptor, sampler) in samplers() {
+        let gathers = SQUARES.contains(&descriptor.kernel) && descriptor.gather == Gather::Auto;
+        assert_eq!(
+            sampler.wgsl().contains("textureGather"),
+            gathers,
+            "{descriptor:?}"
+        );
+        // A device without a driver has gathers, so asking for them is the same.
+        if descriptor.gather == Gather::Auto {
+            let (device, queue) = noop();
+            let always = PcfDescriptor {
+                gather: Gather::Always,
+                map: descriptor.map,
+                kernel: descriptor.kernel,
+                ..Default::default()
+            };
+            let always = made(&device, &queue, &always).wgsl();
+            assert_eq!(always.contains("textureGather"), gathers);
         }
     }
 }

@@ -24,6 +24,8 @@ mod far_away;
 mod hard;
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[path = "volume/kept.rs"]
+mod kept;
 #[path = "volume/light_pass.rs"]
 mod light_pass;
 #[path = "volume/near_light.rs"]
@@ -46,6 +48,8 @@ mod start_from;
 mod survey;
 #[path = "volume/truth.rs"]
 mod truth;
+#[path = "volume/views.rs"]
+mod views;
 #[path = "volume/ways.rs"]
 mod ways;
 

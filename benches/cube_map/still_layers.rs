@@ -85,7 +85,7 @@ impl Surroundings {
         for caster in &mut self.casters[..BOXES] {
             caster.world_from_object.translation += Vec3A::splat(0.001);
         }
-        let light = PointLight::new(Vec3::ZERO, 0.1, 30.0);
+        let light = PointLight::new(Vec3::ZERO, 30.0);
         let casters = &self.casters;
         self.maps
             .each_mut()

@@ -81,7 +81,7 @@ impl<'a> Bench<'a> {
         name: &str,
         state: &mut S,
         mut before: impl FnMut(&mut S),
-        work: impl Fn(&S, &mut wgpu::CommandEncoder),
+        mut work: impl FnMut(&mut S, &mut wgpu::CommandEncoder),
     ) {
         let (gpu, timer) = (self.gpu, &self.timer);
         let name = format!("{name} [{}]", self.clock());

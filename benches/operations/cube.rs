@@ -43,7 +43,7 @@ impl<'a> Cube<'a> {
             .expect("the frame is in range");
     }
 
-    fn encode(&self) {
+    fn encode(&mut self) {
         self.gpu.run(|encoder| self.map.encode(encoder));
     }
 }
@@ -112,10 +112,10 @@ fn cross(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         "cube cross/bind_group",
         &mut cube,
         |_| {},
-        |cube| cross.bind_group(device, &cube.map, 0),
+        |cube| cross.bind_group(device, &cube.map, 0).unwrap(),
     );
-    let group = cross.bind_group(device, &cube.map, 0);
-    let draw = |_: &Cube<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let group = cross.bind_group(device, &cube.map, 0).unwrap();
+    let draw = |_: &mut Cube<'_>, encoder: &mut wgpu::CommandEncoder| {
         cross.render(&mut stage.host.begin_overlay_pass(encoder), &group);
     };
     bench.gpu("cube cross/render", &mut cube, |_| {}, draw);

@@ -41,7 +41,7 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         ("draw_casters", |debug, pass, _| debug.draw_casters(pass)),
     ];
     for (name, view) in views {
-        let draw = |(debug, volumes): &(VolumeDebug, Volumes<'_>), encoder: &mut _| {
+        let draw = |(debug, volumes): &mut (VolumeDebug, Volumes<'_>), encoder: &mut _| {
             view(debug, &mut stage.host.begin_overlay_pass(encoder), volumes);
         };
         bench.gpu(&format!("debug/{name}"), &mut state, |_| {}, draw);

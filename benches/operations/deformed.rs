@@ -50,7 +50,7 @@ impl Deformed {
 /// What shows the mesh.
 trait Shown {
     fn prepare(&mut self, stage: &Stage<'_>, casters: &[Caster]);
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder);
+    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder);
 }
 
 impl Shown for CubeShadowMap {
@@ -64,7 +64,7 @@ impl Shown for CubeShadowMap {
             .expect("the frame is in range");
     }
 
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.encode(encoder);
     }
 }
@@ -76,7 +76,7 @@ impl Shown for ShadowMap {
             .expect("the frame is in range");
     }
 
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.encode(encoder);
     }
 }
@@ -93,8 +93,8 @@ impl Shown for ShadowVolumeRenderer {
             .expect("the frame is in range");
     }
 
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        self.encode(encoder);
+    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        ShadowVolumeRenderer::encode(self, encoder);
     }
 }
 

@@ -37,7 +37,7 @@ impl<'a> Flat<'a> {
             .expect("the frame is in range");
     }
 
-    fn encode(&self) {
+    fn encode(&mut self) {
         self.gpu.run(|encoder| self.map.encode(encoder));
     }
 }

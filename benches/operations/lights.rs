@@ -61,7 +61,7 @@ impl<'a> Many<'a> {
             .expect("the frame is in range");
     }
 
-    fn encode(&self) {
+    fn encode(&mut self) {
         self.gpu.run(|encoder| self.map.encode(encoder));
     }
 }

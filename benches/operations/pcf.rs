@@ -22,7 +22,7 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let cube = drawn(stage, stage.cube_map(true)?)?;
     samplers(bench, stage, &cube, &flat)?;
     let mut floor = Floor::new(stage)?;
-    let bare = |floor: &Floor, encoder: &mut wgpu::CommandEncoder| {
+    let bare = |floor: &mut Floor, encoder: &mut wgpu::CommandEncoder| {
         let unshadowed = floor.host.unshadowed();
         floor.host.draw_lit(encoder, &floor.scene, unshadowed, None);
     };
@@ -151,7 +151,7 @@ fn receiver(
     };
     let lit = floor.host.lit_pipeline(gpu, &access);
     let mut group = sampler.bind_group(&gpu.device, map)?;
-    let draw = |group: &wgpu::BindGroup, encoder: &mut wgpu::CommandEncoder| {
+    let draw = |group: &mut wgpu::BindGroup, encoder: &mut wgpu::CommandEncoder| {
         floor
             .host
             .draw_lit(encoder, &floor.scene, &lit, Some(group));

@@ -37,12 +37,12 @@ fn exact(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     };
     let mut volumes = Volumes::new(stage, options)?;
     let depth_stencil = stage.host.depth_stencil();
-    let count = |volumes: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let count = |volumes: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         let mut pass = counts.begin(encoder, depth_stencil).expect("it fits");
-        volumes.renderer.render(&mut pass);
+        volumes.renderer.render(&mut pass).expect("it is encoded");
     };
     bench.gpu("exact count/begin and render", &mut volumes, |_| {}, count);
-    let mark = |_: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let mark = |_: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         counts.encode(encoder, depth_stencil).expect("it fits");
     };
     bench.gpu("exact count/encode", &mut volumes, |_| {}, mark);
@@ -66,7 +66,7 @@ fn mask(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let new = |(): &mut ()| ShadowMask::new(device, &descriptor);
     bench.cpu("mask/ShadowMask::new", &mut (), |()| {}, new);
     let mask = ShadowMask::new(device, &descriptor)?;
-    let copy = |_: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let copy = |_: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         let depth_stencil = stage.host.depth_stencil();
         mask.encode(encoder, 0, depth_stencil).expect("it fits");
     };
@@ -90,11 +90,11 @@ fn join(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     bench.cpu("join/bind", &mut (), |()| {}, bind);
     let source = join.bind(&source)?;
     let mut volumes = counted(stage)?;
-    let ambient = |_: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let ambient = |_: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         join.render_ambient(&mut stage.host.begin_overlay_pass(encoder), &source);
     };
     bench.gpu("join/render_ambient", &mut volumes, |_| {}, ambient);
-    let lit = |_: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let lit = |_: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         join.render_lit(&mut stage.host.begin_overlay_pass(encoder), &source);
     };
     bench.gpu("join/render_lit", &mut volumes, |_| {}, lit);

@@ -54,24 +54,16 @@ impl<'a> Stage<'a> {
     }
 
     pub fn point(&self) -> PointLight {
-        let position = self.scene.light.truncate();
-        PointLight::new(position, self.scene.shadow_near, self.scene.range)
+        PointLight::new(self.scene.light.truncate(), self.scene.range)
     }
 
     /// From the scene's light at what the camera looks at.
     pub fn spot(&self) -> SpotLight {
         let PointLight {
-            position,
-            near,
-            range,
+            position, range, ..
         } = self.point();
-        SpotLight {
-            position,
-            direction: self.scene.camera.target - position,
-            half_angle: std::f32::consts::FRAC_PI_4,
-            near,
-            range,
-        }
+        let direction = self.scene.camera.target - position;
+        SpotLight::new(position, direction, std::f32::consts::FRAC_PI_4, range)
     }
 
     /// The flat maps' lights and their names.

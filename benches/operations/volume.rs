@@ -46,14 +46,14 @@ impl<'a> Volumes<'a> {
             .expect("the frame is in range");
     }
 
-    pub fn encode(&self) {
+    pub fn encode(&mut self) {
         self.stage.gpu.run(|encoder| self.renderer.encode(encoder));
     }
 
     /// Counts in the host's stencil.
     pub fn count(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = self.stage.host.begin_stencil_pass(encoder);
-        self.renderer.render(&mut pass);
+        self.renderer.render(&mut pass).expect("it is encoded");
     }
 
     /// The light, so that all silhouettes are searched.
@@ -150,7 +150,7 @@ fn way(
             volumes.move_light();
             volumes.prepare();
         };
-        let encode = |volumes: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+        let encode = |volumes: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
             volumes.renderer.encode(encoder);
         };
         bench.gpu(
@@ -168,7 +168,7 @@ fn way(
 
 /// The stencil pass.
 fn render(bench: &mut Bench<'_>, volumes: &mut Volumes<'_>, name: &str) {
-    let draw = |volumes: &Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
+    let draw = |volumes: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         volumes.count(encoder);
     };
     bench.gpu(&format!("volumes/render, {name}"), volumes, |_| {}, draw);

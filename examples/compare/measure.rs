@@ -206,7 +206,7 @@ impl Contestant {
         let start = Instant::now();
         self.shadow.prepare(gpu, &stage.inputs)?;
         let prepare = start.elapsed().as_secs_f64() * 1e3;
-        let shadow = &self.shadow;
+        let shadow = &mut self.shadow;
         let generate = timer.time(gpu, |encoder| shadow.generate(renderer, encoder));
         let with = timer.time(gpu, |encoder| shadow.shade(renderer, scene, encoder));
 

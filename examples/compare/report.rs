@@ -29,7 +29,7 @@ pub struct Report {
     pub cone: Option<Cone>,
     pub range: f32,
     /// Where the cube maps' frusta begin.
-    pub shadow_near: f32,
+    pub shadow_near: Option<f32>,
     pub scene_name: String,
     pub scene: Vec<Object>,
     /// Techniques that cannot shadow this light, each with the reason.

@@ -26,8 +26,8 @@ pub struct ShadowInputs {
     pub light: HomogeneousLight,
     /// Into which a spot shines; lights of other kinds have none.
     pub cone: Option<Cone>,
-    /// Where maps begin; shadow volumes begin at the light.
-    pub near: f32,
+    /// Where maps begin, if not where they choose; shadow volumes begin at the light.
+    pub near: Option<f32>,
     pub range: f32,
     pub casters: Vec<Caster>,
     /// Everything that receives, world space.
@@ -43,7 +43,10 @@ impl ShadowInputs {
     }
 
     fn point_light(&self) -> PointLight {
-        PointLight::new(self.light.0.truncate(), self.near, self.range)
+        PointLight {
+            near: self.near,
+            ..PointLight::new(self.light.0.truncate(), self.range)
+        }
     }
 
     /// The spot, if it is one.
@@ -215,18 +218,22 @@ impl Shadow {
     }
 
     /// Records what finds the shadows: the map, or the volumes and their stencil pass.
-    pub fn generate(&self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
-        match &self.means {
+    pub fn generate(&mut self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+        match &mut self.means {
             Means::Cube { map, .. } => map.encode(encoder),
             Means::Flat { map, .. } => map.encode(encoder),
             Means::Volume { volumes, counts } => {
                 volumes.encode(encoder);
                 let Some(counts) = counts else {
-                    return volumes.render(&mut host.begin_stencil_pass(encoder));
+                    return volumes
+                        .render(&mut host.begin_stencil_pass(encoder))
+                        .expect("it is encoded");
                 };
                 let fits = "made for the renderer's buffer";
                 let buffer = host.depth_stencil();
-                volumes.render(&mut counts.begin(encoder, buffer).expect(fits));
+                volumes
+                    .render(&mut counts.begin(encoder, buffer).expect(fits))
+                    .expect("it is encoded");
                 counts.encode(encoder, buffer).expect(fits);
             }
         }

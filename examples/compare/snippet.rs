@@ -155,6 +155,7 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         encoding,
         many_lights,
         textbook,
+        gather,
     } = sampler;
     Literal::new("sampler", "PcfDescriptor")
         .written("kernel", &kernel(*filter), *filter == default.kernel)
@@ -162,6 +163,7 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
         .field("many_lights", "", many_lights, &default.many_lights)
         .field("textbook", "", textbook, &default.textbook)
+        .field("gather", "Gather::", gather, &default.gather)
         .finish()
 }
 

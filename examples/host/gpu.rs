@@ -20,14 +20,19 @@ impl Gpu {
     /// The first adapter whose name, driver or back end contains `wanted` (any case); without
     /// `wanted`, a real GPU before a software driver and Vulkan before GL.
     pub fn new(wanted: Option<&str>) -> Result<Self> {
-        pollster::block_on(Self::request(wanted))
+        pollster::block_on(Self::request(wanted, wgpu::Features::empty()))
     }
 
     /// For tests: a device, or `None` (said on stderr) where no driver is installed and none is
     /// required.
     pub fn for_test() -> Option<Self> {
+        Self::for_test_without(wgpu::Features::empty())
+    }
+
+    /// The same without some of the device's features, as if it did not have them.
+    pub fn for_test_without(features: wgpu::Features) -> Option<Self> {
         let wanted = std::env::var("SHADOWS_TEST_ADAPTER").ok();
-        match Self::new(wanted.as_deref()) {
+        match pollster::block_on(Self::request(wanted.as_deref(), features)) {
             Ok(gpu) => Some(gpu),
             Err(error) if std::env::var_os(REQUIRE).is_some() => {
                 panic!("{REQUIRE} is set, but: {error:#}")
@@ -39,7 +44,7 @@ impl Gpu {
         }
     }
 
-    async fn request(wanted: Option<&str>) -> Result<Self> {
+    async fn request(wanted: Option<&str>, refused: wgpu::Features) -> Result<Self> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
         adapters.sort_by_key(|adapter| preference(&adapter.get_info()));
@@ -69,7 +74,7 @@ impl Gpu {
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("headless"),
-                required_features: support.features() | timestamps,
+                required_features: (support.features() | timestamps) - refused,
                 required_limits: support.limits(),
                 ..Default::default()
             })

@@ -14,6 +14,21 @@ pub struct Look {
     /// Whether the host multiplies its matrices before the positions: other last bits than the
     /// library's.
     pub premultiplied: bool,
+    /// Without perspective; the scene's camera then gives no more than place and direction.
+    pub orthographic: Option<Orthographic>,
+}
+
+/// What an orthographic camera shows, in the world's unit of length: counted from the camera, to the
+/// right, up and ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orthographic {
+    pub left: f32,
+    pub right: f32,
+    pub bottom: f32,
+    pub top: f32,
+    /// Below 0: behind the camera.
+    pub near: f32,
+    pub far: f32,
 }
 
 impl Default for Look {
@@ -22,6 +37,7 @@ impl Default for Look {
             depth: DEPTH,
             samples: 1,
             premultiplied: false,
+            orthographic: None,
         }
     }
 }

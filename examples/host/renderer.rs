@@ -2,12 +2,13 @@
 //! light and writes its visibility beside it.
 
 use anyhow::Result;
+use shadows::glam::camera::rh::proj::directx;
 use shadows::glam::{Mat4, Vec3};
-use shadows::{View, wgpu};
+use shadows::{DepthConvention, View, wgpu};
 
 use super::gpu::Gpu;
 use super::image;
-pub use super::pipelines::{DEPTH, LitPipeline, Look, SHADED, ShadowAccess};
+pub use super::pipelines::{DEPTH, LitPipeline, Look, Orthographic, SHADED, ShadowAccess};
 use super::pipelines::{ambient_pipeline, lit_pipeline};
 use super::scene::Scene;
 use super::scene_gpu::SceneGpu;
@@ -305,10 +306,26 @@ pub fn view_as(scene: &Scene, size: [u32; 2], look: Look) -> Result<View> {
     Ok(View::new(matrix(scene, size, look), look.depth)?)
 }
 
+impl Orthographic {
+    /// Clip space from what the camera sees; depth must have an end.
+    fn projection(&self, depth: DepthConvention) -> Mat4 {
+        let (first, last) = match depth {
+            DepthConvention::Standard => (self.near, self.far),
+            DepthConvention::FiniteReverse | DepthConvention::InfiniteReverse => {
+                (self.far, self.near)
+            }
+        };
+        directx::orthographic(self.left, self.right, self.bottom, self.top, first, last)
+    }
+}
+
 /// Clip from world space.
 pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     let aspect = size[0] as f32 / size[1] as f32;
-    scene.camera.clip_from_world_as(aspect, look.depth)
+    match look.orthographic {
+        Some(seen) => seen.projection(look.depth) * scene.camera.from_world(),
+        None => scene.camera.clip_from_world_as(aspect, look.depth),
+    }
 }
 
 fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {

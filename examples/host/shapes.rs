@@ -144,6 +144,45 @@ pub fn sphere(rings: u32) -> Shape {
     shape
 }
 
+/// An upright tube of `count` strips with slits as wide between them, open above and below.
+pub fn slit_tube(radius: f32, half_height: f32, count: u32) -> Shape {
+    let mut shape = Shape::new(&[], &[]);
+    for strip in 0..count {
+        let first = shape.positions.len() as u32;
+        for (end, y) in [(0.0, -1.0), (0.5, -1.0), (0.5, 1.0), (0.0, 1.0)] {
+            let angle = std::f32::consts::TAU * (strip as f32 + end) / count as f32;
+            let (z, x) = angle.sin_cos();
+            let corner = [radius * x, half_height * y, radius * z];
+            shape.positions.push(corner);
+        }
+        shape.indices.extend([0, 2, 1, 0, 3, 2].map(|i| first + i));
+    }
+    shape
+}
+
+/// Hills around y = 0: `count` by `count` quads over a square of half the given side length.
+pub fn hills(half: f32, count: u32) -> Shape {
+    let mut shape = Shape::new(&[], &[]);
+    let along = |i: u32| 2.0 * i as f32 / count as f32 - 1.0;
+    for row in 0..=count {
+        for column in 0..=count {
+            let (x, z) = (along(column), along(row));
+            let y = 0.012 * ((31.0 * x + 1.3).sin() * (23.0 * z).cos() + (57.0 * (x - z)).sin());
+            shape.positions.push([x, y, z].map(|at| half * at));
+        }
+    }
+    for row in 0..count {
+        for column in 0..count {
+            let first = row * (count + 1) + column;
+            let quad = [first, first + count + 1, first + count + 2, first + 1];
+            shape
+                .indices
+                .extend([0, 1, 2, 0, 2, 3].map(|i: usize| quad[i]));
+        }
+    }
+    shape
+}
+
 /// `count` vertical fins around one shared edge, like the pages of a book.
 pub fn fins(count: u32) -> Shape {
     let mut shape = Shape::new(&[[0.0, 0.0, 0.0], [0.0, 1.5, 0.0]], &[]);

@@ -127,7 +127,7 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
             }
         }
         if frame.encoded && !target.contains(&0) {
-            draw(&renderer, target, settings.exact);
+            draw(&mut renderer, target, settings.exact);
         }
         if frame.asked {
             let _ = renderer.may_wrap();
@@ -139,7 +139,7 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
 });
 
 /// Records what a host would, for a target of the frame's size.
-fn draw(renderer: &ShadowVolumeRenderer, [width, height]: [u32; 2], exact: bool) {
+fn draw(renderer: &mut ShadowVolumeRenderer, [width, height]: [u32; 2], exact: bool) {
     let target = device().0.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d {
@@ -163,7 +163,7 @@ fn draw(renderer: &ShadowVolumeRenderer, [width, height]: [u32; 2], exact: bool)
                 ..Default::default()
             };
             let count = ExactCount::new(&device().0, &descriptor).expect("it fits");
-            renderer.render(&mut count.begin(encoder, &view).expect("it fits"));
+            renderer.render(&mut count.begin(encoder, &view).expect("it fits")).expect("it is encoded");
             return count.encode(encoder, &view).expect("it fits");
         }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -177,6 +177,6 @@ fn draw(renderer: &ShadowVolumeRenderer, [width, height]: [u32; 2], exact: bool)
             }),
             ..Default::default()
         });
-        renderer.render(&mut pass);
+        renderer.render(&mut pass).expect("it is encoded");
     });
 }

@@ -270,7 +270,7 @@ pub struct Light {
     pub at: [Number; 3],
     pub direction: [Number; 3],
     pub w: Weight,
-    pub near: Length,
+    pub near: Option<Length>,
     pub range: Length,
     pub half_angle: Length,
 }
@@ -285,8 +285,15 @@ pub enum Weight {
 }
 
 impl Light {
+    fn near(&self) -> Option<f32> {
+        self.near.map(|near| near.0 / 256.0)
+    }
+
     pub fn point(&self) -> PointLight {
-        PointLight::new(vector(self.at), self.near.0 / 256.0, self.range.0)
+        PointLight {
+            near: self.near(),
+            ..PointLight::new(vector(self.at), self.range.0)
+        }
     }
 
     pub fn spot(&self) -> SpotLight {
@@ -294,8 +301,8 @@ impl Light {
             position: vector(self.at),
             direction: vector(self.direction),
             half_angle: self.half_angle.0 / 24.0,
-            near: self.near.0 / 256.0,
             range: self.range.0,
+            near: self.near(),
         }
     }
 

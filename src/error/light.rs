@@ -9,11 +9,15 @@ pub enum LightError {
     /// A coordinate is NaN or infinite.
     #[error("light position {0:?} is not finite")]
     Position([f32; 3]),
-    /// The range is NaN, infinite, zero or negative.
-    #[error("light range {0} is out of range; pass a finite distance above 0")]
+    /// The range is NaN, infinite, zero, negative, or smaller than the least normal `f32`.
+    #[error("light range {0} is out of range; pass a finite distance above 0, at least 1.2e-38")]
     Range(f32),
-    /// The near distance is not between 0 and the range.
-    #[error("light near {near} is out of range; pass 0 < near < range = {range}")]
+    /// The near distance is not between 0 and the range, or so small a part of it that the depth at
+    /// the range is 0.
+    #[error(
+        "light near {near} is out of range; pass None, or 0 < near < range = {range} and no less \
+         than 1.2e-38 of that"
+    )]
     Near {
         /// The near distance passed.
         near: f32,

@@ -80,6 +80,11 @@ pub enum CubeShadowMapError {
         "StillLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
     )]
     StillLayers,
+    /// A view of one cube of a cube array, on a back end that has none.
+    #[error(
+        "wgpu's GL back end reads no single cube out of a cube array; read the array (PcfDescriptor::many_lights), or make the map without cube_array"
+    )]
+    CubeView,
     /// More lights in a frame than the map was made for.
     #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
     TooManyLights {
@@ -230,11 +235,21 @@ pub enum PcfError {
         "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for many_lights: each light is then read through a bind group of its own"
     )]
     CubeArray,
+    /// Gathers on a device that has none.
+    #[error(
+        "the device has no texture gathers (it is a GL device without compute shaders, as WebGL 2); pass Gather::Auto or Gather::Never"
+    )]
+    Gather,
     /// A sampler for many lights and a map with one texture for each.
     #[error(
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
     )]
     NoCubeArray,
+    /// A sampler for one light and a cube array, on a back end that reads no single cube out of it.
+    #[error(
+        "wgpu's GL back end reads no single cube out of a cube array; make the sampler with many_lights, or the map without cube_array"
+    )]
+    CubeView,
     /// A bind group for a light that the map has no place for.
     #[error(
         "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"

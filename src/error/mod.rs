@@ -13,5 +13,5 @@ pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
-pub use volume::{ScreenPassError, ShadowVolumeError};
+pub use volume::{ScreenPassError, ShadowVolumeError, VolumeRenderError};
 pub use volume_debug::VolumeDebugError;

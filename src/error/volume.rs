@@ -112,6 +112,22 @@ pub enum ShadowVolumeError {
     },
 }
 
+/// Why [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render) draws nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum VolumeRenderError {
+    /// What was prepared is not on its way to the GPU.
+    #[error(
+        "render was called before encode; call prepare, then encode, then render in every frame (and for every view)"
+    )]
+    NotEncoded,
+    /// What was recorded never comes to the GPU.
+    #[error(
+        "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
+    )]
+    Dropped,
+}
+
 /// What can be wrong with a [`ShadowMask`](crate::ShadowMask), a
 /// [`LightJoin`](crate::LightJoin) or an [`ExactCount`](crate::ExactCount).
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -140,6 +156,16 @@ pub enum ScreenPassError {
     /// The sample count is neither 1 nor 4.
     #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
     SampleCount(u32),
+    /// Shaders would have to read several samples, on a back end that cannot.
+    #[error(
+        "{what} with {samples} samples reads a multisampled texture, which wgpu's GL back end does not make; pass 1 sample, or count into a ShadowMask"
+    )]
+    SamplesOnGl {
+        /// The samples passed.
+        samples: u32,
+        /// What would read them, e.g. `"LightJoin"`.
+        what: &'static str,
+    },
     /// The device was created without a feature that this needs.
     #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
     MissingFeature {

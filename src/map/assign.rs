@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     fn light(x: f32) -> PointLight {
-        PointLight::new(Vec3::X * x, 0.1, 10.0)
+        PointLight::new(Vec3::X * x, 10.0)
     }
 
     fn slots(lights: &[Option<f32>]) -> Vec<Slot> {

@@ -3,6 +3,7 @@
 use super::cube::CubeShadowMap;
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
+use crate::error::CubeShadowMapError;
 
 /// How to make a [`CubeCross`].
 #[derive(Clone, Debug)]
@@ -66,19 +67,23 @@ impl CubeCross {
 
     /// The bind group for the light at place `light` of a map's frame. To be made again when
     /// [`CubeShadowMap::texture_revision`] changes.
+    ///
+    /// # Errors
+    /// [`CubeShadowMapError::CubeView`], as [`CubeShadowMap::view`].
     pub fn bind_group(
         &self,
         device: &wgpu::Device,
         map: &CubeShadowMap,
         light: usize,
-    ) -> wgpu::BindGroup {
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
+    ) -> Result<wgpu::BindGroup, CubeShadowMapError> {
+        let view = map.view(light)?;
+        Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry {
                     binding: 0,
-                    resource: wgpu::BindingResource::TextureView(map.view(light)),
+                    resource: wgpu::BindingResource::TextureView(view),
                 },
                 wgpu::BindGroupEntry {
                     binding: 1,
@@ -89,7 +94,7 @@ impl CubeCross {
                     resource: map.light_uniform(light),
                 },
             ],
-        })
+        }))
     }
 
     /// Draws into the pass's viewport. Group 0 and the pipeline are set to others after.

@@ -10,11 +10,13 @@ use super::draws::DrawLists;
 use super::face::CubeFace;
 use super::joint::Joint;
 use super::light::LightUniform;
+use super::near::NearPlane;
 use super::plan::SlotPlan;
 use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
 use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
+use super::step::depth_step;
 use super::still_layer::StillLayer;
 use super::texture::Textures;
 use crate::error::CubeShadowMapError;
@@ -73,6 +75,8 @@ pub struct CubeShadowMap {
     pub(super) array: bool,
     pub(super) format: wgpu::TextureFormat,
     pub(super) encoding: DepthEncoding,
+    pub(super) near_plane: NearPlane,
+    pub(super) depth_step: f32,
     pub(super) allocation: Allocation,
     pub(super) cache: bool,
     pub(super) budget: Option<u32>,
@@ -140,8 +144,7 @@ impl CubeShadowMap {
             format,
             encoding,
             slope_scale: bias.slope_scale,
-            // A point light has no plane to pull casters onto.
-            unclipped_depth: false,
+            unclipped_depth: resources::can_pull_casters(device),
             constants: &[],
         };
         let joint = descriptor
@@ -161,6 +164,8 @@ impl CubeShadowMap {
             array: cube_array,
             format,
             encoding,
+            near_plane: NearPlane::new(device, format, encoding),
+            depth_step: depth_step(device, format, encoding),
             allocation: descriptor.allocation,
             cache: descriptor.cache,
             budget: descriptor.max_faces_per_frame,
@@ -229,11 +234,13 @@ impl CubeShadowMap {
     pub fn clip_from_world(&self, light: usize, face: CubeFace) -> Option<Mat4> {
         let slot = &self.slots[*self.order.get(light)?];
         let light = slot.shown.or(slot.light)?;
-        Some(face.clip_from_light(light.near) * Mat4::from_translation(-light.position))
+        let near = self.near_plane.of_point(&light);
+        Some(face.clip_from_light(near) * Mat4::from_translation(-light.position))
     }
 
     /// A light's texture and the first of its six layers, in the order of [`CubeFace::ALL`]; `None`
-    /// if it has no texels.
+    /// if it has no texels. On wgpu's GL back end a cube array for one light has six more layers, which
+    /// nothing is drawn into.
     pub fn texture(&self, light: usize) -> Option<(&wgpu::Texture, u32)> {
         let slot = self.textures.slot(*self.order.get(light)?)?;
         Some((&slot.texture, slot.first_layer))
@@ -241,8 +248,13 @@ impl CubeShadowMap {
 
     /// A light's map as a cube texture, for hosts that sample it themselves; a placeholder of one
     /// texel a face if it has none.
-    pub fn view(&self, light: usize) -> &wgpu::TextureView {
-        self.textures.cube(self.slot_of(light))
+    ///
+    /// # Errors
+    /// [`CubeShadowMapError::CubeView`] if the map is a cube array on wgpu's GL back end, which reads
+    /// no cube out of an array.
+    pub fn view(&self, light: usize) -> Result<&wgpu::TextureView, CubeShadowMapError> {
+        let view = self.textures.cube(self.slot_of(light));
+        view.ok_or(CubeShadowMapError::CubeView)
     }
 
     /// One face of a light's map as a 2D texture; `None` if it has no texels.

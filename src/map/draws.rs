@@ -6,6 +6,7 @@ use glam::DAffine3;
 
 use super::descriptor::CasterSides;
 use super::joint::Joint;
+use super::near::NearPlane;
 use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
@@ -142,8 +143,17 @@ impl DrawLists {
     }
 
     /// Adds some faces of a slot.
-    pub fn add(&mut self, index: usize, slot: &Slot, mask: u8, scene: &Scene, casters: &[Caster]) {
+    pub fn add(
+        &mut self,
+        index: usize,
+        slot: &Slot,
+        mask: u8,
+        near_plane: NearPlane,
+        scene: &Scene,
+        casters: &[Caster],
+    ) {
         let Some(light) = slot.light else { return };
+        let near = f64::from(near_plane.of_point(&light));
         let light_from_world = DAffine3::from_translation(-light.position.as_dvec3());
         self.rows.clear();
         self.members.iter_mut().for_each(Vec::clear);
@@ -156,7 +166,7 @@ impl DrawLists {
             if lists == 0 {
                 continue; // all on layers that are there
             }
-            let clear = bounds(&light, record).clear_of_near(f64::from(light.near));
+            let clear = bounds(&light, record).clear_of_near(near);
             let cull = Cull::of(scene.sides(), record, clear);
             for (bit, members) in self.members.iter_mut().enumerate() {
                 if lists & 1 << bit != 0 {

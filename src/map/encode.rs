@@ -10,7 +10,7 @@ use super::resources::UNIFORM_STRIDE;
 impl CubeShadowMap {
     /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         // A bind group that was made before there were texels, and is not made again, says lit.
         for view in self.textures.blank() {
             drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -72,7 +72,8 @@ impl CubeShadowMap {
 
     /// Begins a pass that clears one face of a light, for a host that draws its own geometry
     /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
-    /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding).
+    /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding), and
+    /// unclipped depth where the device has it, so that what is nearer than the near plane casts.
     /// `None` if the light has no texels (see [`Allocation::AtOnce`](crate::Allocation::AtOnce)) or
     /// the last frame had no such light.
     ///
@@ -80,7 +81,7 @@ impl CubeShadowMap {
     /// is cleared, so pass such a host's other casters through its own draws too. The next
     /// `prepare` takes the face's content for unknown and draws it again.
     pub fn begin_face<'encoder>(
-        &self,
+        &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
         light: usize,
         face: CubeFace,

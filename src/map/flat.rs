@@ -11,8 +11,10 @@ use super::flat_descriptor::{
     FlatLight, FlatLightUniform, ShadowFrame, ShadowMapDescriptor, ShadowMapStatistics,
 };
 use super::flat_frame::{Fit, FlatFrame, fit};
+use super::near::NearPlane;
 use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
 use super::scene::Scene;
+use super::step::depth_step;
 use super::texture;
 use crate::error::ShadowMapError;
 use crate::mesh::Caster;
@@ -52,6 +54,8 @@ pub struct ShadowMap {
     texture: wgpu::Texture,
     view: wgpu::TextureView,
     kind: PipelineKind,
+    near_plane: NearPlane,
+    depth_step: f32,
     pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -96,9 +100,6 @@ impl ShadowMap {
         let (size, bias) = (descriptor.size, descriptor.bias);
         let texture = texture::create(device, &label, size, descriptor.format, 1);
         let (face, layout, face_group) = resources::faces(device, &label, 1);
-        let clip_control = device
-            .features()
-            .contains(wgpu::Features::DEPTH_CLIP_CONTROL);
         let kind = PipelineKind {
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(&label),
@@ -112,7 +113,7 @@ impl ShadowMap {
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
-            unclipped_depth: descriptor.unclipped_depth && clip_control,
+            unclipped_depth: descriptor.unclipped_depth && resources::can_pull_casters(device),
             constants: &[],
         };
         Ok(Self {
@@ -124,6 +125,8 @@ impl ShadowMap {
                 label: Some(&label),
                 ..Default::default()
             }),
+            near_plane: NearPlane::new(device, kind.format, kind.encoding),
+            depth_step: depth_step(device, kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -192,7 +195,7 @@ impl ShadowMap {
 
     /// Records the pass that the last [`prepare`](Self::prepare) found necessary; once: a second
     /// call before the next `prepare` records nothing. What is recorded must be submitted.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if !self.pending.swap(false, Ordering::Relaxed) {
             return;
         }
@@ -214,7 +217,7 @@ impl ShadowMap {
     /// pass such a host's other casters through its own draws too. The casters of
     /// [`prepare`](Self::prepare) still decide where a directional light's map lies.
     pub fn begin_pass<'encoder>(
-        &self,
+        &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
         self.pending.store(false, Ordering::Relaxed);
@@ -263,7 +266,10 @@ impl ShadowMap {
     /// Where the map lies for a frame, if anything casts.
     fn place(&mut self, frame: &ShadowFrame<'_>) -> Result<(), ShadowMapError> {
         let (placed, width) = match &frame.light {
-            FlatLight::Spot(light) => (Some(FlatFrame::of_spot(light)), self.width),
+            FlatLight::Spot(light) => {
+                let near = self.near_plane.of_spot(light);
+                (Some(FlatFrame::of_spot(light, near)), self.width)
+            }
             FlatLight::Directional(light) => {
                 let fitted = fit(
                     &Fit {
@@ -340,8 +346,8 @@ impl ShadowMap {
     }
 
     fn upload(&self, queue: &wgpu::Queue) {
-        let format = self.texture.format();
-        let light = FlatLightUniform::new(self.frame.as_ref(), &self.bias, self.size, format);
+        let (frame, step) = (self.frame.as_ref(), self.depth_step);
+        let light = FlatLightUniform::new(frame, &self.bias, self.size, step);
         queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
         if let Some(frame) = self.frame {
             let face = FaceUniform {

@@ -28,7 +28,7 @@ pub struct ShadowMapDescriptor<'a> {
     /// Whether casters before the near plane are pulled onto it, on devices with
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL). Default true. On others a
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
-    /// than its `near`.
+    /// than its [`near`](SpotLight::near).
     pub unclipped_depth: bool,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
     /// that reads the map. A directional light's map is fitted that much wider than what is seen and
@@ -88,8 +88,13 @@ pub struct ShadowFrame<'a> {
     pub light: FlatLight,
     /// Everything that may cast; what cannot be on the map is left out by the map itself.
     pub casters: &'a [Caster],
-    /// The host's camera, and the distance along its axis, in world units, up to which shadows are
-    /// to be seen. A directional light's map then covers no more than that. `None`: everything.
+    /// The host's camera, and the distance from its eye, along its axis and in world units, up to
+    /// which shadows are to be seen. A directional light's map then covers no more than what the view
+    /// shows up to there, or up to its far plane where that is nearer. `None`: everything.
+    ///
+    /// An orthographic view has no eye to count from (its near plane may even lie behind the camera),
+    /// and shows all of its depth at one scale. It counts from its near to its far plane, whatever the
+    /// distance; for less, pass a view whose far plane is nearer.
     pub view: Option<(&'a View, f32)>,
     /// Bounds of all receivers in world space. A directional light's map then covers no more than
     /// those. `None`: receivers may be anywhere.
@@ -168,12 +173,7 @@ pub(crate) struct FlatLightUniform {
 
 impl FlatLightUniform {
     /// `frame` is `None` where nothing casts.
-    pub(super) fn new(
-        frame: Option<&FlatFrame>,
-        bias: &Bias,
-        size: u32,
-        format: wgpu::TextureFormat,
-    ) -> Self {
+    pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32, quantum: f32) -> Self {
         let Some(frame) = frame else {
             return Self {
                 quantum: -1.0,
@@ -197,7 +197,7 @@ impl FlatLightUniform {
                 false => bias.constant * texel / frame.range,
             },
             perspective: f32::from(u8::from(frame.perspective)),
-            quantum: quantum(format).unwrap_or(0.0),
+            quantum,
             rounding: bias.rounding(),
             padding: [0.0; 3],
         }

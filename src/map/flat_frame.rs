@@ -1,6 +1,6 @@
 //! Where a flat map lies in the world: frames of spots, and frames fitted for directional lights.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, Mat4, Vec3, Vec4Swizzles};
+use glam::{DVec2, DVec3, Mat4, Vec3};
 
 use super::scene::Record;
 use crate::mesh::Bounds;
@@ -33,7 +33,7 @@ fn axes(forward: DVec3) -> [Vec3; 3] {
 }
 
 impl FlatFrame {
-    pub fn of_spot(light: &SpotLight) -> Self {
+    pub fn of_spot(light: &SpotLight, near: f32) -> Self {
         let [right, up, forward] = axes(light.direction.as_dvec3());
         Self {
             origin: light.position,
@@ -41,7 +41,7 @@ impl FlatFrame {
             up,
             forward,
             scale: 1.0 / light.half_angle.tan(),
-            near: light.near,
+            near,
             range: light.range,
             perspective: true,
         }
@@ -156,7 +156,7 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
     let mut nearest_receiver = f64::NEG_INFINITY;
     let seen = fit
         .view
-        .map(|(view, distance)| frustum(view, f64::from(distance)));
+        .map(|(view, distance)| shown(view, f64::from(distance)));
     let received = fit.receivers.map(|bounds| corners(&bounds));
     let (reach_texels, reach_world) = fit.reach.texels_and_world();
     for points in [seen, received].into_iter().flatten() {
@@ -221,30 +221,27 @@ fn rounding(covered: &LightBox) -> f64 {
     farthest * f64::from(f32::EPSILON)
 }
 
-/// Corners of what a view shows up to a distance along its axis.
-fn frustum(view: &View, distance: f64) -> Vec<DVec3> {
-    let world_from_clip: DMat4 = view.clip_from_world().as_dmat4().inverse();
-    let near = view.near_corners();
-    let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    let rays: Vec<DVec3> = signs
-        .into_iter()
-        .zip(near)
-        .map(|((x, y), corner)| {
-            let deeper = world_from_clip * DVec4::new(x, y, 0.5, 1.0);
-            deeper.xyz() / deeper.w - corner
-        })
-        .collect();
-    let axis = rays.iter().sum::<DVec3>().normalize();
-    let far = near
-        .into_iter()
-        .zip(&rays)
-        .map(|(corner, ray)| corner + *ray * (distance / ray.dot(axis)));
-    near.into_iter().chain(far).collect()
+/// Corners of what a view shows: in perspective up to a distance from the eye along its axis.
+fn shown(view: &View, distance: f64) -> [DVec3; 8] {
+    let (near, far) = (view.near_corners(), view.far_corners());
+    let end: [DVec3; 4] = match view.eye_point() {
+        None => far.unwrap_or(near),
+        Some(eye) => {
+            let forward = view.forward().normalize();
+            let depth = |point: DVec3| forward.dot(point - eye);
+            let lines = view.sight_lines().map(|line| line / forward.dot(line));
+            std::array::from_fn(|corner| {
+                let last = far.map_or(distance, |far| distance.min(depth(far[corner])));
+                eye + lines[corner] * last.max(depth(near[corner]))
+            })
+        }
+    };
+    let [a, b, c, d] = near;
+    let [e, f, g, h] = end;
+    [a, b, c, d, e, f, g, h]
 }
 
-fn corners(bounds: &Bounds) -> Vec<DVec3> {
+fn corners(bounds: &Bounds) -> [DVec3; 8] {
     let ends = [bounds.min.as_dvec3(), bounds.max.as_dvec3()];
-    (0..8)
-        .map(|i| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z))
-        .collect()
+    std::array::from_fn(|i| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z))
 }

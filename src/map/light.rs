@@ -1,6 +1,5 @@
 //! What receivers are told of a light.
 
-use super::descriptor::quantum;
 use crate::{Bias, PointLight};
 
 /// Where a light's depths are.
@@ -33,20 +32,21 @@ pub(crate) struct LightUniform {
 impl LightUniform {
     pub(super) fn new(
         light: &PointLight,
+        near: f32,
         depths: Depths,
         size: u32,
         bias: &Bias,
-        format: wgpu::TextureFormat,
+        quantum: f32,
     ) -> Self {
         let texel = 2.0 / size as f32;
         Self {
             position: light.position.to_array(),
-            near: light.near,
+            near,
             range: light.range,
             size: size as f32,
             normal_offset: bias.normal_offset * texel,
             depth_scale: 1.0 + bias.constant * texel,
-            quantum: quantum(format).unwrap_or(0.0),
+            quantum,
             cube: match depths {
                 Depths::Cube(index) => index,
                 Depths::NoCaster => -1,

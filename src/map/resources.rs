@@ -129,6 +129,14 @@ pub(super) struct PipelineKind {
     pub constants: &'static [(&'static str, f64)],
 }
 
+/// Whether casters before a near plane can be pulled onto it. There they still are before every
+/// receiver. What is behind the light stays clipped by the sides of the frustum, which meet in it; so
+/// on a cube face, too, nothing is drawn that does not lie in the face's own pyramid.
+pub(super) fn can_pull_casters(device: &wgpu::Device) -> bool {
+    let features = device.features();
+    features.contains(wgpu::Features::DEPTH_CLIP_CONTROL)
+}
+
 /// `views`: the faces that are drawn at once, by a shader that knows which it is on.
 pub(super) fn pipeline(
     device: &wgpu::Device,

@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     fn light() -> PointLight {
-        PointLight::new(Vec3::ZERO, 0.1, 10.0)
+        PointLight::new(Vec3::ZERO, 10.0)
     }
 
     /// Draws a face of casters of 100 triangles each, given by the frames in which they last changed.

@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use super::face::CubeFace;
+use crate::gl;
 
 /// One light's six layers.
 #[derive(Debug)]
@@ -35,12 +36,17 @@ pub(super) struct Textures {
 /// The faces of the placeholder, and whether they are clear.
 #[derive(Debug)]
 struct Blank {
+    layers: u32,
     faces: [wgpu::TextureView; 6],
     clear: AtomicBool,
 }
 
 #[derive(Debug)]
 struct Array {
+    /// More than there are lights where the device would else take it for something else.
+    cubes: u32,
+    /// Whether a light's part of it can be read as a cube by itself.
+    has_cubes: bool,
     placeholder: wgpu::TextureView,
     view: Option<wgpu::TextureView>,
 }
@@ -54,17 +60,24 @@ impl Textures {
         slots: usize,
         array: bool,
     ) -> Self {
-        let placeholder = create(device, label, 1, format, 6);
+        let cubes = |lights| match array {
+            true => gl::array_cubes(device, lights),
+            false => 1,
+        };
+        let placeholder = create(device, label, 1, format, 6 * cubes(1));
         Self {
             label: label.to_owned(),
             size,
             format,
             slots: (0..slots).map(|_| None).collect(),
             array: array.then(|| Array {
+                cubes: cubes(slots as u32),
+                has_cubes: !gl::is_gl(device),
                 placeholder: array_view(&placeholder, label),
                 view: None,
             }),
             blank: Blank {
+                layers: placeholder.depth_or_array_layers(),
                 faces: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
                 clear: AtomicBool::new(false),
             },
@@ -85,8 +98,7 @@ impl Textures {
             self.slots[slot] = Some(SlotTexture::new(texture, &label, 0));
             return slot..slot + 1;
         };
-        let layers = self.slots.len() as u32 * 6;
-        let texture = create(device, &label, self.size, self.format, layers);
+        let texture = create(device, &label, self.size, self.format, 6 * array.cubes);
         array.view = Some(array_view(&texture, &label));
         for (slot, first_layer) in self.slots.iter_mut().zip((0..).step_by(6)) {
             *slot = Some(SlotTexture::new(texture.clone(), &label, first_layer));
@@ -109,9 +121,11 @@ impl Textures {
         self.slots.get(slot)?.as_ref()
     }
 
-    /// A light's cube, or a placeholder.
-    pub fn cube(&self, slot: usize) -> &wgpu::TextureView {
-        self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube)
+    /// A light's cube, or a placeholder; `None` if it cannot be read by itself.
+    pub fn cube(&self, slot: usize) -> Option<&wgpu::TextureView> {
+        let cube = self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube);
+        let readable = self.array.as_ref().is_none_or(|array| array.has_cubes);
+        readable.then_some(cube)
     }
 
     /// The faces of the placeholder, the first time that it is asked for them.
@@ -133,8 +147,12 @@ impl Textures {
     }
 
     pub fn bytes(&self) -> u64 {
-        let cubes = self.slots.iter().flatten().count() as u64;
-        (cubes * u64::from(self.size).pow(2) + 1) * 6 * texel_bytes(self.format)
+        let textures = self.slots.iter().flatten();
+        let textures = textures.filter(|slot| slot.first_layer == 0);
+        let layers: u32 = textures.map(|t| t.texture.depth_or_array_layers()).sum();
+        let blank = self.blank.layers;
+        (u64::from(layers) * u64::from(self.size).pow(2) + u64::from(blank))
+            * texel_bytes(self.format)
     }
 }
 

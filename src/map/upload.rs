@@ -55,8 +55,14 @@ impl CubeShadowMap {
             }
             self.choose_ways(device, index, plan.drawn);
             let slot = &self.slots[index];
-            self.draws
-                .add(index, slot, plan.drawn, &self.scene, frame.casters);
+            self.draws.add(
+                index,
+                slot,
+                plan.drawn,
+                self.near_plane,
+                &self.scene,
+                frame.casters,
+            );
             if let Some(light) = slot.light {
                 self.write_faces(queue, index, &light);
             }
@@ -75,14 +81,15 @@ impl CubeShadowMap {
     }
 
     fn write_faces(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
-        let content = Some([light.near, light.range]);
+        let near = self.near_plane.of_point(light);
+        let content = Some([near, light.range]);
         if self.written_faces[slot] == content {
             return;
         }
         self.written_faces[slot] = content;
         for face in CubeFace::ALL {
             let uniform = FaceUniform {
-                clip_from_light: face.clip_from_light(light.near).to_cols_array(),
+                clip_from_light: face.clip_from_light(near).to_cols_array(),
                 range: light.range,
                 padding: [0.0; 3],
             };
@@ -109,7 +116,9 @@ impl CubeShadowMap {
                 (Some(_), None) => Depths::NotYet,
             };
             let light = slot.shown.unwrap_or(*wanted);
-            let uniform = LightUniform::new(&light, depths, self.size, &self.bias, self.format);
+            let near = self.near_plane.of_point(&light);
+            let (size, bias, step) = (self.size, &self.bias, self.depth_step);
+            let uniform = LightUniform::new(&light, near, depths, size, bias, step);
             if self.written_lights[place] == Some(uniform) {
                 continue;
             }

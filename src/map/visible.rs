@@ -212,7 +212,7 @@ mod tests {
                 (DVec3::new(random(&mut state), random(&mut state), random(&mut state)) * scale)
                     .as_vec3()
             };
-            let light = PointLight::new(vector(10.0), 0.1, 6.0);
+            let light = PointLight::new(vector(10.0), 6.0);
             let (eye, target, up) = match i % 2 {
                 0 => (vector(15.0), vector(5.0), Vec3::new(0.1, 1.0, 0.0)),
                 // Nearly all of one face, and nothing of the others.
@@ -222,7 +222,7 @@ mod tests {
                 }
             };
             let camera = view::look_at_mat4(eye, target, up);
-            let (projection, depth) = match i % 3 {
+            let (projection, depth) = match i % 5 {
                 0 => (
                     proj::perspective_infinite_reverse(1.5, 1.05, 0.1),
                     DepthConvention::InfiniteReverse,
@@ -231,8 +231,17 @@ mod tests {
                     proj::perspective(1.5, 1.05, 0.1, 30.0),
                     DepthConvention::Standard,
                 ),
-                _ => (
+                2 => (
                     proj::perspective(1.5, 1.05, 30.0, 0.1),
+                    DepthConvention::FiniteReverse,
+                ),
+                // Off centre, and from behind the camera.
+                3 => (
+                    proj::orthographic(-3.0, 2.0, -1.0, 4.0, -20.0, 9.0),
+                    DepthConvention::Standard,
+                ),
+                _ => (
+                    proj::orthographic(-3.0, 2.0, -1.0, 4.0, 30.0, -2.0),
                     DepthConvention::FiniteReverse,
                 ),
             };

@@ -335,11 +335,6 @@ impl CasterMesh {
     pub(crate) fn edge_use_count(&self) -> u32 {
         self.0.edge_use_count
     }
-
-    /// A key that is equal for clones of one mesh and for no others.
-    pub(crate) fn key(&self) -> usize {
-        Arc::as_ptr(&self.0) as usize
-    }
 }
 
 fn upload<T: bytemuck::NoUninit>(

@@ -230,5 +230,6 @@ fn uniform(radius: Radius, light_size: f32, taps: u32, first_taps: u32) -> Kerne
         frame_shift: 0.0,
         taps,
         first_taps,
+        padding: [0; 2],
     }
 }

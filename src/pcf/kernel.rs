@@ -168,6 +168,8 @@ pub(super) struct KernelUniform {
     pub frame_shift: f32,
     pub taps: u32,
     pub first_taps: u32,
+    /// WebGL 2 takes uniforms in units of 16 bytes.
+    pub padding: [u32; 2],
 }
 
 /// The most taps that a table of offsets holds.
@@ -192,7 +194,8 @@ mod tests {
             light_size,
             frame_shift,
             taps,
-            first_taps
+            first_taps,
+            padding
         );
     }
 }

@@ -53,6 +53,8 @@ pub(super) struct Reads {
     pub many_lights: bool,
     /// Whether its sampler has a border of depth 0.
     pub border: bool,
+    /// Whether squares of texels are gathered, or else fetched one by one.
+    pub gather: bool,
 }
 
 /// The files that a kind of map brings along.
@@ -87,7 +89,10 @@ impl MapWgsl {
             fetch: include_str!("../../shaders/flat_texel.wgsl"),
             gather: "",
             texel: "",
-            four: include_str!("../../shaders/flat_four.wgsl"),
+            four: match reads.gather {
+                true => include_str!("../../shaders/flat_four.wgsl"),
+                false => include_str!("../../shaders/flat_four_fetches.wgsl"),
+            },
             tap: include_str!("../../shaders/flat_tap.wgsl"),
             slope: include_str!("../../shaders/flat_slope.wgsl"),
         }
@@ -103,6 +108,10 @@ impl MapWgsl {
                 include_str!("../../shaders/cube_array_fetch.wgsl"),
                 include_str!("../../shaders/cube_array_gather.wgsl"),
             ),
+        };
+        let gather = match reads.gather {
+            true => gather,
+            false => include_str!("../../shaders/cube_gather_fetches.wgsl"),
         };
         Self {
             reads,

@@ -1,6 +1,7 @@
 //! Percentage-closer filtering: how receivers read a shadow map.
 
 mod disk;
+mod gather;
 mod kernel;
 mod layout;
 mod map_kind;
@@ -10,6 +11,7 @@ mod text;
 mod weights;
 
 pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
+pub use gather::Gather;
 pub use kernel::Kernel;
 pub use map_kind::{AnyMap, MapKind};
 pub use sampler::{PcfDescriptor, PcfSampler};

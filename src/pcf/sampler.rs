@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt as _;
 use super::kernel::KernelUniform;
 use super::layout::create_layout;
 use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, Kernel, MapKind, offsets, text};
+use super::{AnyMap, Gather, Kernel, MapKind, offsets, text};
 use crate::error::PcfError;
 use crate::{CubeShadowMap, DepthEncoding};
 
@@ -29,6 +29,8 @@ pub struct PcfDescriptor<'a> {
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). Default
     /// false. Cube maps.
     pub textbook: bool,
+    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
+    pub gather: Gather,
 }
 
 /// Reads a [`CubeShadowMap`] or a [`ShadowMap`](crate::ShadowMap) in the host's lighting shader.
@@ -42,6 +44,10 @@ pub struct PcfDescriptor<'a> {
 /// GDC 2006, but exact for each texel rather than a gradient for the kernel). The plane is the
 /// geometric one, from the screen derivatives of the world position or from a flat normal of the
 /// host's; a smooth shading normal would tilt it and bring acne back.
+///
+/// Far from the origin, where a pixel is hardly wider than an ulp of the position, derivatives say nothing of
+/// the normal; the plane's slope is then read from the map. And [`Bias::position_ulps`](crate::Bias)
+/// says how far rounding moves a receiver: within that of what casts it is lit.
 #[derive(Debug)]
 pub struct PcfSampler {
     kernel: Kernel,
@@ -61,7 +67,7 @@ impl PcfSampler {
     ///
     /// # Errors
     /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
-    /// many lights, or textbook receivers are to read another encoding than theirs.
+    /// many lights or no gathers for [`Gather::Always`], or textbook receivers are to read another encoding than theirs.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -74,6 +80,7 @@ impl PcfSampler {
             encoding,
             many_lights,
             textbook,
+            gather,
         } = descriptor;
         kernel.validate()?;
         let many_lights = many_lights && map == MapKind::Cube;
@@ -97,6 +104,7 @@ impl PcfSampler {
             encoding,
             many_lights,
             border,
+            gather: gather.on(device, map)?,
         };
         let label = match label {
             Some(label) => format!("shadows pcf {label}"),
@@ -152,7 +160,7 @@ impl PcfSampler {
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering),
     /// 2 the light (uniform buffer of 48 bytes, for flat maps 96; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
-    /// 24 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
+    /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
@@ -212,7 +220,10 @@ impl PcfSampler {
                 let lights = map.most_lights();
                 return Err(PcfError::Light { light, lights });
             }
-            (false, _) => (map.view(light), map.light_uniform(light)),
+            (false, _) => {
+                let view = map.view(light).map_err(|_| PcfError::CubeView)?;
+                (view, map.light_uniform(light))
+            }
         };
         Ok(self.group(device, view, lights))
     }

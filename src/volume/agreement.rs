@@ -13,6 +13,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::*;
 use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
+use crate::volume::params::Arguments;
 use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, StartFrom, View};
 use gpu::Gpu;
 use shapes::Shape;
@@ -62,6 +63,14 @@ fn renderer(gpu: &Gpu, silhouettes: Silhouettes, start_from: StartFrom) -> Shado
     ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap()
 }
 
+/// The slot of each caster drawn.
+fn slots(
+    renderer: &ShadowVolumeRenderer,
+) -> impl Iterator<Item = (u32, &super::super::kept::Slot)> {
+    let numbers = renderer.plan.slot_of.iter();
+    numbers.map(|&number| (number, renderer.kept.get(number).unwrap()))
+}
+
 /// What lies in the buffers after an extraction.
 fn extracted(
     gpu: &Gpu,
@@ -79,10 +88,10 @@ fn extracted(
     let arguments = bound.map(|bound| {
         bytemuck::pod_collect_to_vec::<u8, Arguments>(&gpu.read_buffer(bound.arguments))
     });
-    let volume = |(index, slot): (usize, &super::super::kept::Slot)| {
-        let [_, caps, sides] = renderer.buffers.chunk(slot.chunk).unwrap();
+    let volume = |(number, slot): (u32, &super::super::kept::Slot)| {
+        let [_, caps, sides] = renderer.buffers.chunk(slot.place.chunk).unwrap();
         let (caps, sides) = (words(caps), words(sides));
-        let cap_base = slot.instance.cap_base;
+        let cap_base = slot.place.cap;
         let (front, back, count) = match slot.way {
             Way::Cpu => {
                 let middle = cap_base + slot.counts.front;
@@ -90,7 +99,7 @@ fn extracted(
                 (cap_base..middle, middle..end, slot.counts.sides)
             }
             _ => {
-                let own = &arguments.as_ref().unwrap()[index];
+                let own = &arguments.as_ref().unwrap()[number as usize];
                 let [front, back] = [own.front, own.back].map(|a| a[2]..a[2] + a[0]);
                 let [quads, triangles] = [own.quads[0], own.triangles[0]];
                 assert_eq!((quads % 6, triangles), (0, quads / 2));
@@ -103,7 +112,7 @@ fn extracted(
             corners.sort_unstable();
             corners
         };
-        let first = slot.instance.side_base as usize;
+        let first = slot.place.side as usize;
         let mut sides = sides[first..first + count as usize].to_vec();
         sides.sort_unstable();
         Volume {
@@ -112,7 +121,7 @@ fn extracted(
             sides,
         }
     };
-    renderer.plan.slots.iter().enumerate().map(volume).collect()
+    slots(&renderer).map(volume).collect()
 }
 
 const COUNT: &str = "
@@ -148,9 +157,9 @@ fn found_by_vertices(
     let view = camera();
     let frame = frame(&view, light, casters);
     renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-    let instances = renderer.plan.slots.iter().zip(&renderer.plan.casters);
-    instances
-        .map(|(slot, params)| {
+    let casters = slots(&renderer).zip(&renderer.plan.casters);
+    casters
+        .map(|((_, slot), params)| {
             let data = slot.mesh.data().unwrap();
             let records = edge_records(data, slot.mesh.kind());
             let counts = counted(gpu, bytemuck::bytes_of(params), &records);

@@ -1,15 +1,11 @@
 //! The GPU memory of the renderer: grown when a frame needs more, kept between frames.
 
+use super::kept::Kept;
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
 use super::plan::{Plan, PlanLimits};
 use super::regions::NAMES;
 use super::silhouette::{Way, Ways};
-
-/// Tests read what was extracted.
-const READ_BACK: wgpu::BufferUsages = match cfg!(test) {
-    true => wgpu::BufferUsages::COPY_SRC,
-    false => wgpu::BufferUsages::empty(),
-};
+use crate::uploads::Uploads;
 
 /// A buffer that grows.
 #[derive(Debug)]
@@ -17,6 +13,8 @@ struct Grown {
     label: String,
     usage: wgpu::BufferUsages,
     buffer: Option<wgpu::Buffer>,
+    /// Whether later frames read what this one writes.
+    keeps: bool,
 }
 
 impl Grown {
@@ -25,33 +23,51 @@ impl Grown {
             label,
             usage,
             buffer: None,
+            keeps: false,
         }
     }
 
-    /// The buffer, with room for at least `size` bytes; `made` is set if it had to be made anew.
-    fn get(
-        &mut self,
-        device: &wgpu::Device,
-        size: u64,
-        most: u64,
-        made: &mut bool,
-    ) -> &wgpu::Buffer {
-        // A frame that needs a little more than the last should not allocate again.
-        let room = size.max(256).next_power_of_two().min(most).max(size);
-        let kept = self.buffer.take().filter(|buffer| buffer.size() >= size);
-        *made |= kept.is_none();
-        self.buffer.insert(kept.unwrap_or_else(|| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(&self.label),
-                size: room,
-                usage: self.usage,
-                mapped_at_creation: false,
-            })
-        }))
+    /// One that takes along what it holds when it grows.
+    fn keeping(label: String, usage: wgpu::BufferUsages) -> Self {
+        use wgpu::BufferUsages as U;
+        Self {
+            keeps: true,
+            ..Self::new(label, usage | U::COPY_SRC | U::COPY_DST)
+        }
     }
 
     fn size(&self) -> u64 {
         self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
+    }
+}
+
+/// Makes buffers large enough.
+struct Grower<'a> {
+    device: &'a wgpu::Device,
+    uploads: &'a mut Uploads,
+    /// Whether one was made.
+    made: bool,
+}
+
+impl Grower<'_> {
+    /// Room for at least `size` bytes, `most` being the largest buffer that there can be.
+    fn grow(&mut self, grown: &mut Grown, size: u64, most: u64) {
+        if grown.buffer.is_some() && grown.size() >= size {
+            return;
+        }
+        // A frame that needs a little more than the last should not allocate again.
+        let room = size.max(256).next_power_of_two().min(most).max(size);
+        let new = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(&grown.label),
+            size: room,
+            usage: grown.usage,
+            mapped_at_creation: false,
+        });
+        if let Some(old) = grown.buffer.as_ref().filter(|_| grown.keeps) {
+            self.uploads.replace(old, &new);
+        }
+        grown.buffer = Some(new);
+        self.made = true;
     }
 }
 
@@ -61,7 +77,6 @@ pub(super) struct Buffers {
     label: String,
     batches: Grown,
     instances: Grown,
-    template: Grown,
     arguments: Grown,
     casters: Grown,
     chunks: Vec<[Grown; 3]>,
@@ -73,86 +88,84 @@ pub(super) struct Buffers {
 pub(super) struct Bound<'a> {
     pub batches: &'a wgpu::Buffer,
     pub instances: &'a wgpu::Buffer,
-    pub template: &'a wgpu::Buffer,
     pub arguments: &'a wgpu::Buffer,
 }
 
 impl Buffers {
     pub fn new(label: &str) -> Self {
         use wgpu::BufferUsages as U;
-        let grown = |what: &str, usage| Grown::new(format!("{label} {what}"), usage);
+        let name = |what: &str| format!("{label} {what}");
         Self {
             label: label.to_owned(),
-            batches: grown("batches", U::UNIFORM | U::COPY_DST),
-            instances: grown("instances", U::STORAGE | U::COPY_DST),
-            template: grown("argument template", U::COPY_SRC | U::COPY_DST),
-            arguments: grown(
-                "arguments",
-                U::STORAGE | U::INDIRECT | U::COPY_DST | READ_BACK,
-            ),
-            casters: grown("casters", U::UNIFORM | U::COPY_DST),
+            batches: Grown::new(name("batches"), U::UNIFORM | U::COPY_DST),
+            instances: Grown::new(name("instances"), U::STORAGE | U::COPY_DST),
+            arguments: Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
+            casters: Grown::new(name("casters"), U::UNIFORM | U::COPY_DST),
             chunks: Vec::new(),
             generation: 0,
         }
     }
 
-    /// Makes room for a plan. What was extracted before is lost if the
+    /// Makes room for a plan. Bind groups of before are stale if the
     /// [`generation`](Self::generation) changes.
-    pub fn reserve(&mut self, device: &wgpu::Device, plan: &Plan, limits: &PlanLimits) {
-        let mut made = false;
-        let most = device.limits().max_buffer_size;
-        let storage = limits.storage_bytes;
-        let mut get = |grown: &mut Grown, count: usize, each: u64, most: u64| {
-            grown.get(device, count as u64 * each, most, &mut made);
+    pub fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        uploads: &mut Uploads,
+        (plan, kept): (&Plan, &Kept),
+        limits: &PlanLimits,
+    ) {
+        let device_limits = device.limits();
+        let (most, storage) = (device_limits.max_buffer_size, limits.storage_bytes);
+        let mut grower = Grower {
+            device,
+            uploads,
+            made: false,
         };
-        // Those out of view, too: what comes into view must not move what is there.
-        let count = plan.slots.len();
-        let caster = window::<CasterParams>(&device.limits());
-        get(&mut self.casters, count, caster, most);
-        if plan.uses(Way::Compute) {
-            // There are at most as many batches as casters. How many there are depends on what is
-            // kept, and must not decide whether it can be.
-            get(
-                &mut self.batches,
-                count,
-                window::<BatchParams>(&device.limits()),
-                most,
-            );
-            get(
-                &mut self.instances,
-                count,
-                size_of::<InstanceParams>() as u64,
-                storage,
-            );
+        let mut grow = |grown: &mut Grown, count: usize, each: u64, most: u64| {
+            grower.grow(grown, count as u64 * each, most);
+        };
+        let caster = window::<CasterParams>(&device_limits);
+        grow(&mut self.casters, plan.casters.len(), caster, most);
+        if !plan.batches.is_empty() {
+            let batch = window::<BatchParams>(&device_limits);
+            grow(&mut self.batches, plan.batches.len(), batch, most);
+            let instance = size_of::<InstanceParams>() as u64;
+            grow(&mut self.instances, plan.instances.len(), instance, storage);
             let arguments = size_of::<Arguments>() as u64;
-            get(&mut self.template, count, arguments, most);
-            get(&mut self.arguments, count, arguments, storage);
+            grow(&mut self.arguments, kept.len(), arguments, storage);
         }
-        // Nothing is listed where vertex shaders do all the work, and there may be no storage.
-        let listed = plan.uses(Way::Compute) || plan.uses(Way::Cpu);
-        while listed && self.chunks.len() < plan.chunks.len() {
-            self.chunks.push(chunk(&self.label, self.chunks.len()));
-        }
-        for (chunk, words) in self.chunks.iter_mut().zip(&plan.chunks) {
-            for (grown, words) in chunk.iter_mut().zip(words) {
-                grown.get(device, words * 4, limits.storage_bytes, &mut made);
+        for (place, words) in kept.regions().ends().enumerate() {
+            if place == self.chunks.len() {
+                self.chunks.push(chunk(&self.label, place));
+            }
+            for (grown, words) in self.chunks[place].iter_mut().zip(words) {
+                grower.grow(grown, words * 4, storage);
             }
         }
-        self.generation += u64::from(made);
+        self.generation += u64::from(grower.made);
     }
 
-    /// Uploads a plan for which there is room.
-    pub fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue, plan: &Plan) {
+    /// Has everything written but what was extracted. There is room for it.
+    pub fn write(&self, device: &wgpu::Device, uploads: &mut Uploads, plan: &Plan) {
         if let Some(casters) = self.casters() {
-            queue.write_buffer(casters, 0, &spread(&plan.casters, device));
+            uploads.write(casters, 0, &spread(&plan.casters, device));
         }
-        if let Some(bound) = self.bound()
-            && plan.stale().next().is_some()
-        {
-            let batches: Vec<BatchParams> = plan.batches.iter().map(|b| b.params).collect();
-            queue.write_buffer(bound.batches, 0, &spread(&batches, device));
-            queue.write_buffer(bound.instances, 0, bytemuck::cast_slice(&plan.instances));
-            queue.write_buffer(bound.template, 0, bytemuck::cast_slice(&plan.arguments));
+        let Some(bound) = self.bound().filter(|_| !plan.batches.is_empty()) else {
+            return;
+        };
+        let batches: Vec<BatchParams> = plan.batches.iter().map(|b| b.params).collect();
+        uploads.write(bound.batches, 0, &spread(&batches, device));
+        uploads.write(bound.instances, 0, bytemuck::cast_slice(&plan.instances));
+        let mut rest = &plan.arguments[..];
+        while let Some(&(first, _)) = rest.first() {
+            let follows = |(at, (slot, _)): (u32, &(u32, Arguments))| *slot == first + at;
+            let run = (0..).zip(rest).take_while(|&pair| follows(pair)).count();
+            let (now, later) = rest.split_at(run);
+            let arguments: Vec<Arguments> = now.iter().map(|(_, own)| *own).collect();
+            let offset = u64::from(first) * size_of::<Arguments>() as u64;
+            uploads.write(bound.arguments, offset, bytemuck::cast_slice(&arguments));
+            rest = later;
         }
     }
 
@@ -166,7 +179,6 @@ impl Buffers {
         Some(Bound {
             batches: self.batches.buffer.as_ref()?,
             instances: self.instances.buffer.as_ref()?,
-            template: self.template.buffer.as_ref()?,
             arguments: self.arguments.buffer.as_ref()?,
         })
     }
@@ -191,7 +203,6 @@ impl Buffers {
         [
             &self.batches,
             &self.instances,
-            &self.template,
             &self.arguments,
             &self.casters,
         ]
@@ -204,10 +215,13 @@ impl Buffers {
 
 fn chunk(label: &str, place: usize) -> [Grown; 3] {
     use wgpu::BufferUsages as U;
-    // Only caps are read as indices. The CPU may write caps and sides.
-    let list = U::STORAGE | U::COPY_DST | READ_BACK;
-    let usages = [U::STORAGE, list | U::INDEX, list];
-    std::array::from_fn(|i| Grown::new(format!("{label} {} {place}", NAMES[i]), usages[i]))
+    // Facings are read by the pass after the one that writes them. Only caps are read as indices.
+    let name = |i: usize| format!("{label} {} {place}", NAMES[i]);
+    [
+        Grown::new(name(0), U::STORAGE),
+        Grown::keeping(name(1), U::STORAGE | U::INDEX),
+        Grown::keeping(name(2), U::STORAGE),
+    ]
 }
 
 /// Bytes from one uniform window to the next.
@@ -247,6 +261,8 @@ impl PlanLimits {
             storage_bytes,
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,
+            caster_window: window::<CasterParams>(limits) as u32,
+            batch_window: window::<BatchParams>(limits) as u32,
         }
     }
 }

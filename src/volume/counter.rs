@@ -76,10 +76,12 @@ pub(super) fn source(location: usize) -> String {
 
 /// Modulo 256, because the faces come in any order.
 fn stencil(count: Count) -> wgpu::StencilState {
-    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
+    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep, Replace};
     let face = |pass_op, depth_fail_op| wgpu::StencilFaceState {
         compare: wgpu::CompareFunction::Always,
-        fail_op: Keep,
+        // Never done, for nothing fails. But on Vulkan every pipeline's stencil reference is dynamic
+        // state that must have been set before a draw, and wgpu sets it only for what names it.
+        fail_op: Replace,
         depth_fail_op,
         pass_op,
     };

@@ -8,6 +8,7 @@ use super::debug_colors::{DebugColors, Swatch};
 use super::debug_pipelines::{COLOR_BYTES, CountPipelines, Factory, FeedPipelines, color_layout};
 use super::descriptor::check_depth;
 use super::draw::{Feed, issue};
+use super::kept::Slot;
 use super::layout::bind;
 use super::light_pass::check_color;
 use super::limits;
@@ -230,8 +231,8 @@ impl VolumeDebug {
                 (Faces::Sides, Count::Fail) => Swatch::SidesZFail,
             };
             let pipeline = |feed: &FeedPipelines| feed.faces(style.faces).cloned();
-            if self.bind(pass, renderer, &drawn, draw, (pipeline, swatch)) {
-                issue(pass, draw, drawn.plan, drawn.buffers);
+            if let Some(slot) = self.bind(pass, renderer, &drawn, draw, (pipeline, swatch)) {
+                issue(pass, draw, slot, &drawn);
             }
         }
     }
@@ -243,8 +244,9 @@ impl VolumeDebug {
         let sides = |draw: &&Draw| draw.style.faces == Faces::Sides && !draw.is_repeat();
         for draw in drawn.plan.draws.iter().filter(sides) {
             let pipeline = |feed: &FeedPipelines| Some(feed.edges.clone());
-            if self.bind(pass, renderer, &drawn, draw, (pipeline, Swatch::Edges)) {
-                issue_edges(pass, draw, &drawn);
+            let pipeline = (pipeline, Swatch::Edges);
+            if let Some(slot) = self.bind(pass, renderer, &drawn, draw, pipeline) {
+                issue_edges(pass, draw, slot, &drawn);
             }
         }
     }
@@ -310,38 +312,35 @@ impl VolumeDebug {
     }
 
     /// Sets pipeline, colour and the volume's own bind group, if all of them are there.
-    fn bind(
+    fn bind<'a>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         renderer: &ShadowVolumeRenderer,
-        drawn: &Drawn<'_>,
+        drawn: &Drawn<'a>,
         draw: &Draw,
         (pipeline, swatch): (
             impl Fn(&FeedPipelines) -> Option<wgpu::RenderPipeline>,
             Swatch,
         ),
-    ) -> bool {
-        let feed = match drawn.plan.slots[draw.instance as usize].way {
+    ) -> Option<&'a Slot> {
+        let slot = drawn.kept.get(draw.slot)?;
+        let feed = match slot.way {
             Way::Vertex => Feed::Records,
             Way::Compute | Way::Cpu => Feed::Pulled,
         };
-        let Some(pipeline) = self.feed(feed).and_then(pipeline) else {
-            return false;
-        };
-        pass.set_pipeline(&pipeline);
+        pass.set_pipeline(&self.feed(feed).and_then(pipeline)?);
         self.set_color(pass, swatch);
-        renderer.bind_volume(pass, draw)
+        renderer.bind_volume(pass, draw).then_some(slot)
     }
 }
 
 /// Records the lines of one volume, pipeline and bind groups being set.
-fn issue_edges(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, drawn: &Drawn<'_>) {
-    let slot = &drawn.plan.slots[draw.instance as usize];
+fn issue_edges(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, drawn: &Drawn<'_>) {
     match slot.way {
         Way::Cpu => pass.draw(0..6 * slot.counts.sides, 0..1),
         Way::Compute => {
             if let Some(bound) = drawn.buffers.bound() {
-                let own = u64::from(draw.instance) * size_of::<Arguments>() as u64;
+                let own = u64::from(draw.slot) * size_of::<Arguments>() as u64;
                 pass.draw_indirect(bound.arguments, own + Arguments::QUADS);
             }
         }

@@ -234,8 +234,9 @@ pub struct VolumeStatistics {
     pub skipped_out_of_view: u32,
     /// Draw calls that `render` records.
     pub draws: u32,
-    /// Casters whose silhouettes were searched for this frame; those of the other casters drawn
-    /// were kept from the frame before.
+    /// Silhouettes that were searched for this frame; those of the other casters drawn were kept from
+    /// the frame before, or found for another caster: casters of one mesh that the light meets alike
+    /// (the sun, all that are turned alike) share theirs.
     pub casters_extracted: u32,
     /// Dispatches that `encode` records.
     pub dispatches: u32,
@@ -243,4 +244,9 @@ pub struct VolumeStatistics {
     pub gpu_bytes: u64,
     /// Triangles of all casters drawn.
     pub triangles: u64,
+    /// Whether the frame before was never encoded, so that it was prepared in vain.
+    pub not_encoded: bool,
+    /// Whether an encoder was dropped that a frame before was encoded into, so that everything had to
+    /// be found anew.
+    pub encoder_dropped: bool,
 }

@@ -1,11 +1,12 @@
 //! The pipelines that count a volume's faces in the stencil buffer.
 
-use super::buffers::Buffers;
 use super::counter::{self, Counter, Counting};
+use super::kept::Slot;
 use super::layout::{storage, uniform};
 use super::method::Count;
 use super::params::{Arguments, CasterParams};
-use super::plan::{Draw, Faces, Plan};
+use super::plan::{Draw, Faces};
+use super::renderer::Drawn;
 use super::rule::Counted;
 use super::silhouette::{LIGHT_SIDE, Way};
 use super::{ShadowVolumeDescriptor, StartFrom};
@@ -222,32 +223,32 @@ impl DrawPipelines {
 }
 
 /// Records one draw, its pipeline and bind group being set.
-pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, plan: &Plan, buffers: &Buffers) {
-    let slot = &plan.slots[draw.instance as usize];
-    let caster = &plan.casters[draw.caster as usize];
+pub(super) fn issue(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, drawn: &Drawn<'_>) {
+    let buffers = drawn.buffers;
+    let caster = &drawn.plan.casters[draw.caster as usize];
     match slot.way {
         Way::Vertex => issue_records(pass, draw.style.faces, &slot.mesh, caster),
         Way::Cpu => {
             if let Some(each) = vertices_a_side(draw.style.faces, caster) {
                 return pass.draw(0..slot.counts.sides * each, 0..1);
             }
-            let Some([_, caps, _]) = buffers.chunk(slot.chunk) else {
+            let Some([_, caps, _]) = buffers.chunk(slot.place.chunk) else {
                 return;
             };
-            let middle = slot.instance.cap_base + slot.counts.front;
+            let middle = slot.place.cap + slot.counts.front;
             let range = match draw.back {
-                false => slot.instance.cap_base..middle,
+                false => slot.place.cap..middle,
                 true => middle..middle + slot.counts.back,
             };
             pass.set_index_buffer(caps.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(range, 0, 0..1);
         }
         Way::Compute => {
-            let (Some(bound), Some([_, caps, _])) = (buffers.bound(), buffers.chunk(slot.chunk))
-            else {
+            let chunk = buffers.chunk(slot.place.chunk);
+            let (Some(bound), Some([_, caps, _])) = (buffers.bound(), chunk) else {
                 return;
             };
-            let own = u64::from(draw.instance) * size_of::<Arguments>() as u64;
+            let own = u64::from(draw.slot) * size_of::<Arguments>() as u64;
             match vertices_a_side(draw.style.faces, caster) {
                 Some(3) => return pass.draw_indirect(bound.arguments, own + Arguments::TRIANGLES),
                 Some(_) => return pass.draw_indirect(bound.arguments, own + Arguments::QUADS),

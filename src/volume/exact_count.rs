@@ -2,7 +2,7 @@
 
 use super::counter::{FEATURE, FORMAT};
 use super::light_pass::{bind, layout};
-use super::mask::{check_buffer, check_size, check_target};
+use super::mask::{check_buffer, check_readable_samples, check_size, check_target};
 use super::screen::{On, SCREEN, ScreenPipeline};
 use crate::error::ScreenPassError;
 use crate::wgsl::{EXACT, EXACT_SAMPLES};
@@ -20,7 +20,8 @@ pub struct ExactCountDescriptor<'a> {
     pub size: [u32; 2],
     /// Format of the host's depth-stencil buffer. Default `Depth24PlusStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Its samples per pixel, 1 (default) or 4. Each sample is counted by itself.
+    /// Its samples per pixel, 1 (default) or 4; on wgpu's GL back end, whose shaders read no
+    /// multisampled texture, 1. Each sample is counted by itself.
     pub sample_count: u32,
 }
 
@@ -80,6 +81,7 @@ impl ExactCount {
         check_size(descriptor.size, &device.limits())?;
         let format = descriptor.depth_stencil_format;
         check_target(device, format, descriptor.sample_count)?;
+        check_readable_samples(device, descriptor.sample_count, "ExactCount")?;
         let label = match descriptor.label {
             Some(name) => format!("shadows count {name}"),
             None => "shadows count".to_owned(),

@@ -4,29 +4,25 @@ use std::collections::HashMap;
 
 use super::buffers::Buffers;
 use super::draw::DrawPipelines;
+use super::kept::{Kept, Slot};
 use super::layout::bind;
 use super::params::{BatchParams, CasterParams};
 use super::plan::{Batch, Plan};
 use super::silhouette::{Extraction, Way};
 use crate::mesh::CasterMesh;
 
-/// The bind groups of a mesh with a chunk's buffers.
-#[derive(Debug)]
-pub(super) struct Group {
-    // Keeps the mesh alive, so that its key stays its own.
-    _mesh: CasterMesh,
-    /// The facing pass and the edge pass, where compute shaders extract.
-    pub extraction: Option<[wgpu::BindGroup; 2]>,
-    pub draw: wgpu::BindGroup,
-}
+/// Mesh and chunk.
+type Key = (u64, usize);
 
-/// Bind groups by mesh key and chunk.
+/// Bind groups by mesh and chunk.
 #[derive(Debug, Default)]
 pub(super) struct Groups {
     generation: u64,
-    by_key: HashMap<(usize, usize), Group>,
-    /// For each batch, its key.
-    of_batch: Vec<(usize, usize)>,
+    draw: HashMap<Key, wgpu::BindGroup>,
+    /// The facing pass and the edge pass.
+    extraction: HashMap<Key, [wgpu::BindGroup; 2]>,
+    /// For each caster that is drawn, what its draws read.
+    of_caster: Vec<Option<wgpu::BindGroup>>,
 }
 
 /// What bind groups are made of.
@@ -41,60 +37,78 @@ pub(super) struct Parts<'a> {
 }
 
 impl Groups {
-    /// The bind groups of a batch, by its place in the plan.
-    pub fn get(&self, batch: usize) -> Option<&Group> {
-        self.by_key.get(self.of_batch.get(batch)?)
+    /// What the draws of a caster read, by its place in the plan.
+    pub fn of_caster(&self, place: usize) -> Option<&wgpu::BindGroup> {
+        self.of_caster.get(place)?.as_ref()
+    }
+
+    /// The facing pass and the edge pass of a batch.
+    pub fn of_batch(&self, batch: &Batch) -> Option<&[wgpu::BindGroup; 2]> {
+        self.extraction.get(&(batch.mesh.id(), batch.chunk))
     }
 
     /// Brings the bind groups up to date with plan and buffers.
-    pub fn update(&mut self, plan: &Plan, parts: &Parts<'_>) {
+    pub fn update(&mut self, plan: &Plan, kept: &Kept, parts: &Parts<'_>) {
         let generation = parts.buffers.generation();
         let mut old = std::mem::take(self);
         if old.generation != generation {
-            old.by_key.clear();
+            old.draw.clear();
+            old.extraction.clear();
         }
         self.generation = generation;
+        for slot in plan.slot_of.iter().map(|&slot| kept.get(slot)) {
+            let group = slot.and_then(|slot| self.draw_group(slot, &mut old, parts));
+            self.of_caster.push(group);
+        }
         for batch in &plan.batches {
-            let key = (batch.mesh.key(), batch.chunk);
-            self.of_batch.push(key);
-            if self.by_key.contains_key(&key) {
+            let key = (batch.mesh.id(), batch.chunk);
+            if self.extraction.contains_key(&key) {
                 continue;
             }
-            if let Some(group) = old.by_key.remove(&key).or_else(|| parts.group(batch)) {
-                self.by_key.insert(key, group);
+            let group = old.extraction.remove(&key);
+            if let Some(group) = group.or_else(|| parts.extraction(&batch.mesh, batch.chunk)) {
+                self.extraction.insert(key, group);
             }
         }
+        // What need not be searched in this frame may move in the next.
+        let drawn = |(key, _): &(Key, _)| self.draw.contains_key(key);
+        self.extraction
+            .extend(old.extraction.into_iter().filter(drawn));
+    }
+
+    fn draw_group(
+        &mut self,
+        slot: &Slot,
+        old: &mut Self,
+        parts: &Parts<'_>,
+    ) -> Option<wgpu::BindGroup> {
+        let key = (slot.mesh.id(), slot.place.chunk);
+        if let Some(group) = self.draw.get(&key) {
+            return Some(group.clone());
+        }
+        let group = old.draw.remove(&key).or_else(|| parts.draw(slot))?;
+        self.draw.insert(key, group.clone());
+        Some(group)
     }
 }
 
 impl Parts<'_> {
-    fn group(&self, batch: &Batch) -> Option<Group> {
-        let mesh = &batch.mesh;
+    fn draw(&self, slot: &Slot) -> Option<wgpu::BindGroup> {
         let window = (self.buffers.casters()?, size_of::<CasterParams>());
-        let draw = match batch.way {
-            Way::Vertex => self.bind(&self.fed?.layout, window, &[]),
+        match slot.way {
+            Way::Vertex => Some(self.bind(&self.fed?.layout, window, &[])),
             Way::Compute | Way::Cpu => {
-                let [_, _, sides] = self.buffers.chunk(batch.chunk)?;
-                let buffers = [mesh.positions(), mesh.edges(), sides];
-                self.bind(&self.pulled?.layout, window, &buffers)
+                let [_, _, sides] = self.buffers.chunk(slot.place.chunk)?;
+                let buffers = [slot.mesh.positions(), slot.mesh.edges(), sides];
+                Some(self.bind(&self.pulled?.layout, window, &buffers))
             }
-        };
-        let extraction = match batch.way {
-            Way::Compute => Some(self.extraction_groups(batch)?),
-            Way::Cpu | Way::Vertex => None,
-        };
-        Some(Group {
-            _mesh: mesh.clone(),
-            extraction,
-            draw,
-        })
+        }
     }
 
-    fn extraction_groups(&self, batch: &Batch) -> Option<[wgpu::BindGroup; 2]> {
+    fn extraction(&self, mesh: &CasterMesh, chunk: usize) -> Option<[wgpu::BindGroup; 2]> {
         let bound = self.buffers.bound()?;
-        let [facings, caps, sides] = self.buffers.chunk(batch.chunk)?;
+        let [facings, caps, sides] = self.buffers.chunk(chunk)?;
         let extraction = self.extraction?;
-        let mesh = &batch.mesh;
         let params = (bound.batches, size_of::<BatchParams>());
         let (instances, arguments) = (bound.instances, bound.arguments);
         // A closed mesh has no list of uses, and its passes read none; any buffer will do there.

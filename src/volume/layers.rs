@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3, DVec4, Vec3, Vec4Swizzles as _};
 
-use super::kept::Slot;
+use super::kept::{Kept, Slot};
 use super::params::CasterParams;
 use super::plan::Plan;
 use super::silhouette::CpuVolume;
@@ -35,16 +35,20 @@ const EVERYWHERE: [f64; 2] = [-PI, PI];
 /// Turns of the poles that are tried; the best is taken.
 const TURNS: u32 = 4;
 
-/// No point is in more of a plan's volumes than this. What is found for one caster is kept with it.
-pub(super) fn bound(plan: &mut Plan, scratch: &mut CpuVolume) -> u64 {
-    for slot in plan.slots.iter_mut().filter(|slot| slot.drawn) {
-        if slot.layers.is_none() {
+/// No point is in more of a plan's volumes than this. What is found for one volume is kept with it.
+pub(super) fn bound(plan: &Plan, kept: &mut Kept, scratch: &mut CpuVolume) -> u64 {
+    for &number in &plan.slot_of {
+        if let Some(slot) = kept.get_mut(number)
+            && slot.layers.is_none()
+        {
             slot.layers = Some(of_caster(slot, scratch));
         }
     }
-    // Both lists are in the order in which casters were added.
-    let drawn = plan.slots.iter().filter(|slot| slot.drawn);
-    let casters: Vec<_> = drawn.zip(&plan.casters).collect();
+    let slots = plan.slot_of.iter().map(|&slot| kept.get(slot));
+    let casters = slots.zip(&plan.casters);
+    let casters: Vec<_> = casters
+        .filter_map(|(s, caster)| Some((s?, caster)))
+        .collect();
     let layers = |slot: &Slot| slot.layers.unwrap_or(u64::MAX);
     let Some((_, first)) = casters.first() else {
         return 0;

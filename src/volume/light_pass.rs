@@ -1,6 +1,6 @@
 //! Ambient and direct light from two targets, joined by a full-screen pass.
 
-use super::mask::check_target;
+use super::mask::{check_readable_samples, check_target};
 use super::screen::{On, SCREEN, ScreenPipeline};
 use super::targets::is_drawable;
 use crate::error::ScreenPassError;
@@ -18,7 +18,8 @@ pub struct LightJoinDescriptor<'a> {
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
     /// `Depth24PlusStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Samples per pixel of target, depth-stencil buffer and sources: 1 (default) or 4.
+    /// Samples per pixel of target, depth-stencil buffer and sources: 1 (default) or 4; on wgpu's GL
+    /// back end, whose shaders read no multisampled texture, 1.
     pub sample_count: u32,
 }
 
@@ -55,7 +56,7 @@ impl LightJoin {
     /// Compiles the pipelines.
     ///
     /// # Errors
-    /// [`ScreenPassError`] if a format or the sample count does not fit.
+    /// [`ScreenPassError`] if a format or the sample count does not fit the device.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &LightJoinDescriptor<'_>,
@@ -65,6 +66,7 @@ impl LightJoin {
             descriptor.depth_stencil_format,
             descriptor.sample_count,
         )?;
+        check_readable_samples(device, descriptor.sample_count, "LightJoin")?;
         check_color(device, descriptor.color_format, descriptor.sample_count)?;
         let label = match descriptor.label {
             Some(name) => format!("shadows join {name}"),

@@ -2,6 +2,7 @@
 
 use super::screen::{On, SCREEN, ScreenPipeline};
 use crate::error::ScreenPassError;
+use crate::gl;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
@@ -47,7 +48,9 @@ impl Default for ShadowMaskDescriptor<'_> {
 ///    [`wgsl::MASK`](crate::wgsl::MASK) in its shader. It needs no stencil, and may blend as it
 ///    likes.
 ///
-/// GPU memory: a byte for each pixel and light, and with four samples five more for each pixel.
+/// GPU memory: a byte for each pixel and light, and with four samples five more for each pixel. On
+/// wgpu's GL back end, which takes some textures for no arrays, one more for each pixel if there is one
+/// light or a multiple of six.
 #[derive(Debug)]
 pub struct ShadowMask {
     label: String,
@@ -81,11 +84,8 @@ impl ShadowMask {
         let limits = device.limits();
         let [width, height] = descriptor.size;
         check_size(descriptor.size, &limits)?;
-        check_range(
-            "number of lights",
-            descriptor.lights,
-            limits.max_texture_array_layers,
-        )?;
+        let most = most_lights(device, &limits);
+        check_range("number of lights", descriptor.lights, most)?;
         check_target(
             device,
             descriptor.depth_stencil_format,
@@ -113,7 +113,7 @@ impl ShadowMask {
         };
         use wgpu::TextureUsages as U;
         let readable = U::TEXTURE_BINDING | U::COPY_SRC | U::COPY_DST;
-        let mask = texture(descriptor.lights, 1, readable);
+        let mask = texture(gl::array_layers(device, descriptor.lights), 1, readable);
         let samples = (descriptor.sample_count > 1).then(|| Samples {
             drawn: layer_of(&texture(1, descriptor.sample_count, U::empty()), &label, 0),
             resolved: layer_of(&texture(1, 1, U::COPY_SRC), &label, 0),
@@ -133,6 +133,7 @@ impl ShadowMask {
             view: mask.create_view(&wgpu::TextureViewDescriptor {
                 label: Some(&label),
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
+                array_layer_count: Some(descriptor.lights),
                 ..Default::default()
             }),
             layers: (0..descriptor.lights)
@@ -207,9 +208,19 @@ impl ShadowMask {
         &self.view
     }
 
-    /// The texture itself, which may also be copied from.
+    /// The texture itself, which may also be copied from. On wgpu's GL back end it may have a layer
+    /// more than there are lights, which nothing is drawn into.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.texture
+    }
+}
+
+/// As many as an array has layers.
+fn most_lights(device: &wgpu::Device, limits: &wgpu::Limits) -> u32 {
+    let layers = limits.max_texture_array_layers;
+    match gl::array_layers(device, layers) > layers {
+        true => layers - 1,
+        false => layers,
     }
 }
 
@@ -256,6 +267,18 @@ fn check_range(what: &'static str, value: u32, limit: u32) -> Result<(), ScreenP
         return Ok(());
     }
     Err(ScreenPassError::Range { what, value, limit })
+}
+
+/// Whether shaders can read targets of so many samples.
+pub(super) fn check_readable_samples(
+    device: &wgpu::Device,
+    samples: u32,
+    what: &'static str,
+) -> Result<(), ScreenPassError> {
+    match samples > 1 && gl::is_gl(device) {
+        true => Err(ScreenPassError::SamplesOnGl { samples, what }),
+        false => Ok(()),
+    }
 }
 
 /// The pass's depth-stencil format and sample count.

@@ -20,6 +20,7 @@ mod descriptor;
 mod draw;
 mod exact_count;
 mod far_end;
+mod found;
 mod groups;
 mod hull;
 mod kept;

@@ -25,7 +25,7 @@ pub(super) struct InstanceParams {
     pub facing_base: u32,
     pub cap_base: u32,
     pub side_base: u32,
-    pub padding: u32,
+    pub arguments: u32,
 }
 
 /// `Caster` in `volume_extrude.wgsl`.
@@ -142,7 +142,7 @@ mod tests {
                 facing_base,
                 cap_base,
                 side_base,
-                padding
+                arguments
             );
         }
         for source in [draw, vertex] {

@@ -3,13 +3,13 @@
 use glam::Mat4;
 
 use super::draw::{Part, Style};
-use super::kept::{Kept, Slot};
+use super::kept::Kept;
 use super::method::{Count, DarkCap, Form, Options};
 use super::params::{Arguments, BatchParams, CasterParams, InstanceParams};
-use super::regions::{Overflow, Place, Regions, Words};
+use super::regions::Regions;
 use super::rule::{self, Counted};
 use super::scissor::Rect;
-use super::silhouette::{Counts, Way, Ways};
+use super::silhouette::{Way, Ways};
 use super::statistics::{CasterState, Tally};
 use super::subject::{Subject, subjects, validate};
 use super::{ShadowVolumeFrame, VolumeStatistics};
@@ -50,26 +50,28 @@ impl Faces {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Draw {
     pub style: Style,
-    /// Place in [`Plan::instances`].
-    pub instance: u32,
+    /// Number of a [`Slot`](super::kept::Slot).
+    pub slot: u32,
     /// Place in [`Plan::casters`].
     pub caster: u32,
     /// Whether the caps are those that count -1.
     pub back: bool,
 }
 
-/// Instances of one mesh whose parts lie in one chunk: one dispatch for each extraction pass.
+/// Volumes of one mesh whose parts lie in one chunk, to be found by compute shaders: one dispatch for
+/// each extraction pass.
 #[derive(Clone, Debug)]
 pub(super) struct Batch {
     pub mesh: CasterMesh,
     pub chunk: usize,
     pub params: BatchParams,
     pub instance_count: u32,
-    /// Whether the buffers hold these volumes already.
-    pub ready: bool,
-    /// Whether they are drawn in this frame.
-    pub drawn: bool,
-    pub way: Way,
+}
+
+/// What the host asked for, as far as it was decided before anything changed.
+pub(super) struct Outline {
+    pub subjects: Vec<Subject>,
+    tally: Tally,
 }
 
 /// Everything `prepare` uploads and `encode` and `render` walk through.
@@ -77,16 +79,14 @@ pub(super) struct Batch {
 pub(super) struct Plan {
     pub batches: Vec<Batch>,
     pub draws: Vec<Draw>,
-    /// Words used in each chunk of buffers.
-    pub chunks: Vec<Words>,
+    /// What compute shaders find, batch after batch.
     pub instances: Vec<InstanceParams>,
-    pub arguments: Vec<Arguments>,
-    /// For each instance that is drawn, what its draws read.
+    /// For each of these, its indirect arguments before anything is counted, and whose they are.
+    pub arguments: Vec<(u32, Arguments)>,
+    /// For each caster that is drawn, what its draws read.
     pub casters: Vec<CasterParams>,
-    /// For each instance, its batch.
-    pub batch_of: Vec<u32>,
-    /// For each instance, what its volume follows from.
-    pub slots: Vec<Slot>,
+    /// For each of these, its slot.
+    pub slot_of: Vec<u32>,
     pub statistics: VolumeStatistics,
     /// For each caster of the frame, what became of it.
     pub states: Vec<CasterState>,
@@ -105,18 +105,22 @@ pub(super) struct PlanLimits {
     pub casters: usize,
     /// Workgroups in one dimension of a dispatch.
     pub workgroups: u32,
+    /// Bytes from one caster's parameters to the next's, and from one batch's.
+    pub caster_window: u32,
+    pub batch_window: u32,
 }
 
 /// What of the renderer the plan depends on.
 pub(super) struct Means<'a> {
     pub options: Options,
     pub ways: &'a Ways,
-    pub kept: Kept<'a>,
+    pub regions: &'a Regions,
     /// Whether volumes are kept at all.
     pub keep: bool,
 }
 
-impl Plan {
+impl Outline {
+    /// Decides what is drawn of each caster, or refuses the frame; nothing has changed then.
     pub fn new(
         frame: &ShadowVolumeFrame<'_>,
         device: &wgpu::Device,
@@ -133,154 +137,106 @@ impl Plan {
                 limit: limits.casters,
             });
         }
+        Ok(Self { subjects, tally })
+    }
+}
+
+impl Plan {
+    /// `kept` has a place for every subject that is drawn.
+    pub fn new(
+        outline: Outline,
+        frame: &ShadowVolumeFrame<'_>,
+        options: &Options,
+        limits: &PlanLimits,
+        kept: &Kept,
+    ) -> Self {
+        let Outline { subjects, tally } = outline;
         let mut plan = Self::default();
-        let mut regions = Regions::new(limits.storage_bytes);
-        for subject in &subjects {
-            plan.add(subject, frame, &mut regions, limits, &means.kept)?;
+        let mut triangles = 0;
+        for (subject, slot) in subjects.iter().zip(kept.order()) {
+            if let (Some(form), Some(slot)) = (subject.form, *slot) {
+                plan.add(subject, &form, frame, (slot, kept));
+                let mesh = &frame.casters[subject.index].mesh;
+                triangles += u64::from(mesh.triangle_count());
+            }
         }
-        plan.chunks = regions.chunks().to_vec();
         plan.draws.sort_unstable();
+        let mut extracted = 0;
+        for &number in kept.wanted() {
+            let way = kept.get(number).map(|slot| slot.way);
+            extracted += u32::from(way.is_some_and(|way| way != Way::Vertex));
+            if way == Some(Way::Compute) {
+                plan.extract(number, kept, limits.workgroups);
+            }
+        }
         plan.statistics = VolumeStatistics {
             casters_drawn: plan.casters.len() as u32,
             casters_skipped: (frame.casters.len() - plan.casters.len()) as u32,
             draws: plan.draws.len() as u32,
-            triangles: plan.triangles(),
+            triangles,
+            casters_extracted: extracted,
+            dispatches: 2 * plan.batches.len() as u32,
             ..tally.statistics
         };
         plan.states = tally.states;
-        plan.scissor = means.options.scissor(frame);
-        plan.count_extraction();
-        Ok(plan)
-    }
-
-    /// Has every volume extracted, because the buffers were made anew.
-    pub fn forget(&mut self) {
-        self.batches.iter_mut().for_each(|b| b.ready = false);
-        self.slots.iter_mut().for_each(|s| s.ready = false);
-        self.count_extraction();
-    }
-
-    /// Whether any volume is found in this way.
-    pub fn uses(&self, way: Way) -> bool {
-        self.batches.iter().any(|batch| batch.way == way)
-    }
-
-    /// The batches that compute shaders extract, with their places in the list of batches.
-    pub fn stale(&self) -> impl Iterator<Item = (u32, &Batch)> {
-        let stale = |batch: &Batch| batch.drawn && !batch.ready && batch.way == Way::Compute;
-        (0..)
-            .zip(&self.batches)
-            .filter(move |(_, batch)| stale(batch))
-    }
-
-    /// The slots whose volumes the CPU extracts.
-    pub fn stale_on_cpu(&mut self) -> impl Iterator<Item = &mut Slot> {
-        let stale = |slot: &&mut Slot| slot.is_stale() && slot.way == Way::Cpu;
-        self.slots.iter_mut().filter(stale)
-    }
-
-    fn triangles(&self) -> u64 {
-        let drawn = self.slots.iter().filter(|slot| slot.drawn);
-        drawn
-            .map(|slot| u64::from(slot.mesh.triangle_count()))
-            .sum()
-    }
-
-    fn count_extraction(&mut self) {
-        let searched = |slot: &&Slot| slot.is_stale() && slot.way != Way::Vertex;
-        let extracted = self.slots.iter().filter(searched).count() as u32;
-        let dispatches = 2 * self.stale().count() as u32;
-        self.statistics.casters_extracted = extracted;
-        self.statistics.dispatches = dispatches;
+        plan.scissor = options.scissor(frame);
+        plan
     }
 
     fn add(
         &mut self,
         subject: &Subject,
+        form: &Form,
         frame: &ShadowVolumeFrame<'_>,
-        regions: &mut Regions,
-        limits: &PlanLimits,
-        kept: &Kept<'_>,
-    ) -> Result<(), ShadowVolumeError> {
+        (number, kept): (u32, &Kept),
+    ) {
+        let Some(slot) = kept.get(number) else {
+            return; // every number's slot is there
+        };
         let caster = &frame.casters[subject.index];
-        let mesh = &caster.mesh;
-        let place = place(mesh, subject, regions, limits).map_err(|overflow| {
-            ShadowVolumeError::TooLarge {
-                index: subject.index,
-                what: overflow.what,
-                size: overflow.size,
-                limit: overflow.limit,
-            }
-        })?;
-        let instance = self.instances.len() as u32;
-        let mut slot = Slot {
-            mesh: mesh.clone(),
-            revision: mesh.revision(),
-            chunk: place.chunk,
-            instance: instance_params(subject, &place),
-            way: subject.way,
-            counts: Counts::default(),
-            layers: None,
-            ready: false,
-            drawn: subject.form.is_some(),
-        };
-        if let Some(kept) = kept.get(instance as usize, &slot) {
-            slot.counts = kept.counts;
-            slot.layers = kept.layers;
-            slot.ready = true;
-        }
-        let batch = self.batch(&slot, limits.workgroups);
-        self.batch_of.push(batch);
-        self.instances.push(slot.instance);
-        self.slots.push(slot);
-        // Caps are below the region's end, which the regions keep below 2^32.
-        let cap_end = place.cap + subject.words(mesh)[1] as u32;
-        self.arguments.push(Arguments::new(place.cap, cap_end));
-        let Some(form) = subject.form else {
-            return Ok(());
-        };
-        let params = &self.batches[batch as usize].params;
-        let params_place = self.casters.len() as u32;
+        let (stride, offset) = position_words(&caster.mesh);
+        let place = self.casters.len() as u32;
         self.casters.push(CasterParams {
             clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
             world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
             light: rule::world_light(frame.light),
             far_plane: form.far.plane.as_vec4().to_array(),
             apex: form.far.apex.as_vec4().to_array(),
-            position_stride: params.position_stride,
-            position_offset: params.position_offset,
-            side_base: place.side,
+            position_stride: stride,
+            position_offset: offset,
+            side_base: slot.place.side,
             side_vertices: form.side_vertices,
             object_light: subject.light.light,
             object_light_rest: subject.light.rest,
             both_sides: subject.counted as u32,
         });
-        self.draw(subject, &form, frame, [instance, params_place]);
-        Ok(())
+        self.slot_of.push(number);
+        self.draw(subject, form, frame, [number, place]);
     }
 
-    /// The batch that the next instance belongs to.
-    fn batch(&mut self, slot: &Slot, most: u32) -> u32 {
+    /// Has compute shaders find a volume.
+    fn extract(&mut self, number: u32, kept: &Kept, most: u32) {
+        let Some(slot) = kept.get(number) else { return };
+        let first = self.instances.len() as u32;
+        self.instances.push(slot.instance);
+        // Caps are below the region's end, which the regions keep below 2^32.
+        let cap_end = slot.place.cap + 3 * slot.mesh.triangle_count();
+        let arguments = Arguments::new(slot.place.cap, cap_end);
+        self.arguments.push((number, arguments));
         let open = self.batches.last_mut().filter(|batch| {
-            batch.mesh.key() == slot.mesh.key()
-                && batch.chunk == slot.chunk
-                && (batch.ready, batch.drawn) == (slot.ready, slot.drawn)
-                && batch.way == slot.way
+            batch.mesh.id() == slot.mesh.id()
+                && batch.chunk == slot.place.chunk
                 && batch.instance_count < most
         });
         match open {
             Some(batch) => batch.instance_count += 1,
             None => self.batches.push(Batch {
                 mesh: slot.mesh.clone(),
-                chunk: slot.chunk,
-                params: batch_params(&slot.mesh, self.instances.len() as u32),
+                chunk: slot.place.chunk,
+                params: batch_params(&slot.mesh, first),
                 instance_count: 1,
-                ready: slot.ready,
-                drawn: slot.drawn,
-                way: slot.way,
             }),
         }
-        self.batches.len() as u32 - 1
     }
 
     fn draw(
@@ -288,7 +244,7 @@ impl Plan {
         subject: &Subject,
         form: &Form,
         frame: &ShadowVolumeFrame<'_>,
-        [instance, caster]: [u32; 2],
+        [slot, caster]: [u32; 2],
     ) {
         // A cap that counts +1 is counter-clockwise seen from the light, in the mesh's own space.
         let clockwise = subject.mirrored != rule::is_left_handed(frame.view);
@@ -300,7 +256,7 @@ impl Plan {
                     clockwise,
                     part,
                 },
-                instance,
+                slot,
                 caster,
                 back,
             }));
@@ -329,48 +285,21 @@ impl Plan {
     }
 }
 
-/// Finds room for one instance's lists.
-fn place(
-    mesh: &CasterMesh,
-    subject: &Subject,
-    regions: &mut Regions,
-    limits: &PlanLimits,
-) -> Result<Place, Overflow> {
-    let size = match subject.way {
-        Way::Vertex => mesh.record_bytes(),
-        Way::Compute | Way::Cpu => 0,
-    };
-    if size > limits.buffer_bytes {
-        return Err(Overflow {
-            what: "edge records",
-            size,
-            limit: limits.buffer_bytes,
-        });
-    }
-    regions.place(subject.words(mesh))
-}
-
-fn instance_params(subject: &Subject, place: &Place) -> InstanceParams {
-    InstanceParams {
-        light: subject.light.light,
-        light_rest: subject.light.rest,
-        both_sides: subject.counted as u32,
-        facing_base: place.facing,
-        cap_base: place.cap,
-        side_base: place.side,
-        padding: 0,
-    }
+/// Words from one position of a mesh to the next, and before the first. They fit 32 bits: the
+/// positions lie in one storage binding.
+fn position_words(mesh: &CasterMesh) -> (u32, u32) {
+    let (stride, offset) = mesh.layout();
+    ((stride / 4) as u32, (offset / 4) as u32)
 }
 
 fn batch_params(mesh: &CasterMesh, first_instance: u32) -> BatchParams {
-    let (stride, offset) = mesh.layout();
+    let (position_stride, position_offset) = position_words(mesh);
     BatchParams {
         first_instance,
         triangle_count: mesh.triangle_count(),
         edge_count: mesh.edge_count(),
-        // In words they fit 32 bits: the positions lie in one storage binding.
-        position_stride: (stride / 4) as u32,
-        position_offset: (offset / 4) as u32,
+        position_stride,
+        position_offset,
         general: u32::from(mesh.kind() == MeshKind::General),
         padding: [0; 2],
     }

@@ -1,25 +1,30 @@
 //! The renderer: prepare, encode, render.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use super::buffers::{Buffers, window};
+use super::buffers::Buffers;
 use super::draw::{self, DrawPipelines, Feed, issue};
+use super::found::Found;
 use super::groups::{Groups, Parts};
 use super::kept::Kept;
 use super::layers;
 use super::method::Options;
-use super::params::{Arguments, BatchParams, CasterParams};
-use super::plan::{Batch, Draw, Means, Plan, PlanLimits};
+use super::plan::{Batch, Draw, Means, Outline, Plan, PlanLimits};
 use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
 use super::statistics::CasterState;
+use super::subject::words;
 use super::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
-use crate::error::ShadowVolumeError;
+use crate::error::{ShadowVolumeError, VolumeRenderError};
+use crate::submissions::Submissions;
+use crate::uploads::Uploads;
 
 /// Stencil shadow volumes of one light for any number of casters.
 ///
-/// A host with several lights keeps one renderer for each light that shines in a frame, or
-/// prepares, records and submits one light after another.
+/// A host with several lights keeps one renderer for each light that shines in a frame. One renderer
+/// may also serve several views or lights, in one submission or in several, one after another:
+/// `prepare`, `encode` and `render` for the first, then all three for the second. Everything is
+/// recorded in that order and read in that order, so what goes into several encoders must be
+/// submitted in the order in which it was recorded. Views of one light share what was found; lights
+/// that take turns search all their casters anew each time.
 ///
 /// The host's frame, for each light:
 /// 1. depth prepass: all surfaces into the depth-stencil buffer;
@@ -27,6 +32,10 @@ use crate::error::ShadowVolumeError;
 /// 3. a pass with that depth-stencil buffer, its stencil cleared to 0 and its depth loaded:
 ///    [`render`](Self::render), then the host's own light pass with
 ///    [`light_pass_stencil`](Self::light_pass_stencil).
+///
+/// A call that was forgotten is told: `render` returns an error where `encode` was left out, or where
+/// the encoder was dropped. What was recorded in vain is recorded again at the next frame. What the
+/// renderer cannot see, [`invalidate`](Self::invalidate) tells it.
 ///
 /// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
 /// and is lit: casters that stack that deep along a light ray want
@@ -54,17 +63,22 @@ pub struct ShadowVolumeRenderer {
     fed: Option<DrawPipelines>,
     buffers: Buffers,
     groups: Groups,
+    limits: PlanLimits,
     plan: Plan,
+    kept: Kept,
+    uploads: Uploads,
+    submissions: Submissions,
     keep: bool,
     options: Options,
     counter: Counter,
     /// Whether `encode` was called since the last `prepare`.
-    encoded: AtomicBool,
+    encoded: bool,
 }
 
 /// What the last frame draws, and where it lies.
 pub(super) struct Drawn<'a> {
     pub plan: &'a Plan,
+    pub kept: &'a Kept,
     pub buffers: &'a Buffers,
     pub depth: DepthConvention,
 }
@@ -85,9 +99,14 @@ impl ShadowVolumeRenderer {
             Some(name) => format!("shadows volume {name}"),
             None => "shadows volume".to_owned(),
         };
+        let limits = PlanLimits::of(&device.limits(), &ways);
         Ok(Self {
             device: device.clone(),
             depth: descriptor.depth,
+            kept: Kept::new(limits.storage_bytes),
+            limits,
+            uploads: Uploads::new(device),
+            submissions: Submissions::default(),
             ways,
             extraction: ways
                 .contain(Way::Compute)
@@ -104,19 +123,29 @@ impl ShadowVolumeRenderer {
             options: Options::of(descriptor),
             counter: descriptor.counter,
             keep: descriptor.keep_between_frames,
-            encoded: AtomicBool::new(false),
+            encoded: false,
             label,
         })
     }
 
-    /// Decides what one frame draws and uploads the parameters: a few hundred bytes a caster. A
-    /// caster that is skipped because it is out of view takes about 0.12 microseconds of CPU time
-    /// (10,000 of them, 2.6 GHz; `cargo bench --bench shadow_volume`).
+    /// Decides what one frame draws and finds the silhouettes that the CPU finds. What of it goes to
+    /// the GPU, a few hundred bytes a caster, waits for [`encode`](Self::encode). A caster that is
+    /// skipped because it is out of view takes about 0.12 microseconds of CPU time (10,000 of them,
+    /// 2.6 GHz; `cargo bench --bench shadow_volume`).
     ///
-    /// GPU memory, kept between frames and grown as needed: about 28 bytes a triangle and instance,
-    /// and 720 a caster; up to twice that, because buffers grow to powers of two. Casters out of
-    /// view keep their places, so that what comes back into view need not be searched again, as long
-    /// as all casters together fit one storage buffer for each list; else they hold nothing.
+    /// A volume is kept as long as a caster has it: its mesh and that mesh's revision, the light as
+    /// seen from the mesh, and what of it counts. It does not matter where in the list the caster
+    /// stands, nor what comes and goes around it. Casters out of view keep their volumes, as long as
+    /// all casters together fit one storage buffer for each list, so that what comes back into view
+    /// need not be searched again; casters out of the light's range do not.
+    ///
+    /// GPU memory, kept between frames and grown as needed, what it held being copied: where compute
+    /// shaders find the silhouettes about 28 bytes a triangle and volume, where the CPU does what
+    /// they come to, about 6 bytes a triangle; and 720 a caster. Up to twice that, because buffers
+    /// grow to powers of two. Besides, what `encode` uploads waits in buffers that the CPU writes to:
+    /// about as much as is uploaded, for each frame that the GPU has not finished.
+    ///
+    /// `queue` is not written to: what is uploaded is recorded.
     ///
     /// # Errors
     /// [`ShadowVolumeError`], before any GPU work, if the view's depth convention is not the
@@ -125,7 +154,7 @@ impl ShadowVolumeRenderer {
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        _queue: &wgpu::Queue,
         frame: &ShadowVolumeFrame<'_>,
     ) -> Result<(), ShadowVolumeError> {
         if frame.view.depth() != self.depth {
@@ -134,51 +163,55 @@ impl ShadowVolumeRenderer {
                 view: frame.view.depth(),
             });
         }
-        let limits = PlanLimits::of(&device.limits(), &self.ways);
         let means = Means {
             options: self.options,
             ways: &self.ways,
-            kept: self.kept(),
+            regions: self.kept.regions(),
             keep: self.keep,
         };
-        let mut plan = Plan::new(frame, device, &limits, &means)?;
+        let outline = Outline::new(frame, device, &self.limits, &means)?;
+        let [not_encoded, encoder_dropped] = self.forget();
+        self.kept.update(&outline.subjects, frame.casters);
+        let found = self.find();
+        let mut plan = Plan::new(outline, frame, &self.options, &self.limits, &self.kept);
         if !plan.draws.is_empty() {
-            let generation = self.buffers.generation();
-            self.buffers.reserve(device, &plan, &limits);
-            if self.buffers.generation() != generation {
-                plan.forget();
-            }
-            self.extract(queue, &mut plan);
-            self.buffers.upload(device, queue, &plan);
+            let planned = (&plan, &self.kept);
+            self.buffers
+                .reserve(device, &mut self.uploads, planned, &self.limits);
+            self.buffers.write(device, &mut self.uploads, &plan);
+            found.write(&mut self.uploads, &self.buffers);
         }
-        plan.statistics.gpu_bytes = self.buffers.bytes();
+        plan.statistics = VolumeStatistics {
+            gpu_bytes: self.buffers.bytes(),
+            not_encoded,
+            encoder_dropped,
+            ..plan.statistics
+        };
         self.plan = plan;
-        *self.encoded.get_mut() = false;
+        self.encoded = false;
         self.bind();
         Ok(())
     }
 
-    /// Records the compute passes that extract the volumes which were not kept from the frame
-    /// before: none where neither the light nor a caster has moved.
+    /// Records the uploads of the last [`prepare`](Self::prepare), and the compute passes that find
+    /// the volumes which were not kept from the frame before: none where neither the light nor a
+    /// caster has moved. Once: a second call before the next `prepare` records nothing.
     ///
-    /// What is recorded must be submitted, for the next frame counts on it. A host that deforms a
-    /// mesh in its own position buffer says so with
-    /// [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision) before
-    /// [`prepare`](Self::prepare).
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        self.encoded.store(true, Ordering::Relaxed);
-        if self.plan.stale().next().is_none() {
+    /// What is recorded must be submitted, for the next frame counts on it; if the encoder is dropped
+    /// instead, the next `prepare` finds everything anew. A host that deforms a mesh in its own
+    /// position buffer says so with [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision)
+    /// before `prepare`.
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if std::mem::replace(&mut self.encoded, true) || self.plan.draws.is_empty() {
             return;
         }
-        let (Some(bound), Some(extraction)) = (self.buffers.bound(), &self.extraction) else {
+        self.submissions.watch(encoder);
+        self.uploads.record(encoder);
+        let Some(extraction) = self.extraction.as_ref() else {
             return;
         };
-        let each = size_of::<Arguments>() as u64;
-        for (_, batch) in self.plan.stale() {
-            // Counts start from the template, so that recording twice counts nothing twice.
-            let start = u64::from(batch.params.first_instance) * each;
-            let size = u64::from(batch.instance_count) * each;
-            encoder.copy_buffer_to_buffer(bound.template, start, bound.arguments, start, size);
+        if self.plan.batches.is_empty() {
+            return;
         }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(&self.label),
@@ -192,6 +225,13 @@ impl ShadowVolumeRenderer {
         });
     }
 
+    /// Has the next [`prepare`](Self::prepare) find every volume anew: for a host that has lost what
+    /// was recorded in a way that the renderer cannot see, or has written into a mesh's buffer
+    /// without a new revision.
+    pub fn invalidate(&mut self) {
+        self.kept.clear();
+    }
+
     /// Records the stencil draws into the host's pass, which must have the formats and the sample
     /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only). With
     /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
@@ -199,25 +239,46 @@ impl ShadowVolumeRenderer {
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
     /// gave a target size and a range, also the scissor rectangle, which is then the whole target.
     /// Nothing else.
-    pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
+    ///
+    /// # Errors
+    /// [`VolumeRenderError`] if [`encode`](Self::encode) was not called since the last
+    /// [`prepare`](Self::prepare), or its encoder was dropped. Nothing is then drawn, and no shadow
+    /// is in the picture.
+    pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), VolumeRenderError> {
+        if !self.encoded {
+            return Err(VolumeRenderError::NotEncoded);
+        }
+        if self.submissions.is_dropped() {
+            return Err(VolumeRenderError::Dropped);
+        }
         if self.plan.draws.is_empty() {
-            return;
+            return Ok(());
         }
         if let Some(([x, y, width, height], _)) = self.plan.scissor {
             pass.set_scissor_rect(x, y, width, height);
         }
+        self.draw(pass);
+        if let Some((_, [width, height])) = self.plan.scissor {
+            pass.set_scissor_rect(0, 0, width, height);
+        }
+        Ok(())
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        let drawn = self.drawn();
         let mut current = None;
         for draw in &self.plan.draws {
-            let batch = self.plan.batch_of[draw.instance as usize] as usize;
-            let way = self.plan.batches[batch].way;
-            let pipelines = match way {
+            let Some(slot) = self.kept.get(draw.slot) else {
+                continue;
+            };
+            let pipelines = match slot.way {
                 Way::Vertex => self.fed.as_ref(),
                 Way::Compute | Way::Cpu => self.pulled.as_ref(),
             };
             let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw)) else {
                 continue;
             };
-            let state = (draw.style, way == Way::Vertex);
+            let state = (draw.style, slot.way == Way::Vertex);
             if current != Some(state) {
                 let Some(pipeline) = pipelines.get(draw.style) else {
                     continue;
@@ -225,10 +286,7 @@ impl ShadowVolumeRenderer {
                 pass.set_pipeline(pipeline);
                 current = Some(state);
             }
-            issue(pass, draw, &self.plan, &self.buffers);
-        }
-        if let Some((_, [width, height])) = self.plan.scissor {
-            pass.set_scissor_rect(0, 0, width, height);
+            issue(pass, draw, slot, &drawn);
         }
     }
 
@@ -261,6 +319,7 @@ impl ShadowVolumeRenderer {
     pub(super) fn drawn(&self) -> Drawn<'_> {
         Drawn {
             plan: &self.plan,
+            kept: &self.kept,
             buffers: &self.buffers,
             depth: self.depth,
         }
@@ -268,12 +327,11 @@ impl ShadowVolumeRenderer {
 
     /// Sets the bind group that a draw reads, if it is there.
     pub(super) fn bind_volume(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
-        let batch = self.plan.batch_of[draw.instance as usize] as usize;
-        let Some(group) = self.groups.get(batch) else {
+        let Some(group) = self.groups.of_caster(draw.caster as usize) else {
             return false;
         };
-        let step = window::<CasterParams>(&self.device.limits()) as u32;
-        pass.set_bind_group(0, &group.draw, &[draw.caster * step]);
+        let step = self.limits.caster_window;
+        pass.set_bind_group(0, group, &[draw.caster * step]);
         true
     }
 
@@ -290,7 +348,7 @@ impl ShadowVolumeRenderer {
     /// scenes 3 for `spheres`, 17 for `teapot` and 62 for `courtyard`, there in 32 ms the first time
     /// and 0.05 ms each time after.
     pub fn count_bound(&mut self) -> u64 {
-        layers::bound(&mut self.plan, &mut self.on_cpu)
+        layers::bound(&self.plan, &mut self.kept, &mut self.on_cpu)
     }
 
     /// Whether the counter could wrap in the frame prepared last, so that a point in shadow would
@@ -302,38 +360,41 @@ impl ShadowVolumeRenderer {
         self.count_bound() >= self.counter.end()
     }
 
-    /// Extracts on the CPU what is extracted there.
-    fn extract(&mut self, queue: &wgpu::Queue, plan: &mut Plan) {
-        for slot in plan.stale_on_cpu() {
-            let (Some(mesh), Some([_, caps, sides])) =
-                (slot.mesh.data(), self.buffers.chunk(slot.chunk))
-            else {
-                continue;
-            };
-            let volume = &mut self.on_cpu;
-            slot.counts = volume.extract(mesh, slot.mesh.kind(), &slot.instance);
-            let at = |place: u32| u64::from(place) * 4;
-            // Caps are most of it, and go where the queue takes them from.
-            let caps_size = at(slot.counts.front) + at(slot.counts.back);
-            let staging = wgpu::BufferSize::new(caps_size)
-                .and_then(|size| queue.write_buffer_with(caps, at(slot.instance.cap_base), size));
-            if let Some(mut staging) = staging {
-                volume.write_caps(mesh, staging.slice(..));
-            }
-            let words = bytemuck::cast_slice(&volume.sides);
-            queue.write_buffer(sides, at(slot.instance.side_base), words);
+    /// Lets go what of the last frame cannot be counted on. Whether it was not encoded, and whether
+    /// an encoder was dropped.
+    fn forget(&mut self) -> [bool; 2] {
+        self.uploads.clear();
+        let dropped = self.submissions.take_dropped();
+        let not_encoded = !(self.encoded || self.plan.draws.is_empty());
+        if dropped || !self.keep {
+            self.kept.clear();
+        } else if not_encoded {
+            self.kept.forget_wanted();
         }
+        [not_encoded, dropped]
     }
 
-    /// What the buffers hold of the frame before.
-    fn kept(&self) -> Kept<'_> {
-        if !self.keep {
-            return Kept::NOTHING;
+    /// Finds a place for everything that is new, and on the CPU what is found there.
+    fn find(&mut self) -> Found {
+        let mut found = Found::default();
+        for number in self.kept.wanted().to_vec() {
+            let Some(slot) = self.kept.get(number) else {
+                continue;
+            };
+            let mesh = slot.mesh.clone();
+            match (slot.way, mesh.data()) {
+                (Way::Compute, _) => self.kept.place(number, words(&mesh, Way::Compute)),
+                (Way::Cpu, Some(data)) => {
+                    let counts = self.on_cpu.extract(data, mesh.kind(), &slot.instance);
+                    self.kept.place_found(number, counts);
+                    if let Some(slot) = self.kept.get(number) {
+                        found.add(&mut self.uploads, &self.on_cpu, data, slot);
+                    }
+                }
+                _ => {}
+            }
         }
-        Kept {
-            slots: &self.plan.slots,
-            encoded: self.encoded.load(Ordering::Relaxed),
-        }
+        found
     }
 
     fn dispatch<'a>(
@@ -342,13 +403,11 @@ impl ShadowVolumeRenderer {
         pipeline: &wgpu::ComputePipeline,
         work: impl Fn(&'a Batch, &'a [wgpu::BindGroup; 2]) -> (u32, &'a wgpu::BindGroup),
     ) {
-        let limits = self.device.limits();
-        let most = limits.max_compute_workgroups_per_dimension;
-        let step = window::<BatchParams>(&limits) as u32;
+        let most = self.limits.workgroups;
+        let step = self.limits.batch_window;
         pass.set_pipeline(pipeline);
-        for (index, batch) in self.plan.stale() {
-            let group = self.groups.get(index as usize);
-            let Some(groups) = group.and_then(|group| group.extraction.as_ref()) else {
+        for (index, batch) in (0..).zip(&self.plan.batches) {
+            let Some(groups) = self.groups.of_batch(batch) else {
                 continue;
             };
             let (count, group) = work(batch, groups);
@@ -368,7 +427,7 @@ impl ShadowVolumeRenderer {
             pulled: self.pulled.as_ref(),
             fed: self.fed.as_ref(),
         };
-        self.groups.update(&self.plan, &parts);
+        self.groups.update(&self.plan, &self.kept, &parts);
     }
 }
 

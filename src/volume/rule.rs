@@ -9,7 +9,7 @@ use crate::mesh::MeshKind;
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// Which triangles of a mesh count; as the shaders have it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Counted {
     /// Those facing the light.
     LightFacing = 0,

@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 
 use super::ShadowVolumeFrame;
+use super::kept::Key;
 use super::method::{Caps, Form, Rules, Skip};
 use super::plan::{Means, PlanLimits};
-use super::regions::Words;
+use super::regions::{Overflow, Words};
 use super::rule::{Counted, ObjectLight};
 use super::silhouette::Way;
 use super::skin;
@@ -24,6 +25,7 @@ pub(super) struct Subject {
     pub mirrored: bool,
     pub way: Way,
     pub index: usize,
+    pub key: Key,
 }
 
 impl Subject {
@@ -36,24 +38,24 @@ impl Subject {
             (_, Counted::AwayFacing) => &[true],
         }
     }
+}
 
-    /// Words for facings, caps and sides, the worst case: they cannot overflow.
-    ///
-    /// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its
-    /// uses at most. (Where light-facing triangles alone count, half of that would do; but whether
-    /// they do depends on the camera, and no place may.)
-    pub fn words(&self, mesh: &CasterMesh) -> Words {
-        let triangles = u64::from(mesh.triangle_count());
-        let sides = match mesh.kind() {
-            MeshKind::Closed => 2 * u64::from(mesh.edge_count()),
-            MeshKind::General => u64::from(mesh.edge_use_count()),
-        };
-        match self.way {
-            Way::Compute => [triangles, 3 * triangles, sides],
-            // Facings stay on the CPU.
-            Way::Cpu => [0, 3 * triangles, sides],
-            Way::Vertex => [0; 3],
-        }
+/// Words for facings, caps and sides, the worst case: they cannot overflow.
+///
+/// Facings and caps: one for each triangle. Sides: an edge is extruded once for each of its uses at
+/// most. (Where light-facing triangles alone count, half of that would do; but whether they do depends
+/// on the camera, and no place may. A volume that the CPU finds takes what it comes to.)
+pub(super) fn words(mesh: &CasterMesh, way: Way) -> Words {
+    let triangles = u64::from(mesh.triangle_count());
+    let sides = match mesh.kind() {
+        MeshKind::Closed => 2 * u64::from(mesh.edge_count()),
+        MeshKind::General => u64::from(mesh.edge_use_count()),
+    };
+    match way {
+        Way::Compute => [triangles, 3 * triangles, sides],
+        // Facings stay on the CPU.
+        Way::Cpu => [0, 3 * triangles, sides],
+        Way::Vertex => [0; 3],
     }
 }
 
@@ -102,10 +104,10 @@ pub(super) fn subjects(
         let Some(subject) = subject(frame, means, &rules, (index, caster), tally)? else {
             continue;
         };
-        for (total, words) in total.iter_mut().zip(subject.words(&caster.mesh)) {
+        for (total, words) in total.iter_mut().zip(words(&caster.mesh, subject.way)) {
             *total += words;
         }
-        let group = *group_of.entry(caster.mesh.key()).or_insert_with(|| {
+        let group = *group_of.entry(caster.mesh.id()).or_insert_with(|| {
             groups.push(Vec::new());
             groups.len() - 1
         });
@@ -118,6 +120,9 @@ pub(super) fn subjects(
             .any(|words| words > limits.storage_bytes / 4);
     if crowded {
         subjects.retain(|subject| subject.form.is_some());
+    }
+    for subject in &subjects {
+        check(subject, &frame.casters[subject.index].mesh, means, limits)?;
     }
     Ok(subjects)
 }
@@ -153,6 +158,7 @@ fn subject(
         form
     });
     let counted = Counted::of(caster, &world, frame, means.options.start_from);
+    let key = Key::new(&caster.mesh, &light, counted, way);
     if let Some(form) = &form {
         let away = counted == Counted::AwayFacing;
         tally.statistics.casters_away_facing += u32::from(away);
@@ -165,5 +171,33 @@ fn subject(
         mirrored: map.matrix3.determinant() < 0.0,
         way,
         index,
+        key,
     }))
+}
+
+/// Whether a subject's volume fits the device's buffers.
+fn check(
+    subject: &Subject,
+    mesh: &CasterMesh,
+    means: &Means<'_>,
+    limits: &PlanLimits,
+) -> Result<(), ShadowVolumeError> {
+    let records = match subject.way {
+        Way::Vertex => mesh.record_bytes(),
+        Way::Compute | Way::Cpu => 0,
+    };
+    let checked = match records > limits.buffer_bytes {
+        true => Err(Overflow {
+            what: "edge records",
+            size: records,
+            limit: limits.buffer_bytes,
+        }),
+        false => means.regions.check(words(mesh, subject.way)),
+    };
+    checked.map_err(|overflow| ShadowVolumeError::TooLarge {
+        index: subject.index,
+        what: overflow.what,
+        size: overflow.size,
+        limit: overflow.limit,
+    })
 }

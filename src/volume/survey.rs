@@ -76,8 +76,8 @@ impl ShadowVolumeRenderer {
         };
         // Draws are sorted by pipeline; a volume's own are needed together.
         let mut draws: Vec<&Draw> = drawn.plan.draws.iter().filter(|d| !d.is_repeat()).collect();
-        draws.sort_by_key(|draw| draw.instance);
-        for draws in draws.chunk_by(|a, b| a.instance == b.instance) {
+        draws.sort_by_key(|draw| draw.caster);
+        for draws in draws.chunk_by(|a, b| a.caster == b.caster) {
             surveyor.add(&drawn, draws);
         }
         surveyor.survey
@@ -95,7 +95,9 @@ impl Surveyor {
     /// Adds all that is drawn of one volume.
     fn add(&mut self, drawn: &Drawn<'_>, draws: &[&Draw]) {
         let Some(first) = draws.first() else { return };
-        let slot = &drawn.plan.slots[first.instance as usize];
+        let Some(slot) = drawn.kept.get(first.slot) else {
+            return;
+        };
         let boxed;
         let (mesh, kind) = match slot.mesh.data() {
             Some(mesh) => (mesh, slot.mesh.kind()),

@@ -60,8 +60,22 @@ pub fn validate(wgsl: &str) -> Result<naga::Module, String> {
     Ok(module)
 }
 
-/// Translates WGSL to the GLSL that wgpu's GL back end would run.
+/// Translates WGSL to the GLSL that wgpu's GL back end would run on OpenGL ES 3.1.
 pub fn to_glsl(wgsl: &str, entry_point: &str) -> Result<String, String> {
+    translate(wgsl, entry_point, 310, false)
+}
+
+/// The same in WebGL 2.
+pub fn to_webgl(wgsl: &str, entry_point: &str) -> Result<String, String> {
+    translate(wgsl, entry_point, 300, true)
+}
+
+fn translate(
+    wgsl: &str,
+    entry_point: &str,
+    version: u16,
+    is_webgl: bool,
+) -> Result<String, String> {
     use naga::back::glsl;
     let module = validate(wgsl)?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
@@ -69,10 +83,7 @@ pub fn to_glsl(wgsl: &str, entry_point: &str) -> Result<String, String> {
         .map_err(|e| e.to_string())?;
     let mut text = String::new();
     let options = glsl::Options {
-        version: glsl::Version::Embedded {
-            version: 310,
-            is_webgl: false,
-        },
+        version: glsl::Version::Embedded { version, is_webgl },
         ..Default::default()
     };
     let pipeline = glsl::PipelineOptions {

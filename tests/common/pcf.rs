@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test uses its own part
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
 
 pub fn made(
     device: &wgpu::Device,
@@ -12,16 +12,33 @@ pub fn made(
     PcfSampler::new(device, queue, descriptor).unwrap()
 }
 
+/// The kernels that differ with and without gathers.
+pub const SQUARES: [Kernel; 5] = [
+    Kernel::Bilinear,
+    Kernel::FourTaps,
+    Kernel::Weighted3,
+    Kernel::Weighted5,
+    Kernel::Weighted7,
+];
+
+/// All kernels, and once more without gathers those that else have them.
+fn kernels() -> impl Iterator<Item = (Kernel, Gather)> {
+    let all = Kernel::ALL.map(|kernel| (kernel, Gather::Auto));
+    all.into_iter()
+        .chain(SQUARES.map(|kernel| (kernel, Gather::Never)))
+}
+
 /// All that a sampler can be made for.
 pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
     let mut all = Vec::new();
-    for kernel in Kernel::ALL {
+    for (kernel, gather) in kernels() {
         for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
             for many_lights in [false, true] {
                 all.push(PcfDescriptor {
                     kernel,
                     encoding,
                     many_lights,
+                    gather,
                     ..Default::default()
                 });
             }
@@ -29,6 +46,7 @@ pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
         all.push(PcfDescriptor {
             kernel,
             map: MapKind::Flat,
+            gather,
             ..Default::default()
         });
     }

@@ -72,7 +72,7 @@ impl Yard {
         };
         let mut map = CubeShadowMap::new(device, &descriptor).unwrap();
         let frame = CubeFrame {
-            lights: &[PointLight::new(LIGHT, 0.05, 30.0)],
+            lights: &[PointLight::new(LIGHT, 30.0)],
             casters: &self.casters,
             ..Default::default()
         };
@@ -89,13 +89,8 @@ impl Yard {
             ..Default::default()
         };
         let mut map = ShadowMap::new(device, &descriptor).unwrap();
-        let light = FlatLight::Spot(SpotLight {
-            position: LIGHT,
-            direction: Vec3::NEG_Y,
-            half_angle: std::f32::consts::FRAC_PI_4,
-            near: 0.05,
-            range: 30.0,
-        });
+        let right_angle = std::f32::consts::FRAC_PI_4;
+        let light = FlatLight::Spot(SpotLight::new(LIGHT, Vec3::NEG_Y, right_angle, 30.0));
         map.prepare(device, queue, &ShadowFrame::new(light, &self.casters))
             .unwrap();
         self.gpu.run(|encoder| map.encode(encoder));

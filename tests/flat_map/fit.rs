@@ -9,7 +9,7 @@ use shadows::{
 use crate::common::shapes::{Random, square};
 use crate::host::gpu::Gpu;
 use crate::receivers::visibility;
-use crate::{drawn, field, of_size, sun};
+use crate::{drawn, field, interior, of_size, sun, wrong};
 
 fn camera(eye: Vec3, target: Vec3) -> View {
     let projection = rh::proj::directx::perspective_infinite_reverse(0.8, 1.5, 0.1);
@@ -88,6 +88,97 @@ fn the_map_covers_no_more_than_casts_receives_and_is_seen() {
     assert!((8.0..13.0).contains(&all), "{all}");
     assert!(near < 0.6 * all, "{near} of {all}");
     assert!((1.0..1.25).contains(&few), "{few}");
+}
+
+/// The matrices of a map that is fitted to a view, and to views that end or begin elsewhere.
+#[test]
+fn a_views_distance_counts_from_the_eye() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let field = field(&gpu);
+    let camera = rh::view::look_at_mat4(Vec3::new(0.0, 3.0, 7.0), Vec3::ZERO, Vec3::Y);
+    let fitted = |near: f32, far: Option<f32>, distance: f32| {
+        use rh::proj::directx as proj;
+        let (mut projection, depth) = match far {
+            None => (
+                proj::perspective_infinite_reverse(0.3, 1.5, near),
+                DepthConvention::InfiniteReverse,
+            ),
+            Some(far) => (
+                proj::perspective(0.3, 1.5, far, near),
+                DepthConvention::FiniteReverse,
+            ),
+        };
+        // Off centre: the axis is not the middle of the picture.
+        (projection.z_axis.x, projection.z_axis.y) = (0.3, -0.2);
+        let view = View::new(projection * camera, depth).unwrap();
+        let frame = ShadowFrame {
+            view: Some((&view, distance)),
+            ..ShadowFrame::new(sun(Vec3::new(0.3, 1.0, 0.1)), &field.casters)
+        };
+        let map = drawn(&gpu, &of_size(512, Bias::default()), &frame);
+        map.clip_from_world().unwrap()
+    };
+    let same = |a: Mat4, b: Mat4| a.abs_diff_eq(b, 1e-3 * a.x_axis.length());
+    for near in [0.01, 4.0, 6.0] {
+        let ends_there = fitted(near, Some(8.0), 100.0);
+        assert!(same(fitted(near, None, 8.0), ends_there), "near {near}");
+        assert!(
+            same(fitted(near, Some(50.0), 8.0), ends_there),
+            "near {near}"
+        );
+        // The broken twin: counted from the near plane.
+        let twin = same(fitted(near, None, 8.0 + near), ends_there);
+        assert_eq!(twin, near < 0.1, "near {near}");
+    }
+}
+
+#[test]
+fn orthographic_views_show_their_shadows_wherever_their_near_plane_is() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let field = field(&gpu);
+    let light = sun(Vec3::new(0.4, 1.0, 0.2));
+    // A camera among the casters, that sees what is behind it as well, and does not look along the
+    // light.
+    let eye = Vec3::new(0.3, 0.6, 0.2);
+    let camera = rh::view::look_at_mat4(eye, eye + Vec3::new(0.2, -0.5, -1.0), Vec3::Y);
+    let view = |near: f32, far: f32, depth| {
+        let (first, last) = match depth {
+            DepthConvention::Standard => (near, far),
+            _ => (far, near),
+        };
+        let off_centre = [-3.0, 4.5, -3.5, 2.5];
+        let [left, right, bottom, top] = off_centre;
+        let projection = rh::proj::directx::orthographic(left, right, bottom, top, first, last);
+        View::new(projection * camera, depth).unwrap()
+    };
+    for depth in [DepthConvention::Standard, DepthConvention::FiniteReverse] {
+        for (near, far) in [(-20.0, 20.0), (-50.0, 90.0), (-1000.0, 30.0)] {
+            let whole = view(near, far, depth);
+            let visible = |point: Vec3| {
+                let clip = whole.clip_from_world().project_point3(point);
+                clip.x.abs() < 0.98 && clip.y.abs() < 0.98
+            };
+            for distance in [1.0, 100.0, 5000.0] {
+                let wrong_in = |seen: &View| {
+                    let frame = ShadowFrame {
+                        view: Some((seen, distance)),
+                        ..ShadowFrame::new(light, &field.casters)
+                    };
+                    let map = drawn(&gpu, &of_size(2048, Bias::default()), &frame);
+                    let points: Vec<_> = interior(&field, light, 0.05)
+                        .into_iter()
+                        .filter(|(point, _)| visible(*point))
+                        .collect();
+                    assert!(points.iter().filter(|(_, blocked)| *blocked).count() > 20);
+                    wrong(&gpu, &map, Kernel::Bilinear, &points)
+                };
+                assert_eq!(wrong_in(&whole), 0, "{depth:?} {near} {distance}");
+                // The broken twin: as if only what is beyond the camera were seen.
+                let half = view(0.5, far, depth);
+                assert!(wrong_in(&half) > 5, "{depth:?} {near} {distance}");
+            }
+        }
+    }
 }
 
 #[test]

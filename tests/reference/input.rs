@@ -130,13 +130,7 @@ fn every_bad_input_is_named() {
         let error = image.compare(&visibility, wrong);
         assert!(matches!(error, Err(ReferenceError::Interior { .. })));
     }
-    let spot = SpotLight {
-        position: Vec3::Y,
-        direction: Vec3::NEG_Y,
-        half_angle: 0.0,
-        near: 0.1,
-        range: 9.0,
-    };
+    let spot = SpotLight::new(Vec3::Y, Vec3::NEG_Y, 0.0, 9.0);
     assert_eq!(
         scene.render_spot(&view, 4, 4, &spot).err(),
         Some(LightError::HalfAngle(0.0).into())

@@ -48,13 +48,7 @@ fn a_rectangle_casts_its_projection() {
 #[test]
 fn a_spot_lights_a_disk_of_the_ground_below() {
     let (ground, roof) = (ground(), rectangle(Vec2::NEG_ONE, Vec2::ONE, 2.0));
-    let spot = SpotLight {
-        position: Vec3::new(0.3, 3.0, -0.2),
-        direction: Vec3::NEG_Y * 7.0,
-        half_angle: 0.6,
-        near: 0.1,
-        range: 30.0,
-    };
+    let spot = SpotLight::new(Vec3::new(0.3, 3.0, -0.2), Vec3::NEG_Y * 7.0, 0.6, 30.0);
     let scene = ReferenceScene::new(&[ground.object(false), roof.object(false)]).unwrap();
     let view = downward(EYE, 0.1);
     let image = scene.render_spot(&view, SIDE, SIDE, &spot).unwrap();

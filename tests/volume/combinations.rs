@@ -1,6 +1,6 @@
 //! Every way to find silhouettes with every choice of what is drawn: one stencil buffer.
 
-use shadows::glam::Vec3;
+use shadows::glam::{Affine3A, Vec3};
 use shadows::{Caps, HomogeneousLight, Method, ShadowVolumeRenderer, Silhouettes};
 
 use crate::choices::depths;
@@ -94,7 +94,11 @@ fn extracted_when_turning(gpu: &Gpu, silhouettes: Silhouettes, keep: bool) -> [u
             Body::caster(sphere(), at(0.0, 1.5, 0.0)),
             // Behind the camera, at first.
             Body::caster(shapes::cube(), at(1.0, 1.0, 25.0)),
-            Body::caster(sphere(), at(-1.5, 1.5, -1.0)),
+            // Turned, so that the sun does not meet it like the other.
+            Body::caster(
+                sphere(),
+                at(-1.5, 1.5, -1.0) * Affine3A::from_rotation_y(0.4),
+            ),
         ],
     );
     stage.savings.silhouettes = silhouettes;

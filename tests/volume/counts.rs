@@ -69,7 +69,9 @@ pub fn exact_counts(gpu: &Gpu, stage: &Stage) -> Vec<f32> {
         gpu.run(|encoder| {
             renderer.encode(encoder);
             stage.prepass(encoder, &depth, &host, &surfaces);
-            renderer.render(&mut counts.begin(encoder, &depth).unwrap());
+            renderer
+                .render(&mut counts.begin(encoder, &depth).unwrap())
+                .unwrap();
         });
     });
     let bytes = gpu.read_texture(counts.texture(), 0, wgpu::TextureAspect::All);
@@ -205,12 +207,14 @@ fn a_mask_is_filled_from_exact_counts() {
         ..Default::default()
     };
     let mask = ShadowMask::new(&gpu.device, &descriptor).unwrap();
-    let fill = |marked: bool| {
+    let mut fill = |marked: bool| {
         gpu.checked(|| {
             gpu.run(|encoder| {
                 renderer.encode(encoder);
                 stage.prepass(encoder, &depth, &host, &surfaces);
-                renderer.render(&mut counts.begin(encoder, &depth).unwrap());
+                renderer
+                    .render(&mut counts.begin(encoder, &depth).unwrap())
+                    .unwrap();
                 if marked {
                     counts.encode(encoder, &depth).unwrap();
                 }
@@ -319,7 +323,9 @@ fn lit_by_shader(gpu: &Gpu, stage: &Stage) -> Vec<u8> {
     gpu.run(|encoder| {
         renderer.encode(encoder);
         stage.prepass(encoder, &depth, &host, &surfaces);
-        renderer.render(&mut counts.begin(encoder, &depth).unwrap());
+        renderer
+            .render(&mut counts.begin(encoder, &depth).unwrap())
+            .unwrap();
         let target = match multisampled {
             false => clear(&resolved, wgpu::Color::BLACK, None),
             true => clear(&drawn, wgpu::Color::BLACK, Some(&resolved)),
@@ -391,7 +397,9 @@ fn counts_come_after_the_hosts_own_targets() {
                 depth_ops: None,
                 stencil_ops: None,
             };
-            renderer.render(&mut begin(encoder, "counts", &colors, attachment));
+            renderer
+                .render(&mut begin(encoder, "counts", &colors, attachment))
+                .unwrap();
         });
     });
     let bytes = gpu.read_texture(counts.texture(), 0, wgpu::TextureAspect::All);

@@ -53,7 +53,9 @@ impl<'a> Shown<'a> {
         gpu.run(|encoder| {
             renderer.encode(encoder);
             stage.prepass(encoder, &depth, &host, &drawn);
-            renderer.render(&mut begin(encoder, "stencil", &[], attach(&depth, None)));
+            renderer
+                .render(&mut begin(encoder, "stencil", &[], attach(&depth, None)))
+                .unwrap();
         });
         Self {
             gpu,

@@ -271,7 +271,7 @@ fn recording_twice_counts_once() {
     let casters = stage.casters(&gpu);
     let once = stage.draw_with(&gpu, &mut renderer, &casters);
     gpu.run(|encoder| renderer.encode(encoder));
-    let again = stage.redraw(&gpu, &renderer);
+    let again = stage.redraw(&gpu, &mut renderer);
     assert_eq!(stage.truth().errors(&again).wrong, 0);
     assert!(once == again);
 }

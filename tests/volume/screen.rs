@@ -25,7 +25,9 @@ fn count(gpu: &Gpu, stage: &Stage, depth: &wgpu::TextureView) {
         pass.set_pipeline(&host.depth);
         surfaces.iter().for_each(|surface| surface.draw(&mut pass));
         drop(pass);
-        renderer.render(&mut begin(encoder, "stencil", &[], attach(depth, None)));
+        renderer
+            .render(&mut begin(encoder, "stencil", &[], attach(depth, None)))
+            .unwrap();
     });
 }
 

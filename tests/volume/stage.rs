@@ -252,7 +252,7 @@ impl Stage {
     }
 
     /// Draws what was prepared before.
-    pub fn redraw(&self, gpu: &Gpu, renderer: &ShadowVolumeRenderer) -> Vec<u8> {
+    pub fn redraw(&self, gpu: &Gpu, renderer: &mut ShadowVolumeRenderer) -> Vec<u8> {
         gpu.checked(|| self.record(gpu, Some(renderer), None))
     }
 
@@ -338,7 +338,7 @@ impl Stage {
     fn record(
         &self,
         gpu: &Gpu,
-        renderer: Option<&ShadowVolumeRenderer>,
+        mut renderer: Option<&mut ShadowVolumeRenderer>,
         extra: Option<&wgpu::TextureView>,
     ) -> Vec<u8> {
         let size = [self.side; 2];
@@ -351,18 +351,20 @@ impl Stage {
         let surfaces = self.surfaces(gpu);
         let counts = (self.savings.counter == Counter::Exact).then(|| self.exact_count(gpu));
         gpu.run(|encoder| {
-            if let Some(renderer) = renderer {
+            if let Some(renderer) = &mut renderer {
                 renderer.encode(encoder);
             }
             self.prepass(encoder, &depth_view, &host, &surfaces);
-            if let (Some(renderer), Some(counts)) = (renderer, &counts) {
-                renderer.render(&mut counts.begin(encoder, &depth_view).unwrap());
+            if let (Some(renderer), Some(counts)) = (&renderer, &counts) {
+                renderer
+                    .render(&mut counts.begin(encoder, &depth_view).unwrap())
+                    .unwrap();
                 counts.encode(encoder, &depth_view).unwrap();
-            } else if let Some(renderer) = renderer {
+            } else if let Some(renderer) = &renderer {
                 let colors = extra.map(|view| vec![Some(clear(view, wgpu::Color::RED, None))]);
                 let colors = colors.unwrap_or_default();
                 let mut pass = begin(encoder, "stencil", &colors, attach(&depth_view, None));
-                renderer.render(&mut pass);
+                renderer.render(&mut pass).unwrap();
             }
             let target = match self.samples {
                 1 => clear(&resolved, wgpu::Color::BLACK, None),
@@ -411,7 +413,7 @@ impl Stage {
                 renderer.encode(encoder);
                 self.prepass(encoder, &depth_view, &host, &surfaces);
                 let mut pass = begin(encoder, "stencil", &[], attach(&depth_view, None));
-                renderer.render(&mut pass);
+                renderer.render(&mut pass).unwrap();
             });
         });
         gpu.read_texture(&depth, 0, wgpu::TextureAspect::StencilOnly)

@@ -147,7 +147,7 @@ fn what_was_prepared_and_not_encoded_is_searched_again() {
         renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
         assert_eq!(renderer.statistics().casters_extracted, 2);
     }
-    assert_eq!(wrong(&stage, &stage.redraw(&gpu, &renderer)), 0);
+    assert_eq!(wrong(&stage, &stage.redraw(&gpu, &mut renderer)), 0);
     renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     assert_eq!(renderer.statistics().casters_extracted, 0);
 }
@@ -276,7 +276,11 @@ fn positions_of_the_host_are_refused_where_they_cannot_be_read() {
             prepare(&casters),
             Err(ShadowVolumeError::HostPositions { index: 2 })
         );
-        assert_eq!(wrong(&stage, &stage.redraw(&gpu, &renderer)), 0, "{way:?}");
+        assert_eq!(
+            wrong(&stage, &stage.redraw(&gpu, &mut renderer)),
+            0,
+            "{way:?}"
+        );
     }
 }
 
@@ -330,7 +334,7 @@ fn on_webgl2(silhouettes: Silhouettes) -> Result<Option<String>, ShadowVolumeErr
         }),
         ..Default::default()
     });
-    renderer.render(&mut pass);
+    renderer.render(&mut pass).unwrap();
     drop(pass);
     queue.submit([encoder.finish()]);
     Ok(pollster::block_on(scope.pop()).map(|error| error.to_string()))

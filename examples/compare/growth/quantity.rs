@@ -17,6 +17,7 @@ const RANGE: f32 = 40.0;
 pub enum Quantity {
     Triangles,
     Casters,
+    Meshes,
     Lights,
     Pixels,
     Texels,
@@ -29,6 +30,8 @@ pub struct Situation {
     pub scene: Scene,
     pub caster: Shape,
     pub transforms: Vec<Affine3A>,
+    /// Whether each caster has a mesh of its own.
+    pub distinct: bool,
     pub lights: Vec<PointLight>,
     pub size: [u32; 2],
     /// Of a cube face, in texels.
@@ -36,9 +39,10 @@ pub struct Situation {
 }
 
 impl Quantity {
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Triangles,
         Self::Casters,
+        Self::Meshes,
         Self::Lights,
         Self::Pixels,
         Self::Texels,
@@ -49,6 +53,7 @@ impl Quantity {
         match self {
             Self::Triangles => "triangles",
             Self::Casters => "casters",
+            Self::Meshes => "meshes",
             Self::Lights => "lights",
             Self::Pixels => "resolution",
             Self::Texels => "map-size",
@@ -60,6 +65,7 @@ impl Quantity {
         match self {
             Self::Triangles => "triangles, in four casters",
             Self::Casters => "casters, of twelve triangles each",
+            Self::Meshes => "casters, each of a mesh of its own",
             Self::Lights => "lights",
             Self::Pixels => "pixels of the picture (360p to 2160p)",
             Self::Texels => "texels of a cube face (256 to 4096 a side)",
@@ -79,6 +85,10 @@ impl Quantity {
                 "Boxes on a grid, ever more and smaller, under one light. Each is a draw: at most \
                  linear, on the CPU as on the GPU. What stands still is compared and drawn no more \
                  by maps; volumes are drawn each frame, and only looked for once."
+            }
+            Self::Meshes => {
+                "The same boxes, each a mesh of its own, so that nothing is drawn or searched \
+                 together: at most linear all the same."
             }
             Self::Lights => {
                 "A hundred boxes; the lights on a circle above, all of which reach everything. One \
@@ -110,6 +120,7 @@ impl Quantity {
         match self {
             Self::Triangles => &[8, 16, 32, 64, 125, 250, 500],
             Self::Casters => &[1, 10, 100, 1_000, 10_000, 100_000],
+            Self::Meshes => &[1, 10, 100, 1_000, 4_000, 10_000],
             Self::Lights => &[1, 2, 4, 8, 16, 32, 64],
             Self::Pixels => &[360, 540, 720, 1080, 1440, 2160],
             Self::Texels => &[256, 512, 1024, 2048, 4096],
@@ -131,7 +142,7 @@ impl Quantity {
         match self {
             // Four spheres of four triangles for each ring and each ring.
             Self::Triangles => 16.0 * size * size,
-            Self::Casters | Self::Lights => size,
+            Self::Casters | Self::Meshes | Self::Lights => size,
             Self::Pixels => size * size * 16.0 / 9.0,
             Self::Texels => size * size,
         }
@@ -143,7 +154,8 @@ impl Quantity {
             scene: ground(),
             caster: shapes::cube(),
             transforms: grid(100),
-            lights: vec![PointLight::new(Vec3::new(0.5, 6.0, 0.3), 0.1, RANGE)],
+            distinct: false,
+            lights: vec![PointLight::new(Vec3::new(0.5, 6.0, 0.3), RANGE)],
             size: [640, 360],
             side: 1024,
         };
@@ -155,6 +167,11 @@ impl Quantity {
             },
             Self::Casters => Situation {
                 transforms: grid(size),
+                ..common
+            },
+            Self::Meshes => Situation {
+                transforms: grid(size),
+                distinct: true,
                 ..common
             },
             Self::Lights => Situation {
@@ -222,7 +239,7 @@ fn circle(count: u32) -> Vec<PointLight> {
     (0..count)
         .map(|n| {
             let (z, x) = (TAU * n as f32 / count as f32).sin_cos();
-            PointLight::new(Vec3::new(4.0 * x, 6.0, 4.0 * z), 0.1, RANGE)
+            PointLight::new(Vec3::new(4.0 * x, 6.0, 4.0 * z), RANGE)
         })
         .collect()
 }

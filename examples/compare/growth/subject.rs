@@ -59,15 +59,22 @@ impl Place {
     pub fn new(gpu: &Gpu, situation: Situation) -> Result<Self> {
         let shape = &situation.caster;
         let adjacency = Adjacency::new(&shape.positions, &shape.indices)?;
-        let mesh = CasterMesh::new(&gpu.device, &shape.positions, &adjacency)?;
+        let mesh = || CasterMesh::new(&gpu.device, &shape.positions, &adjacency);
+        let count = match situation.distinct {
+            true => situation.transforms.len(),
+            false => 1,
+        };
+        let meshes: Vec<CasterMesh> = (0..count).map(|_| mesh()).collect::<Result<_, _>>()?;
         let stage = Stage::new(gpu, situation.scene, situation.size)?;
         let light = situation.lights[0].homogeneous();
         let inputs = [Vec3::ZERO, STEP].map(|step| {
             let moved = Affine3A::from_translation(step);
-            let transforms = situation.transforms.iter();
+            let transforms = situation.transforms.iter().enumerate();
             ShadowInputs {
                 casters: transforms
-                    .map(|transform| Caster::new(mesh.clone(), moved * *transform))
+                    .map(|(place, transform)| {
+                        Caster::new(meshes[place % count].clone(), moved * *transform)
+                    })
                     .collect(),
                 light,
                 ..stage.inputs.clone()
@@ -213,7 +220,7 @@ impl Means {
         Ok(())
     }
 
-    fn generate(&self, place: &Place, encoder: &mut wgpu::CommandEncoder) {
+    fn generate(&mut self, place: &Place, encoder: &mut wgpu::CommandEncoder) {
         let renderer = &place.stage.renderer;
         match self {
             Self::One(shadow) => shadow.generate(renderer, encoder),
@@ -221,7 +228,9 @@ impl Means {
             Self::Volumes(volumes) => {
                 for volumes in volumes {
                     volumes.encode(encoder);
-                    volumes.render(&mut renderer.begin_stencil_pass(encoder));
+                    volumes
+                        .render(&mut renderer.begin_stencil_pass(encoder))
+                        .expect("it is encoded");
                 }
             }
         }

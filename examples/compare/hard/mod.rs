@@ -1,6 +1,7 @@
 //! `compare --hard-cases`: where shadows usually break, every technique, against the reference.
 
 pub mod cases;
+pub mod course;
 pub mod expect;
 pub mod input;
 pub mod judge;
@@ -139,12 +140,6 @@ pub fn techniques() -> Result<Vec<Technique>> {
                 map: CubeShadowMapDescriptor { format, ..map },
                 sampler,
             },
-        });
-    }
-    for (name, fine) in FINE {
-        all.push(Technique {
-            name: fine.into(),
-            ..row(name)?.at(FINE_SIDE)
         });
     }
     for (name, fine, side) in FINE {

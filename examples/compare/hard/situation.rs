@@ -73,7 +73,7 @@ impl Situation {
                 near: 0.1,
             },
             range: 100.0,
-            shadow_near: 0.1,
+            shadow_near: None,
             ..Scene::empty("hard case")
         };
         let ground = Affine3A::IDENTITY;
@@ -193,7 +193,7 @@ impl Situation {
         camera.target *= factor;
         camera.near *= factor;
         self.scene.range *= factor;
-        self.scene.shadow_near *= factor;
+        self.scene.shadow_near = self.scene.shadow_near.map(|near| near * factor);
         self
     }
 }

@@ -113,7 +113,7 @@ impl Trial<'_> {
                 continue;
             }
             let mut shadow = Shadow::new(gpu, &seen.renderer, technique.clone())?;
-            let picture = seen.picture(gpu, &mut shadow, &seen.inputs)?;
+            let picture = self.case.course.picture(gpu, &seen, &mut shadow)?;
             let frame = situation.frame(technique, &mut shadow, &picture.visibility);
             let mut found = judge(what, &reference, &frame, expect)?;
             if self.case.seams && matches!(technique.config, Config::Cube { .. }) {

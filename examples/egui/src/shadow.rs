@@ -60,7 +60,6 @@ pub enum DebugView {
 pub struct Frame<'a> {
     pub view: View,
     pub light: HomogeneousLight,
-    pub near: f32,
     pub range: f32,
     pub casters: &'a [Caster],
     /// Pixels of the picture.
@@ -201,7 +200,7 @@ impl Shadows {
         let casters = frame.casters;
         match &mut self.means {
             Means::Cube(cube) => {
-                let lights = [PointLight::new(position, frame.near, frame.range)];
+                let lights = [PointLight::new(position, frame.range)];
                 let frame = CubeFrame {
                     lights: &lights,
                     casters,
@@ -222,15 +221,15 @@ impl Shadows {
     }
 
     /// Second verb: what is drawn before the lit pass, once the scene's depth is there.
-    pub fn encode(&self, renderer: &Renderer, encoder: &mut wgpu::CommandEncoder) {
-        match &self.means {
+    pub fn encode(&mut self, renderer: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+        match &mut self.means {
             Means::Cube(cube) => cube.map.encode(encoder),
             Means::Flat(map, _) => map.encode(encoder),
             Means::Volumes(volumes) => {
                 volumes.renderer.encode(encoder);
                 volumes
                     .renderer
-                    .render(&mut renderer.begin_stencil_pass(encoder));
+                    .render(&mut renderer.begin_stencil_pass(encoder)).expect("it is encoded");
             }
             Means::None => {}
         }
@@ -316,7 +315,7 @@ impl Cube {
             self.groups = Some((
                 revision,
                 self.sampler.bind_group(device, &self.map)?,
-                self.cross.bind_group(device, &self.map, 0),
+                self.cross.bind_group(device, &self.map, 0)?,
             ));
         }
         Ok(())

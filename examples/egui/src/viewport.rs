@@ -87,7 +87,7 @@ impl CallbackTrait for Paint {
         encoder: &mut wgpu::CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
-        if let Some(viewport) = resources.get::<Viewport>() {
+        if let Some(viewport) = resources.get_mut::<Viewport>() {
             viewport.encode(encoder);
             if let Some(read) = &self.read {
                 viewport.read_visibility(encoder, read.clone());
@@ -184,7 +184,6 @@ impl Viewport {
         let frame = Frame {
             view: renderer::view(&self.scene, paint.size)?,
             light: HomogeneousLight(paint.light),
-            near: self.scene.shadow_near,
             range: self.scene.range,
             casters: &self.scene_gpu.casters,
             size: paint.size,
@@ -196,9 +195,9 @@ impl Viewport {
         }
     }
 
-    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.renderer.draw_ambient(encoder, &self.scene_gpu);
-        if let Some((_, shadows)) = &self.shadows {
+        if let Some((_, shadows)) = &mut self.shadows {
             shadows.encode(&self.renderer, encoder);
             shadows.shade(&self.renderer, &self.scene_gpu, encoder);
         }

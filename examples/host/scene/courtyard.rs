@@ -51,7 +51,7 @@ impl Yard {
             light: Vec4::new(0.43, 4.07, 0.86, 1.0),
             cone: None,
             range: 40.0,
-            shadow_near: 0.1,
+            shadow_near: None,
             camera: Camera {
                 eye: vec3(-4.6, 5.9, 13.7),
                 target: vec3(0.75, 0.95, -1.2),

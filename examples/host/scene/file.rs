@@ -145,7 +145,7 @@ fn around(name: &str, model: Model) -> Result<Scene> {
         light: shadows::glam::Vec4::W,
         cone: None,
         range: 1.0,
-        shadow_near: 1.0,
+        shadow_near: None,
         camera: Camera {
             eye: Vec3::Z,
             target: Vec3::ZERO,
@@ -173,7 +173,6 @@ fn place(scene: &mut Scene, bounds: &Bounds, radius: f64) {
     let light = centre + radius * dvec3(0.917, 2.131, 1.073);
     scene.light = light.as_vec3().extend(1.0);
     scene.range = (12.0 * radius) as f32;
-    scene.shadow_near = (0.05 * radius) as f32;
     // Room for the ball and for the shadow beside it.
     let distance = 1.35 * radius / f64::from(0.5 * scene.camera.fovy).sin();
     let towards: DVec3 = dvec3(-0.381, 0.473, 1.0).normalize();

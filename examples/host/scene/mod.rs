@@ -113,7 +113,12 @@ impl Camera {
             DepthConvention::FiniteReverse => directx::perspective(fovy, aspect, far, near),
             DepthConvention::Standard => directx::perspective(fovy, aspect, near, far),
         };
-        projection * look_at_mat4(self.eye, self.target, Vec3::Y)
+        projection * self.from_world()
+    }
+
+    /// What the camera sees from world space: to the right, up and behind it.
+    pub fn from_world(&self) -> Mat4 {
+        look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 }
 
@@ -198,8 +203,8 @@ pub struct Scene {
     pub cone: Option<Cone>,
     /// Distance in metres at which a point light ends.
     pub range: f32,
-    /// Near plane of the light's shadow map in metres.
-    pub shadow_near: f32,
+    /// Near plane of the light's shadow map in metres, if not where the map puts it.
+    pub shadow_near: Option<f32>,
     /// The view.
     pub camera: Camera,
 }
@@ -301,7 +306,7 @@ impl Scene {
             light: Vec4::Y,
             cone: None,
             range: 100.0,
-            shadow_near: 0.1,
+            shadow_near: None,
             camera: Camera {
                 eye: Vec3::new(0.0, 5.0, 10.0),
                 target: Vec3::ZERO,

@@ -49,7 +49,7 @@ fn empty() -> Scene {
         light: Vec4::new(0.0, 4.0, 0.0, 1.0),
         cone: None,
         range: 30.0,
-        shadow_near: 0.1,
+        shadow_near: None,
         camera: Camera {
             eye: Vec3::new(0.0, 9.0, 16.0),
             target: Vec3::new(0.0, 0.5, 0.0),

@@ -85,7 +85,7 @@ pub fn teapot() -> Scene {
         light: Vec4::new(3.37, 6.61, 2.83, 1.0),
         cone: None,
         range: 30.0,
-        shadow_near: 0.1,
+        shadow_near: None,
         camera: Camera {
             eye: vec3(-2.3, 4.9, 8.9),
             target: vec3(-0.2, 0.9, -0.3),

@@ -35,7 +35,7 @@ pub enum Silhouettes {
 }
 
 /// A way that was decided on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(in super::super) enum Way {
     Compute,
     Cpu,

@@ -6,10 +6,10 @@ use shadows::glam::{Vec3, Vec4};
 use super::Case;
 use crate::hard::situation::{Situation, at, either, lamp, sun, with_spots};
 use crate::host::random::Random;
-use crate::host::renderer::Look;
+use crate::host::renderer::{Look, Orthographic};
 use crate::host::shapes;
 
-pub const CASES: [Case; 8] = [
+pub const CASES: [Case; 9] = [
     Case {
         name: "Camera inside a shadow volume",
         build: "eye behind a box from the light",
@@ -57,6 +57,13 @@ pub const CASES: [Case; 8] = [
         build: "finite reversed and standard depth, far = 1e3 x near",
         answer: "same picture",
         situations: conventions,
+        ..Case::EXACT
+    },
+    Case {
+        name: "Orthographic camera, near < 0",
+        build: "near planes 20, 50 and 1000 behind the camera, off centre, finite reversed and standard depth",
+        answer: "equals the reference",
+        situations: orthographic,
         ..Case::EXACT
     },
     Case {
@@ -172,6 +179,37 @@ fn four_samples(random: &mut Random) -> Vec<Situation> {
             ..Look::default()
         }],
     )
+}
+
+fn orthographic(random: &mut Random) -> Vec<Situation> {
+    let depths = [DepthConvention::FiniteReverse, DepthConvention::Standard];
+    let views = [(-20.0, 25.0), (-50.0, 60.0), (-1000.0, 20.0)];
+    let looks_of: Vec<Look> = views
+        .into_iter()
+        .zip(depths.into_iter().cycle())
+        .map(|((near, far), depth)| Look {
+            depth,
+            orthographic: Some(Orthographic {
+                left: -4.0,
+                right: 6.0,
+                bottom: -4.5,
+                top: 3.0,
+                near,
+                far,
+            }),
+            ..Look::default()
+        })
+        .collect();
+    let mut situations = looks(random, &looks_of);
+    // What is behind the camera is seen, too: it stands in the middle of things.
+    for situation in &mut situations {
+        let camera = &mut situation.scene.camera;
+        let forward = (camera.target - camera.eye).normalize();
+        let middle = camera.eye.dot(forward) - camera.target.dot(forward);
+        camera.eye -= forward * (middle + random.within(-1.0, 1.0));
+        camera.target = camera.eye + forward;
+    }
+    with_spots(situations, Vec3::new(0.5, 0.5, 0.0), 40.0)
 }
 
 /// Slopes, a contact and a smooth form, under both lights, as each of these hosts draws them.

@@ -8,12 +8,19 @@ use crate::hard::situation::{Situation, at, lamp, with_spots};
 use crate::host::random::Random;
 use crate::host::shapes;
 
-pub const CASES: [Case; 9] = [
+pub const CASES: [Case; 10] = [
     Case {
         name: "Light very near a caster",
         build: "light in view, 1e-2, 1e-4 and 1e-6 above a square",
         answer: "finite, equals the reference",
         situations: near_a_caster,
+        ..Case::EXACT
+    },
+    Case {
+        name: "Light close to geometry",
+        build: "a lamp in a slit shade; 1 km of hills under a lamp 1.2 m and 1 cm above the ground",
+        answer: "equals the reference; the near plane is not the host's care",
+        situations: close_to_geometry,
         ..Case::EXACT
     },
     Case {
@@ -61,7 +68,7 @@ pub const CASES: [Case; 9] = [
     Case {
         name: "Caster inside the near sphere",
         build: "a box at half the map's near distance",
-        answer: "volumes shadow; maps do not, reported",
+        answer: "equals the reference: maps pull it onto their near plane",
         situations: inside_near,
         ..Case::EXACT
     },
@@ -91,6 +98,34 @@ fn near_a_caster(random: &mut Random) -> Vec<Situation> {
         .collect();
     // At the sphere, which is lit; the lower side of the cone is all in the square's shadow.
     with_spots(situations, Vec3::new(-1.5, 2.2, -1.0), 60.0)
+}
+
+fn close_to_geometry(random: &mut Random) -> Vec<Situation> {
+    let lamp = Vec3::new(0.0, 1.5, 0.0) + random.point(0.05);
+    let shade = Situation::new("slit shade", lamp.extend(1.0), random)
+        .caster(&shapes::slit_tube(0.2, 0.3, 12), at(0.0, 1.5, 0.0))
+        .caster(&shapes::sphere(10), at(-2.5, 1.0, -1.0));
+    let spot = shade.clone().spot(Vec3::new(3.0, 0.0, 0.0), 60.0);
+    let mut situations = vec![shade, spot];
+    situations.extend([1.2f32, 0.01].map(|height| above_hills(height, random)));
+    situations
+}
+
+/// A kilometre of hills, seen from some 100 m above, under a lamp at so many metres above a vertex.
+fn above_hills(height: f32, random: &mut Random) -> Situation {
+    let hills = shapes::hills(500.0, 128);
+    let near_by = |p: &&[f32; 3]| p[0].abs().max(p[2].abs()) < 60.0;
+    let around: Vec<_> = hills.positions.iter().filter(near_by).collect();
+    let ground = *around[random.below(around.len())];
+    let light = Vec3::from(ground) + Vec3::Y * height;
+    let eye = Vec3::new(20.0, 90.0, 130.0) + random.point(10.0);
+    let mut situation =
+        Situation::new(format!("{height} m above hills"), light.extend(1.0), random)
+            .bare()
+            .caster(&hills, Affine3A::IDENTITY)
+            .camera(eye, Vec3::new(0.0, 0.0, -20.0));
+    situation.scene.range = 1000.0;
+    situation
 }
 
 fn near_a_tilted_caster(random: &mut Random) -> Vec<Situation> {
@@ -237,7 +272,7 @@ fn inside_near(random: &mut Random) -> Vec<Situation> {
             Affine3A::from_translation(below) * Affine3A::from_scale(Vec3::splat(0.05)),
         )
         .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
-    situation.scene.shadow_near = 1.0;
+    situation.scene.shadow_near = Some(1.0);
     with_spots(vec![situation], Vec3::ZERO, 40.0)
 }
 

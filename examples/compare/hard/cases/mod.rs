@@ -1,11 +1,13 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
 mod camera;
+mod frames;
 mod light;
 pub mod mesh;
 mod place;
 mod views;
 
+pub use super::course::Course;
 use super::expect::Expect;
 use super::situation::Situation;
 use crate::host::random::Random;
@@ -29,6 +31,8 @@ pub struct Case {
     pub fine: bool,
     /// Whether cube maps are asked if their seams are worse than their faces.
     pub seams: bool,
+    /// What a technique has been through before.
+    pub course: Course,
 }
 
 impl Case {
@@ -42,6 +46,7 @@ impl Case {
         sixteen_bits: false,
         fine: false,
         seams: false,
+        course: Course::Fresh,
     };
 }
 
@@ -53,4 +58,5 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(mesh::CASES)
         .chain(place::CASES)
         .chain(views::CASES)
+        .chain(frames::CASES)
 }

@@ -1,0 +1,255 @@
+//! Arrays that the back end would take for something else.
+
+use shadows::error::{CubeShadowMapError, PcfError};
+use shadows::glam::{Affine3A, Vec3};
+use shadows::{
+    CubeCross, CubeCrossDescriptor, CubeShadowMap, CubeShadowMapDescriptor, Kernel, PcfDescriptor,
+    PcfSampler, PointLight, ShadowMask, ShadowMaskDescriptor, wgpu,
+};
+
+use crate::common::shapes::{Random, cuboid};
+use crate::host::gpu::Gpu;
+use crate::receivers::{ask, ask_changed};
+use crate::{cubes, gl};
+
+/// A mask of so many lights, every third of which is in shadow.
+fn mask(gpu: &Gpu, size: [u32; 2], lights: u32, samples: u32) -> ShadowMask {
+    let format = wgpu::TextureFormat::Depth24PlusStencil8;
+    let descriptor = ShadowMaskDescriptor {
+        size,
+        lights,
+        depth_stencil_format: format,
+        sample_count: samples,
+        ..Default::default()
+    };
+    let mask = ShadowMask::new(&gpu.device, &descriptor).unwrap();
+    let buffer = gpu.target(size, format, samples);
+    let buffer = buffer.create_view(&Default::default());
+    for light in 0..lights {
+        gpu.run(|encoder| {
+            let count = u32::from(light % 3 == 1);
+            drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &buffer,
+                    depth_ops: Some(wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(0.0),
+                        store: wgpu::StoreOp::Store,
+                    }),
+                    stencil_ops: Some(wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(count),
+                        store: wgpu::StoreOp::Store,
+                    }),
+                }),
+                ..Default::default()
+            }));
+            mask.encode(encoder, light, &buffer).unwrap();
+        });
+    }
+    mask
+}
+
+/// What `wgsl::MASK` reads of each light.
+fn read(gpu: &Gpu, mask: &wgpu::TextureView, lights: u32) -> Vec<f32> {
+    let source = shadows::wgsl::MASK.to_owned()
+        + "@group(1) @binding(0) var mask: texture_2d_array<f32>;
+        fn ask(i: u32) -> f32 {
+            return shadows_mask(mask, vec2f(3.5, 4.5), i32(i));
+        }";
+    let layout = gpu
+        .device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2Array,
+                    multisampled: false,
+                },
+                count: None,
+            }],
+        });
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(mask),
+        }],
+    });
+    crate::ask(gpu, &source, (&layout, &group), lights)
+}
+
+#[test]
+fn masks_of_any_number_of_lights_are_read_as_they_are() {
+    let Some(gpu) = gl() else { return };
+    for size in [[8, 8], [8, 16]] {
+        for (lights, samples) in [
+            (1, 1),
+            (1, 4),
+            (2, 1),
+            (5, 1),
+            (6, 1),
+            (6, 4),
+            (7, 1),
+            (12, 1),
+        ] {
+            let mask = mask(&gpu, size, lights, samples);
+            let right: Vec<f32> = (0..lights).map(|l| f32::from(l % 3 != 1)).collect();
+            let found = read(&gpu, mask.view(), lights);
+            assert_eq!(found, right, "{lights} lights, {samples} samples, {size:?}");
+        }
+    }
+}
+
+/// The broken twin: a host's own array of so many white layers, as `read` sees the first.
+fn white(gpu: &Gpu, layers: u32) -> f32 {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: 8,
+            height: 8,
+            depth_or_array_layers: layers,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R8Unorm,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    for layer in 0..layers {
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        });
+        gpu.run(|encoder| {
+            drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            }));
+        });
+    }
+    let array = texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    });
+    read(gpu, &array, 1)[0]
+}
+
+#[test]
+fn without_a_spare_layer_they_would_read_nothing() {
+    let Some(gpu) = gl() else { return };
+    for (layers, right) in [(1, false), (2, true), (6, false), (7, true), (12, false)] {
+        assert_eq!(white(&gpu, layers) == 1.0, right, "{layers}");
+    }
+}
+
+const LIGHT: Vec3 = Vec3::new(0.0, 3.0, 0.0);
+
+/// The same light so many times over some boxes.
+fn map(gpu: &Gpu, lights: u32, cube_array: bool) -> CubeShadowMap {
+    let mut random = Random::new(21);
+    let mesh = cuboid(Vec3::new(0.25, 0.15, 0.2)).mesh(&gpu.device);
+    let casters: Vec<_> = (0..10)
+        .map(|_| random.vec3() * Vec3::new(1.2, 0.5, 1.2) + Vec3::Y * 0.8)
+        .map(|place| shadows::Caster::new(mesh.clone(), Affine3A::from_translation(place)))
+        .collect();
+    let descriptor = CubeShadowMapDescriptor {
+        size: 128,
+        lights,
+        cube_array,
+        ..Default::default()
+    };
+    let lights = vec![PointLight::new(LIGHT, 30.0); lights as usize];
+    cubes::fresh(gpu, &descriptor, &lights, &casters)
+}
+
+#[test]
+fn cube_arrays_of_any_number_of_lights_are_read_as_cubes_are() {
+    let Some(gpu) = gl() else { return };
+    if !gpu.support.cube_arrays {
+        eprintln!("skipped: no cube arrays");
+        return;
+    }
+    let mut random = Random::new(4);
+    let points: Vec<_> = (0..2000)
+        .map(|_| Vec3::new(random.next() * 2.2, 0.0, random.next() * 2.2))
+        .map(|point| (point, Vec3::Y))
+        .collect();
+    for kernel in [Kernel::Hard, Kernel::Weighted5] {
+        let one = PcfDescriptor {
+            kernel,
+            ..Default::default()
+        };
+        let many = PcfDescriptor {
+            many_lights: true,
+            ..one.clone()
+        };
+        let cube = map(&gpu, 1, false);
+        let right = ask(&gpu, &cube, &one, 0, &points);
+        assert!(right.iter().filter(|&&lit| lit < 0.5).count() > 100);
+        for lights in [1, 2, 3] {
+            let array = map(&gpu, lights, true);
+            for light in 0..lights as usize {
+                let found = ask(&gpu, &array, &many, light, &points);
+                assert!(found == right, "light {light} of {lights}, {kernel:?}");
+            }
+            // The broken twin: another place in the array, where nothing is.
+            let change = |module: String| {
+                module.replace(
+                    "receiver.cube = light.cube;",
+                    "receiver.cube = 1 - light.cube;",
+                )
+            };
+            let other = ask_changed(&gpu, (&array).into(), &many, 0, &points, change);
+            assert_eq!(other == right, lights > 1, "{lights}, {kernel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_single_cube_of_an_array_is_refused() {
+    let Some(gpu) = gl() else { return };
+    if !gpu.support.cube_arrays {
+        eprintln!("skipped: no cube arrays");
+        return;
+    }
+    let (device, queue) = (&gpu.device, &gpu.queue);
+    let one = PcfSampler::new(device, queue, &PcfDescriptor::default()).unwrap();
+    let cross = CubeCross::new(device, &CubeCrossDescriptor::default());
+    for lights in [1, 2] {
+        let array = map(&gpu, lights, true);
+        assert_eq!(array.view(0).unwrap_err(), CubeShadowMapError::CubeView);
+        assert_eq!(
+            cross.bind_group(device, &array, 0).unwrap_err(),
+            CubeShadowMapError::CubeView
+        );
+        assert_eq!(
+            one.bind_group(device, &array).unwrap_err(),
+            PcfError::CubeView
+        );
+        let many = PcfDescriptor {
+            many_lights: true,
+            ..Default::default()
+        };
+        let many = PcfSampler::new(device, queue, &many).unwrap();
+        many.bind_group(device, &array).unwrap();
+        // Cubes of their own are no part of an array.
+        let cubes = map(&gpu, lights, false);
+        cubes.view(0).unwrap();
+        one.bind_group(device, &cubes).unwrap();
+        cross.bind_group(device, &cubes, 0).unwrap();
+    }
+}
