@@ -250,14 +250,14 @@ fn flat_map(gpu: &Gpu, size: u32, light: FlatLight, casters: &[Caster]) -> Shado
 
 fn lights(place: DVec3, scale: f64) -> [Light; 3] {
     let position = (place + scale * DVec3::new(0.8, 3.1, 1.9)).as_vec3();
-    let (near, range) = (0.05 * scale as f32, 40.0 * scale as f32);
+    let range = 40.0 * scale as f32;
     [
-        Light::Point(PointLight::new(position, near, range)),
+        Light::Point(PointLight::new(position, range)),
         Light::Flat(FlatLight::Spot(SpotLight {
             position,
             direction: Vec3::new(-0.2, -1.0, -0.4),
             half_angle: 0.8,
-            near,
+            near: None,
             range,
         })),
         Light::Flat(FlatLight::Directional(DirectionalLight::new(Vec3::new(
@@ -332,7 +332,6 @@ fn box_at(place: Vec3) -> Scene {
     }
     scene.light = (place + Vec3::new(1.3, 2.35, 1.43)).extend(1.0);
     scene.range = 10.0;
-    scene.shadow_near = 0.04;
     scene.camera.eye = place + Vec3::new(-0.5, 1.9, 3.3);
     scene.camera.target = place + Vec3::new(0.5, 0.4, 0.5);
     scene.camera.near = 0.02;
@@ -345,7 +344,7 @@ fn errors_by_derivatives(gpu: &Gpu, scene: Scene, change: fn(String) -> String) 
     let stage = Stage::new(gpu, scene, [320, 180]).unwrap();
     let reference = stage.reference(|_| ()).unwrap();
     let place = stage.scene.light.truncate();
-    let light = PointLight::new(place, stage.scene.shadow_near, 10.0);
+    let light = PointLight::new(place, 10.0);
     let map = cube_map(gpu, 1024, light, &stage.scene_gpu.casters);
     let descriptor = PcfDescriptor {
         kernel: Kernel::Weighted7,
