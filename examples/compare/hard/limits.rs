@@ -69,6 +69,10 @@ const FACING: &str = "nearer than 1e-5 of a triangle's size f32 does not tell th
                       plane; the CPU way decides facing in f64";
 const THIN: &str = "what no texel's centre sees casts nothing";
 
+const POSITIONS: &str = "f32 positions are rounded by more than texels and pixels there: at 1e5 and 1e6 what \
+                         is seen from its edge is off by more than the bias in ulps";
+const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels";
+
 /// All of them.
 pub const ALL: &[Known] = &[
     known(
