@@ -218,6 +218,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     queue.submit([encoder.finish()]);
     readback.slice(..).map_async(wgpu::MapMode::Read, |_| {});
     device.poll(wgpu::PollType::wait_indefinitely())?;
+    std::fs::create_dir_all("target")?;
     let file = std::fs::File::create("target/first_shadow.png")?;
     let mut encoder = png::Encoder::new(file, SIZE, SIZE);
     encoder.set_color(png::ColorType::Rgba);

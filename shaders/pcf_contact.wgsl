@@ -40,5 +40,5 @@ fn shadows_cube_filter(
     let lit = shadows_cube_lit(
         map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), select(kernel.taps, 1u, agree), 0u,
     );
-    return select(lit, 1.0 - blocked / searched, agree);
+    return select(lit, select(1.0, 0.0, blocked > 0.0), agree);
 }

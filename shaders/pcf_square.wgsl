@@ -47,7 +47,6 @@ fn shadows_cube_filter(
     let reach = f32(shadows_cube_pairs - 1);
     let first = corner - reach;
     var shadow = 0.0;
-    var sum = 0.0;
     for (var y = 0; y < shadows_cube_pairs; y++) {
         let down = shadows_cube_pair(y, s.y);
         for (var x = 0; x < shadows_cube_pairs; x++) {
@@ -55,7 +54,6 @@ fn shadows_cube_filter(
             let blocked = shadows_cube_blocked(map, map_sampler, receiver, size, at);
             let weights = shadows_cube_pair(x, s.x).xyyx * down.yyxx;
             shadow += dot(weights, blocked);
-            sum += dot(weights, vec4f(1.0));
         }
     }
     // At an edge of the map, or at the plane's horizon: texel by texel instead, each with what stands
@@ -68,7 +66,6 @@ fn shadows_cube_filter(
     let side = 2 * shadows_cube_pairs;
     let end = select(side * side, 0, whole);
     shadow = select(0.0, shadow, whole);
-    sum = select(0.0, sum, whole);
     for (var i = 0; i < end; i++) {
         let x = i % side;
         let y = i / side;
@@ -77,8 +74,8 @@ fn shadows_cube_filter(
         let weight = select(across.x, across.y, (x & 1) == 1) * select(down.x, down.y, (y & 1) == 1);
         let texel = first - 1.0 + vec2f(f32(x), f32(y));
         shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, receiver, size, texel));
-        sum += weight;
     }
-    // Shadow over the sum of the same products: exactly 0 or 1 where all texels agree.
-    return 1.0 - shadow / sum;
+    // Exactly 0 or 1 where all texels agree, however a GPU rounds the products and their sum: the factor
+    // is one over the sum of all weights and as much more as that sum may be too small.
+    return saturate(1.0 - shadow * shadows_cube_per_weight);
 }

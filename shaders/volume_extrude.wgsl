@@ -53,7 +53,16 @@ fn far_point(position: vec3f) -> vec4f {
     let along_rays = to_plane * direction + w * world;
     let at_infinity = direction + w * caster.light.xyz;
     let parallel = (caster.light.w == 0.0) & (w != 0.0);
-    return caster.clip_from_world * vec4f(select(at_infinity, along_rays, parallel), w);
+    return far_clip_position(vec4f(select(at_infinity, along_rays, parallel), w));
+}
+
+// An orthographic view takes all that is infinitely far away to w = 0, and of faces with such corners
+// NVIDIA's GPUs draw too little: up to 90 % of a picture was wrong. So far away a corner may as well be
+// somewhere: 2^30 widths of the picture, where f32 tells no line to it from a parallel one.
+fn far_clip_position(point: vec4f) -> vec4f {
+    let clip = caster.clip_from_world * point;
+    let size = max(abs(clip.x), max(abs(clip.y), abs(clip.z)));
+    return vec4f(clip.xyz, select(clip.w, size * 0x1p-30f, clip.w == 0.0));
 }
 
 // A side runs b a a', b a' b' for an edge from a to b, where a' and b' are far; for a
@@ -72,7 +81,7 @@ fn fan_corner_is_second(corner: u32) -> bool {
 }
 
 fn fan_apex() -> vec4f {
-    return caster.clip_from_world * caster.apex;
+    return far_clip_position(caster.apex);
 }
 
 @fragment

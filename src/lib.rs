@@ -1,5 +1,7 @@
 //! Real-time shadows for any engine on wgpu 30.
 //!
+#![cfg_attr(doc, doc = include_str!("../docs/picture.md"))]
+//!
 //! The host owns the window, the device, the frame graph and the meshes. This crate takes its
 //! device, its meshes and its lights, and hands back bind groups, WGSL and render passes. It never
 //! creates a device, submits, polls or blocks, and it holds nothing but shadow textures, pipelines
@@ -17,6 +19,18 @@
 //! Each type has the same three verbs: `new` for what never changes, `prepare` once a frame for
 //! what the CPU decides, `encode` (into the host's encoder) or `render` (into the host's pass) for
 //! the GPU.
+//!
+//! # Dependencies
+//!
+//! ```toml
+//! [dependencies]
+//! shadows = "0.1"
+//! wgpu = "30"
+//! ```
+//!
+//! Back ends (Vulkan, Metal, Direct3D 12, GL) come with wgpu's default features, and this crate switches on
+//! none but `webgpu` on the web: without a dependency of your own on wgpu no adapter is found on any
+//! other machine. glam is 0.33, wgpu 30; both are re-exported as `shadows::glam` and `shadows::wgpu`.
 //!
 //! # A host, complete
 //!
@@ -136,13 +150,17 @@
 //!
 //! # Features
 //!
-//! - `reference` (off): exact visibility in f64 for measuring error. Not for frames.
-//!
-//! wgpu's back ends are the host's choice: this crate switches on none but `webgpu` on the web.
+//! - `reference` (off): exact visibility in f64 for measuring error. Not for frames. It needs Rust 1.89;
+//!   everything else 1.88.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub use {glam, wgpu};
+
+/// What unit tests share with the examples calls this crate by its name.
+#[cfg(test)]
+extern crate self as shadows;
 
 pub mod error;
 mod gl;

@@ -62,5 +62,38 @@ impl Weights {
             + &vector("first_s", &self.first_s)
             + &vector("second", &self.second)
             + &vector("second_s", &self.second_s)
+            + &format!("const shadows_cube_per_weight = {:?};\n", self.per_weight())
+    }
+
+    /// The sum of all weights, which does not depend on `s`.
+    fn total(&self) -> f32 {
+        let along: f32 = self.first.iter().chain(&self.second).sum();
+        along * along
+    }
+
+    /// One over the sum of all weights, and as much more as that sum may come out too small: two weights
+    /// that are rounded twice, their product, and 64 sums, half an ulp each.
+    fn per_weight(&self) -> f32 {
+        const ROUNDINGS: f32 = 5.0 + 64.0;
+        (1.0 + ROUNDINGS * 0.5 * f32::EPSILON) / self.total()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sum_of_weights_is_the_same_between_texels() {
+        for weights in [
+            Weights::BILINEAR,
+            Weights::FOUR_TAPS,
+            Weights::WEIGHTED_3,
+            Weights::WEIGHTED_5,
+            Weights::WEIGHTED_7,
+        ] {
+            let slope: f32 = weights.first_s.iter().chain(&weights.second_s).sum();
+            assert_eq!(slope, 0.0, "{weights:?}");
+        }
     }
 }

@@ -389,8 +389,23 @@ impl Factory<'_> {
             stencil: counting.stencil,
             bias: wgpu::DepthBiasState {
                 constant: bias * depth.away(),
+                clamp: self.bias_clamp(bias * depth.away()),
                 ..Default::default()
             },
+        }
+    }
+
+    /// The most that a bias may be: as many last places of depth 1.
+    ///
+    /// In a float format the unit is the last place of the largest depth on the face. Where depth is not
+    /// clipped, a face has corners far beyond the far plane (in an orthographic view without an end), or
+    /// just before the eye, and some GPUs (NVIDIA's) go by those: all of it would be behind everything.
+    fn bias_clamp(&self, constant: i32) -> f32 {
+        // GL has no such bound.
+        let bounded = self.device.adapter_info().backend != wgpu::Backend::Gl;
+        match bounded && self.descriptor.depth.clips_far() {
+            true => constant as f32 * f32::EPSILON,
+            false => 0.0,
         }
     }
 }

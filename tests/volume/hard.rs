@@ -3,14 +3,14 @@
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
-    DepthConvention, HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes,
-    View, wgpu,
+    Caps, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeDescriptor,
+    ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
 use crate::host::gpu::Gpu;
 use crate::pictures::{assert_exact, at, lamp, mixed, sun};
 use crate::shapes;
-use crate::stage::{Body, Stage, WAYS};
+use crate::stage::{Body, Savings, Stage, WAYS};
 
 /// The stage with its silhouettes found in this way.
 fn by(stage: &Stage, silhouettes: Silhouettes) -> Stage {
@@ -289,4 +289,93 @@ fn a_colour_target_of_the_pass_is_left_alone() {
     let (picture, color) = stage.draw_with_color(&gpu, &mut renderer, formats[0].unwrap());
     assert_eq!(stage.truth().errors(&picture).wrong, 0);
     assert!(color.chunks(4).all(|texel| texel == [255, 0, 0, 255]));
+}
+
+/// Where no range and no receivers end them, volumes of an orthographic view end where clip w is 0, and
+/// their depths have no bound.
+#[test]
+fn orthographic_views_see_whole_volumes_wherever_their_near_plane_is() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let overhead = HomogeneousLight::point(Vec3::new(0.3, 7.0, 0.2));
+    let steep = HomogeneousLight::directional(Vec3::new(0.15, 1.0, 0.1));
+    let formats = [
+        wgpu::TextureFormat::Depth24PlusStencil8,
+        wgpu::TextureFormat::Depth32FloatStencil8,
+    ];
+    let has =
+        |format: &wgpu::TextureFormat| gpu.device.features().contains(format.required_features());
+    let savings = [
+        (Method::Auto, Extrusion::ToRange, Caps::AsNeeded),
+        (Method::ZFail, Extrusion::Infinite, Caps::AsNeeded),
+        (Method::ZFail, Extrusion::Infinite, Caps::Full),
+        (Method::Auto, Extrusion::Infinite, Caps::AsNeeded),
+    ];
+    let mut ways = WAYS.into_iter().cycle();
+    let mut wrong = Vec::new();
+    for (view, depth, light) in orthographic_views(&gpu, [lamp(), sun(), overhead, steep]) {
+        let stage = Stage {
+            depth,
+            placed_view: Some(view),
+            ..mixed(light)
+        };
+        let truth = stage.truth();
+        for (method, extrusion, caps) in savings {
+            for format in formats.into_iter().filter(has) {
+                let mut stage = Stage {
+                    format,
+                    ..by(&stage, ways.next().unwrap())
+                };
+                let unculled = caps == Caps::Full;
+                stage.savings = Savings {
+                    method,
+                    extrusion,
+                    caps,
+                    unculled,
+                    ..stage.savings
+                };
+                let found = truth.errors(&stage.draw(&gpu));
+                assert!(found.interior > 10_000 && found.shadowed > 30, "{found:?}");
+                if found.wrong > 0 {
+                    let what = (light.0, depth, format, stage.savings, found.wrong);
+                    wrong.push(format!("{what:?}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Cameras in the middle of the casters that see what is behind them, one of them straight down.
+fn orthographic_views(
+    gpu: &Gpu,
+    lights: [HomogeneousLight; 4],
+) -> Vec<(View, DepthConvention, HomogeneousLight)> {
+    let ends = [
+        (-20.0, 30.0),
+        (-50.0, 20.0),
+        (-1000.0, 40.0),
+        (-30.0, 300.0),
+    ];
+    let cameras = [
+        view::look_at_mat4(Vec3::new(0.5, 1.5, 1.0), Vec3::new(0.2, 1.0, -0.2), Vec3::Y),
+        view::look_at_mat4(Vec3::new(0.1, 2.0, 0.2), Vec3::new(0.1, 0.0, 0.2), Vec3::X),
+    ];
+    let finite = crate::choices::depths(gpu).into_iter();
+    let finite = finite.filter(|depth| *depth != DepthConvention::InfiniteReverse);
+    finite
+        .flat_map(|depth| cameras.map(|camera| (depth, camera)))
+        .flat_map(|(depth, camera)| {
+            lights
+                .into_iter()
+                .zip(ends)
+                .map(move |(light, (near, far))| {
+                    let (zero, one) = match depth {
+                        DepthConvention::Standard => (near, far),
+                        _ => (far, near),
+                    };
+                    let projection = proj::orthographic(-4.0, 5.0, -5.0, 4.0, zero, one);
+                    (View::new(projection * camera, depth).unwrap(), depth, light)
+                })
+        })
+        .collect()
 }

@@ -1,0 +1,113 @@
+//! `docs/shader-cost.md`.
+
+use std::fmt::Write as _;
+
+use crate::device::Device;
+use crate::row::Row;
+
+const HEAD: &str = "# What the shaders cost on a GPU
+
+```sh
+cargo bench --bench shader_cost -- --page docs/shader-cost.md
+```
+
+Counted, not timed: Mesa's RADV compiles every shader for RDNA2 on its null device, as wgpu has it
+compiled on Vulkan (naga's bounds checks, loops bounded), and the instructions are those of its assembly.
+The same Mesa gives the same counts on any machine, so a change of one instruction is seen; CI compares
+them with what is kept for its version of Mesa. What they do not say: how long textures take, what is in
+a cache, how pixels diverge.
+
+- **VALU**: vector instructions of the path that nearly all pixels take, a loop's times its trips. What
+  only pixels at an edge of the map or at a plane's horizon go through is left out.
+- **texture**: texture instructions on the same path; a gather of four texels is one.
+- **waves**: how many waves of 32 a SIMD holds at a time (32 at best), from the vector registers. More of
+  them hide more of the textures' latency.
+
+";
+
+const RECEIVERS: &str = "## Receivers
+
+Over a Lambert shader with one light that has no shadow. *Normal given*: the host passes its geometric
+normal, which saves the derivatives. `peer` rows do what other engines' shaders do, in WGSL of our own;
+their error is in [speed against error](speed-vs-error.md).
+
+| | VALU | normal given | texture | VGPRs | waves |
+|---|--:|--:|--:|--:|--:|
+";
+
+const STAGES: &str = "
+## Casters and volumes
+
+Whole stages: a vertex, or for `facing` a triangle and for `edges` an edge. `peer/depth-only` is a plain
+depth shader with a transform for each instance.
+
+| | VALU | memory | VGPRs | waves |
+|---|--:|--:|--:|--:|
+";
+
+const LOOPS: &str = "
+## Disks, taken apart
+
+| | set-up | search, a tap | a pair of taps | pairs |
+|---|--:|--:|--:|--:|
+";
+
+fn is_receiver(row: &Row) -> bool {
+    row.name.starts_with("cube") || row.name.starts_with("flat") || is_peer_receiver(row)
+}
+
+fn is_peer_receiver(row: &Row) -> bool {
+    row.name.starts_with("peer/cube") || row.name.starts_with("peer/flat")
+}
+
+pub fn page(rows: &[Row], device: &Device) -> String {
+    let mut page = HEAD.to_owned();
+    let _ = writeln!(page, "Here: {}, {}.\n", device.name, device.driver);
+    page += RECEIVERS;
+    let normal = |row: &Row| {
+        let name = format!("{}/normal", row.name);
+        rows.iter().find(|row| row.name == name).map(|row| row.valu)
+    };
+    let receivers = rows
+        .iter()
+        .filter(|row| is_receiver(row) && !row.name.ends_with("/normal"));
+    for row in receivers.clone() {
+        let given = normal(row).map_or_else(|| "-".to_owned(), |valu| valu.to_string());
+        let _ = writeln!(
+            page,
+            "| `{}` | {} | {given} | {} | {} | {} |",
+            row.name, row.valu, row.texture, row.vgprs, row.waves
+        );
+    }
+    page += LOOPS;
+    for row in receivers.filter(|row| row.loops.iter().any(|l| l.trips > 0)) {
+        page += &disk(row);
+    }
+    page += STAGES;
+    for row in rows.iter().filter(|row| !is_receiver(row)) {
+        let _ = writeln!(
+            page,
+            "| `{}` | {} | {} | {} | {} |",
+            row.name, row.valu, row.memory, row.vgprs, row.waves
+        );
+    }
+    page
+}
+
+/// Set-up and loops of a disk.
+fn disk(row: &Row) -> String {
+    let in_loops: i64 = row.loops.iter().map(|l| i64::from(l.trips) * l.valu).sum();
+    let Some((taps, search)) = row.loops.split_last() else {
+        return String::new();
+    };
+    let search = search
+        .first()
+        .map_or_else(|| "-".to_owned(), |search| search.valu.to_string());
+    format!(
+        "| `{}` | {} | {search} | {} | {} |\n",
+        row.name,
+        row.valu - in_loops,
+        taps.valu,
+        taps.trips
+    )
+}

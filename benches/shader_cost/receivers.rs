@@ -1,0 +1,193 @@
+//! Lighting shaders: a Lambert shader whose light is shadowed in one way or another.
+
+use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+
+use crate::peers::PEERS;
+use crate::pipeline::Case;
+
+const HOST: &str = "
+struct Frame {
+    clip_from_world: mat4x4f,
+    light: vec3f,
+    intensity: f32,
+    albedo: vec3f,
+    ambient: f32,
+}
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+struct Vertex {
+    @builtin(position) clip: vec4f,
+    @location(0) world: vec3f,
+    @location(1) normal: vec3f,
+}
+
+@vertex
+fn vertex(@location(0) world: vec3f, @location(1) normal: vec3f) -> Vertex {
+    return Vertex(frame.clip_from_world * vec4f(world, 1.0), world, normal);
+}
+
+@fragment
+fn fragment(vertex: Vertex) -> @location(0) vec4f {
+    let normal = normalize(vertex.normal);
+    let lit = VISIBILITY;
+    let to_light = frame.light - vertex.world;
+    let squared = dot(to_light, to_light);
+    let cosine = max(dot(normal, to_light) * inverseSqrt(squared), 0.0);
+    let shade = frame.ambient + lit * cosine * frame.intensity / squared;
+    return vec4f(frame.albedo * shade, 1.0);
+}
+";
+
+fn receiver(name: String, functions: &str, visibility: &str, trips: Vec<u32>) -> Case {
+    Case {
+        name,
+        wgsl: [functions, &HOST.replace("VISIBILITY", visibility)].concat(),
+        entries: vec!["vertex", "fragment"],
+        instanced_from: u32::MAX,
+        fragment_only: true,
+        trips,
+    }
+}
+
+/// What receivers are compared with: no shadow at all.
+pub fn lambert() -> Case {
+    receiver("lambert".to_owned(), "", "1.0", Vec::new())
+}
+
+/// How a map is made and read.
+struct Way {
+    name: &'static str,
+    map: MapKind,
+    encoding: DepthEncoding,
+    many_lights: bool,
+    border: bool,
+}
+
+const CUBE: Way = Way {
+    name: "cube",
+    map: MapKind::Cube,
+    encoding: DepthEncoding::MajorAxis,
+    many_lights: false,
+    border: false,
+};
+
+const FLAT: Way = Way {
+    name: "flat",
+    map: MapKind::Flat,
+    ..CUBE
+};
+
+const WAYS: [Way; 5] = [
+    CUBE,
+    Way {
+        name: "cube-linear",
+        encoding: DepthEncoding::LinearDistance,
+        ..CUBE
+    },
+    Way {
+        name: "cube-array",
+        many_lights: true,
+        ..CUBE
+    },
+    FLAT,
+    // What a device with the feature for it takes.
+    Way {
+        name: "flat-border",
+        border: true,
+        ..FLAT
+    },
+];
+
+fn name(kernel: Kernel) -> &'static str {
+    kernel.function().trim_start_matches("shadows_cube_")
+}
+
+/// The loops of a kernel's code: a square's is for the edges of the map alone.
+fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
+    let linear = way.encoding == DepthEncoding::LinearDistance;
+    match kernel {
+        Kernel::Hard => Vec::new(),
+        // Nearly everywhere the first taps agree.
+        Kernel::RandomDisk(disk) => vec![disk.around * disk.rings / 2],
+        Kernel::Vogel(disk) => vec![disk.taps / 2],
+        Kernel::ContactHardening(contact) => vec![contact.search_taps, contact.taps / 2],
+        // What is too long for the compiler to unroll, a row of gathers at a time.
+        Kernel::Weighted5 if linear => vec![3, 0],
+        Kernel::Weighted7 => vec![4, 0],
+        _ => vec![0],
+    }
+}
+
+fn sampler(way: &Way, kernel: Kernel) -> PcfSampler {
+    let border = wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER;
+    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor {
+        required_features: if way.border {
+            border
+        } else {
+            wgpu::Features::empty()
+        },
+        ..Default::default()
+    });
+    let descriptor = PcfDescriptor {
+        kernel,
+        map: way.map,
+        encoding: way.encoding,
+        many_lights: way.many_lights,
+        ..Default::default()
+    };
+    PcfSampler::new(&device, &queue, &descriptor).expect("every kernel reads every map")
+}
+
+/// Every kernel on every kind of map, with the plane's normal from derivatives and from the host, and
+/// other engines' receivers.
+pub fn all() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for way in &WAYS {
+        for kernel in Kernel::ALL {
+            let sampler = sampler(way, kernel);
+            let index = if way.many_lights { "0u, " } else { "" };
+            let flat = if way.map == MapKind::Flat {
+                "_flat"
+            } else {
+                ""
+            };
+            let pixel = if sampler.takes_pixel() {
+                ", vertex.clip.xy"
+            } else {
+                ""
+            };
+            let text = sampler.wgsl_module(1);
+            for (suffix, given, normal) in [("", "", ""), ("/normal", "_flat", ", normal")] {
+                let call =
+                    format!("shadows{flat}_visibility{given}({index}vertex.world{normal}{pixel})");
+                let name = format!("{}/{}{suffix}", way.name, name(kernel));
+                cases.push(receiver(name, &text, &call, trips(way, kernel)));
+            }
+        }
+    }
+    cases.push(textbook());
+    for peer in &PEERS {
+        let call = "peer_visibility(vertex.world, normal, vertex.clip.xy)";
+        cases.push(receiver(
+            format!("peer/{}", peer.name),
+            &peer.wgsl(),
+            call,
+            Vec::new(),
+        ));
+    }
+    cases
+}
+
+/// This crate's own rendition of the textbook, which its reports measure everything against.
+fn textbook() -> Case {
+    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let descriptor = PcfDescriptor {
+        textbook: true,
+        encoding: DepthEncoding::LinearDistance,
+        ..Default::default()
+    };
+    let sampler = PcfSampler::new(&device, &queue, &descriptor).expect("the textbook's encoding");
+    let text = sampler.wgsl_module(1);
+    let call = "shadows_visibility(vertex.world)";
+    receiver("cube-linear/textbook".to_owned(), &text, call, Vec::new())
+}
