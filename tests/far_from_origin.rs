@@ -187,6 +187,7 @@ impl Light {
             Self::Point(light) => light.position.as_dvec3() - point,
             Self::Flat(FlatLight::Spot(light)) => light.position.as_dvec3() - point,
             Self::Flat(FlatLight::Directional(light)) => light.toward_light.as_dvec3() * 1e4,
+            Self::Flat(other) => unreachable!("{other:?} is none of these tests' lights"),
         }
     }
 

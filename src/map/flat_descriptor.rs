@@ -212,6 +212,8 @@ impl FlatLightUniform {
         depth_bias: 0.0,
         perspective: 1.0,
         quantum: 0.0,
+        rounding: 0.0,
+        padding: [0.0; 3],
     };
 
     /// `frame` is `None` where nothing casts.
