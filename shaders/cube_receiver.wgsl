@@ -116,9 +116,10 @@ fn shadows_cube_receiver(
     let rounding = light.rounding * (abs(position) + abs(from_light));
     let offset = max(light.normal_offset * major * sine, dot(abs(n), rounding));
     let plane_distance = height + offset;
-    // The light within the bias of the receiver's plane: nothing is between them. Written so that
-    // a receiver at the light itself, where the numbers above are not numbers, is lit too.
-    if !(plane_distance < 0.0) {
+    // The light within the bias of the receiver's plane: nothing is between them. Nor is there at the
+    // light itself, or where there is no plane: there the numbers above are not numbers, which no
+    // comparison may be trusted to say.
+    if distance == 0.0 || dot(normal, normal) == 0.0 || plane_distance >= 0.0 {
         receiver.known = 1.0;
         return receiver;
     }

@@ -13,7 +13,7 @@ fn shadows_cube_derived(
     let normal = cross(x, y);
     let facing = abs(dot(normal, from_light));
     let doubt = shadows_cube_doubt(position, x, y) * length(from_light);
-    let doubtful = !(doubt < 0.25 * facing);
+    let doubtful = doubt >= 0.25 * facing;
     let face = shadows_cube_face(from_light, light.size);
     var receiver: ShadowsCubeReceiver;
     receiver.face = face;
@@ -21,7 +21,8 @@ fn shadows_cube_derived(
     receiver.cube = light.cube;
     receiver.quantum = light.quantum;
     receiver.range_over_near = light.range / light.near;
-    let major = dot(face.forward, from_light);
+    // Not 0 at the light itself.
+    let major = max(dot(face.forward, from_light), 1e-30);
     let own = light.near / major;
     // Four texels of depth from one texel to the next.
     let steepest = 8.0 * own / light.size;

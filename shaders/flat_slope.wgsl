@@ -17,13 +17,14 @@ fn shadows_flat_derived(
     let facing = abs(dot(normal, ray));
     let distance = length(ray);
     let doubt = shadows_flat_doubt(position, x, y) * distance;
-    let doubtful = !(doubt < 0.25 * facing);
+    let doubtful = doubt >= 0.25 * facing;
     let local = from_light * axes;
     let away = select(1.0, local.x, spot);
     let uv = local.yz * light.scale / away;
     var receiver: ShadowsFlatReceiver;
     receiver.texel = (uv * 0.5 + 0.5) * light.size;
-    let own = light.near / local.x;
+    // Not by 0 at the light itself.
+    let own = light.near / max(local.x, 1e-30);
     // Four texels of depth from one texel to the next.
     let steepest = 8.0 / (light.size * light.scale) * select(1.0 / light.range, own / away, spot);
     let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, doubtful, steepest);

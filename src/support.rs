@@ -128,6 +128,18 @@ impl Support {
         }
     }
 
+    /// The depth-stencil format to make the host's buffer of, and to name in every descriptor of
+    /// shadow volumes: `Depth32FloatStencil8`, their default, where the adapter has it and the device
+    /// is created with [`features`](Self::features); else `Depth24PlusStencil8`, which every device
+    /// has. What that costs says
+    /// [`ShadowVolumeDescriptor`](crate::ShadowVolumeDescriptor::depth_stencil_format).
+    pub fn depth_stencil_format(&self) -> wgpu::TextureFormat {
+        match self.depth32float_stencil8 {
+            true => wgpu::TextureFormat::Depth32FloatStencil8,
+            false => wgpu::TextureFormat::Depth24PlusStencil8,
+        }
+    }
+
     /// The features to ask for; never more than the adapter has.
     pub fn features(&self) -> Features {
         [
@@ -172,7 +184,7 @@ impl Support {
             (
                 self.depth32float_stencil8,
                 "Depth32FloatStencil8",
-                "Depth24PlusStencil8 for the host's depth-stencil buffer",
+                "Depth24PlusStencil8 for the host's depth-stencil buffer, named in every descriptor of shadow volumes (Support::depth_stencil_format)",
             ),
             (
                 self.multiview,
@@ -321,6 +333,8 @@ mod tests {
         let support = Support::new(Features::empty(), limits, DownlevelFlags::empty(), &info);
         assert_eq!(support.features(), Features::empty());
         assert_eq!(support.fallbacks().len(), 10);
+        let every_device_has_it = wgpu::TextureFormat::Depth24PlusStencil8;
+        assert_eq!(support.depth_stencil_format(), every_device_has_it);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);
     }
 
@@ -332,6 +346,8 @@ mod tests {
         };
         let support = full(limits, &info(Backend::Vulkan, 0));
         assert!(support.fallbacks().is_empty());
+        let default = crate::ShadowVolumeDescriptor::default().depth_stencil_format;
+        assert_eq!(support.depth_stencil_format(), default);
         assert_eq!(support.limits().max_multiview_view_count, 6);
         assert!(support.features().contains(Features::MULTIVIEW));
         assert!(!support.features().contains(Features::TIMESTAMP_QUERY));
