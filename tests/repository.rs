@@ -5,6 +5,8 @@
 mod dependencies;
 #[path = "repository/features.rs"]
 mod features;
+#[path = "repository/figures.rs"]
+mod figures;
 #[path = "repository/pages.rs"]
 mod pages;
 #[path = "repository/rust_version.rs"]
