@@ -32,7 +32,8 @@ pub struct PointLight {
     /// Desbrun, "Tightening the Precision of Perspective Rendering", 2012). In fixed point it would,
     /// and the map takes the square root of the format's step, 1/256 of the range for
     /// `Depth16Unorm`, 1/4096 for `Depth24Plus` (on GL 1/2900 for floats, which lose their digits near
-    /// 0 there, see [`Support`](crate::Support), and 1/2400 for `Depth24Plus`): a step at the range is then as wide as the near plane is far from the light.
+    /// 0 there, see [`Support`](crate::Support), and 1/2400 for `Depth24Plus`): a step at the range is
+    /// then as wide as the near plane is far from the light.
     /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) has 2^-24 in every format.
     ///
     /// Casters nearer than this are pulled onto that plane where the device has
