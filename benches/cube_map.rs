@@ -10,6 +10,8 @@
 //!   that passes and draws weigh more than pixels.
 //! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
 //!   against all moving; the first frame in which none moves.
+//! - `flat_prepare_still_vs_moving`: the same for a flat map of a directional light and 10,000 casters;
+//!   `flat_vs_cube_prepare_still`: against a cube map's of 16 lights, none of the casters moving.
 //! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
 //!   among them, moving, against none: what moves beside what does not.
 //!
@@ -34,6 +36,8 @@
 
 #[path = "cube_map/culling.rs"]
 mod culling;
+#[path = "cube_map/flat.rs"]
+mod flat;
 #[path = "../examples/host/mod.rs"]
 mod host;
 #[allow(dead_code)] // what other tests need
@@ -79,6 +83,7 @@ fn main() {
     }
     still_layers::run(&gpu, if quick { 5 } else { 25 });
     prepare(&gpu, if quick { 15 } else { 75 });
+    flat::prepare(&gpu, if quick { 15 } else { 75 });
     for (name, count) in [("1e2", 100), ("1e4", 10_000), ("1e5", 100_000)] {
         one_of_many(&gpu, count, if quick { 5 } else { 25 });
         culling::culling(&gpu, name, count, if quick { 25 } else { 125 });

@@ -91,8 +91,7 @@ fn main() -> Result<()> {
         }
     }
     std::fs::write(&path, host::image::grey_png(size, &sheet)?)?;
-    println!("{path}: {}", TILES.join(", "));
-    Ok(())
+    host::terminal::say(&format!("{path}: {}", TILES.join(", ")))
 }
 
 fn shown(gpu: &Gpu, stage: &Stage, name: &str) -> Result<Vec<u8>> {

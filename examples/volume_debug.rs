@@ -5,7 +5,8 @@
 //! `cargo run --release --example volume_debug -- --start docs/volume-start.png`
 //!
 //! From the top left: the shaded scene; the volumes' surfaces and silhouette edges; stencil counts;
-//! casters by what was decided for them.
+//! casters by what was decided for them. The eye is in the shadow of the sphere before it, which is why that
+//! one is counted by z-fail, and why the sides of its volume (orange) are all around.
 
 #[path = "host/mod.rs"]
 mod host;
@@ -20,6 +21,7 @@ use host::image::rgb_png;
 use host::renderer::{DEPTH, Renderer, SHADED, ShadowAccess, view};
 use host::scene::{self, Mesh, Scene};
 use host::scene_gpu::SceneGpu;
+use host::terminal::say;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::{
     HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, StartFrom,
@@ -59,8 +61,8 @@ fn main() -> Result<()> {
         panels.draw(|pass| panels.debug.draw_counts(pass)),
         panels.draw(|pass| panels.debug.draw_casters(pass)),
     ];
-    println!("{:#?}", panels.volumes.statistics());
-    println!("{:#?}", panels.volumes.survey(SIZE));
+    say(&format!("{:#?}", panels.volumes.statistics()))?;
+    say(&format!("{:#?}", panels.volumes.survey(SIZE)))?;
     save(&args.out, &pictures)
 }
 
@@ -69,8 +71,7 @@ fn save(path: &Path, panels: &[Vec<[u8; 3]>]) -> Result<()> {
     let height = SIZE[1] * panels.len() as u32 / 2;
     let png = rgb_png([2 * SIZE[0], height], &sheet(panels))?;
     std::fs::write(path, png).with_context(|| path.display().to_string())?;
-    println!("{}", path.display());
-    Ok(())
+    say(&path.display().to_string())
 }
 
 /// Two large spheres of few triangles.

@@ -128,7 +128,9 @@ impl SpotLight {
     /// [`LightError`] names the field that is wrong.
     pub fn validate(&self) -> Result<(), LightError> {
         self.all_around().validate()?;
-        DirectionalLight::new(self.direction).validate()?;
+        if !self.direction.is_finite() || self.direction == Vec3::ZERO {
+            return Err(LightError::SpotDirection(self.direction.to_array()));
+        }
         if self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
             Ok(())
         } else {
@@ -270,9 +272,12 @@ mod tests {
             };
             assert_eq!(wrong.validate(), Err(LightError::HalfAngle(half_angle)));
         }
-        let direction = Vec3::ZERO;
-        let wrong = SpotLight { direction, ..light };
-        assert_eq!(wrong.validate(), Err(LightError::Direction));
+        for direction in [Vec3::ZERO, Vec3::INFINITY] {
+            let wrong = SpotLight { direction, ..light };
+            let error = wrong.validate().unwrap_err();
+            assert_eq!(error, LightError::SpotDirection(direction.to_array()));
+            assert!(!error.to_string().contains("directional"), "{error}");
+        }
         let near = Some(0.0);
         let wrong = SpotLight { near, ..light };
         assert!(matches!(wrong.validate(), Err(LightError::Near { .. })));

@@ -71,6 +71,7 @@ pub struct Support {
 
 /// What is missing from an adapter and what is done instead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Fallback {
     /// The missing ability.
     pub missing: &'static str,

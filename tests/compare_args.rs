@@ -150,28 +150,134 @@ fn shimmer_and_growth_take_a_size_and_a_limit_or_none() {
     assert_refused("--temporal --sweep", "--sweep");
 }
 
+/// Each mode as it is asked for, and the options that it has a use for beyond those of all.
+const MODES: [(&str, &[&str]); 5] = [
+    (
+        "",
+        &[
+            "scene",
+            "ground",
+            "light",
+            "light-kind",
+            "range",
+            "camera",
+            "technique",
+            "size",
+            "face",
+            "frames",
+            "seed",
+            "export",
+        ],
+    ),
+    (
+        "--sweep",
+        &[
+            "scene",
+            "ground",
+            "light",
+            "light-kind",
+            "range",
+            "camera",
+            "technique",
+            "size",
+            "frames",
+            "error-at-most",
+            "time-at-most",
+        ],
+    ),
+    ("--hard-cases", &["rounds"]),
+    (
+        "--temporal",
+        &[
+            "scene",
+            "ground",
+            "light",
+            "light-kind",
+            "range",
+            "camera",
+            "technique",
+            "face",
+            "steps",
+        ],
+    ),
+    ("--growth", &["frames"]),
+];
+
+/// A value that each option takes.
+const VALUES: [(&str, &str); 18] = [
+    ("scene", "--scene x.obj"),
+    ("ground", "--ground none --scene x.obj"),
+    ("light", "--light 1,2,3"),
+    ("light-kind", "--light-kind spot"),
+    ("range", "--range 9"),
+    ("camera", "--camera 1,2,3,0,0,0"),
+    ("technique", "--technique volume"),
+    ("size", "--size 64x36"),
+    ("face", "--face 512"),
+    ("frames", "--frames 2"),
+    ("seed", "--seed 2"),
+    ("export", "--export"),
+    ("error-at-most", "--error-at-most 0.1"),
+    ("time-at-most", "--time-at-most 2ms"),
+    ("rounds", "--rounds 2"),
+    ("steps", "--steps 2"),
+    ("adapter", "--adapter llvm"),
+    ("out", "--out x"),
+];
+
 #[test]
 fn what_a_mode_has_no_use_for_is_refused() {
-    for line in [
-        "--sweep --hard-cases",
-        "--sweep --face 512",
-        "--sweep --export",
-        "--hard-cases --technique volume",
-        "--hard-cases --scene teapot",
-        "--hard-cases --light 1,2,3",
-        "--hard-cases --frames 2",
-        "--growth --size 64x36",
-        "--growth --technique volume",
-        "--temporal --size 64x36",
-        "--temporal --frames 2",
-    ] {
-        assert_refused(line, "cannot be used with");
+    for (mode, used) in MODES {
+        for (option, given) in VALUES {
+            let line = format!("{mode} {given}");
+            match used.contains(&option) || ["adapter", "out"].contains(&option) {
+                true => drop(read(&line)),
+                false if mode.is_empty() => assert_refused(&line, "is of no use without --"),
+                false => assert_refused(&line, &format!("cannot be used with {mode}")),
+            }
+        }
     }
-    assert_refused("--rounds 2", "--hard-cases");
-    assert_refused("--steps 2", "--temporal");
-    // Defaults are no use of an option.
-    assert!(read("--hard-cases --rounds 2 --out target/hard").hard_cases);
-    assert!(read("--sweep --scene teapot --frames 2 --size 64x36").sweep);
+    // Defaults are no use of an option, even where they are written out by nobody.
+    assert!(read("--hard-cases").hard_cases);
+    for (option, mode) in [("--rounds 2", "--hard-cases"), ("--steps 2", "--temporal")] {
+        assert_refused(option, &format!("is of no use without {mode}"));
+    }
+    for (mode, _) in &MODES[1..] {
+        for (other, _) in &MODES[1..] {
+            if mode != other {
+                assert_refused(&format!("{mode} {other}"), "cannot be used with");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_option_is_tried_in_every_mode() {
+    let command = <Args as clap::CommandFactory>::command();
+    let tried = |option: &str| {
+        let mode = format!("--{option}");
+        VALUES.iter().any(|(known, _)| *known == option)
+            || MODES.iter().any(|(known, _)| *known == mode)
+    };
+    let options: Vec<&str> = command
+        .get_arguments()
+        .filter_map(|a| a.get_long())
+        .collect();
+    assert!(options.len() >= VALUES.len());
+    for option in options {
+        assert!(tried(option), "--{option}");
+    }
+}
+
+#[test]
+fn a_ground_is_for_files() {
+    assert_refused(
+        "--ground none",
+        "--ground is of no use without a model file",
+    );
+    assert_refused("--ground auto --scene teapot", "built-in scenes");
+    let args = read("--ground none --scene teapot --scene x.OBJ");
+    assert_eq!(args.ground, Ground::None);
 }
 
 #[test]

@@ -5,11 +5,14 @@
 mod date;
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[path = "compare_cli/output.rs"]
+mod output;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde_json::Value;
 
@@ -34,7 +37,11 @@ struct Scratch(PathBuf);
 
 impl Scratch {
     fn new(test: &str) -> Self {
-        let dir = std::env::temp_dir().join(format!("shadows-{test}-{}", std::process::id()));
+        // Tests run beside each other, and some take several.
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("shadows-{test}-{}-{count}", std::process::id());
+        let dir = std::env::temp_dir().join(name);
         let _ = fs::remove_dir_all(&dir);
         fs::create_dir_all(&dir).unwrap();
         Self(dir)
@@ -61,6 +68,9 @@ impl Drop for Scratch {
 fn compare(args: &[&str]) -> Output {
     Command::new(binary()).args(args).output().unwrap()
 }
+
+/// The least that a scene takes.
+const SMALL: [&str; 6] = ["--size", "16x9", "--frames", "1", "--technique", "volume"];
 
 /// Exit code 2, one line that holds `part`, nothing written.
 fn assert_refused(args: &[&str], part: &str) {
@@ -90,6 +100,8 @@ fn bad_arguments_are_refused_in_one_line() {
         (&["--size", "0x10"], "WIDTHxHEIGHT"),
         (&["--face", "0"], "--face"),
         (&["--frames", "many"], "many"),
+        (&["--growth", "--rounds", "2"], "--rounds"),
+        (&["--hard-cases", "--steps", "2"], "--steps"),
         (&["--nonsense"], "--nonsense"),
     ] {
         assert_refused(args, part);
@@ -145,6 +157,52 @@ fn a_file_in_the_way_is_left_alone() {
     let output = compare(&["--out", &out, "--size", "16x9", "--frames", "1"]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(fs::read_to_string(&out).unwrap(), "mine");
+}
+
+#[test]
+fn what_a_file_holds_besides_is_told() {
+    if host::gpu::Gpu::for_test().is_none() {
+        return;
+    }
+    let scratch = Scratch::new("left-out");
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (elements, left_out) in [
+        ("", None),
+        (
+            "l 1 2\nl 2 3\np 1\n",
+            Some("line elements (2), point elements (1)"),
+        ),
+    ] {
+        let model = scratch.path("model.obj");
+        fs::write(&model, format!("{corners}{elements}")).unwrap();
+        let out = scratch.path("out");
+        let output = compare(&[&SMALL[..], &["--scene", &model, "--out", &out]].concat());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{told}");
+        let markdown = fs::read_to_string(Path::new(&out).join("report.md")).unwrap();
+        match left_out {
+            None => {
+                assert!(!told.contains("left out") && !markdown.contains("Left out of its file"))
+            }
+            Some(elements) => {
+                assert!(
+                    told.contains(&format!("model.obj: left out are {elements}")),
+                    "{told}"
+                );
+                assert!(
+                    markdown.contains(&format!("Left out of its file: {elements}.")),
+                    "{markdown}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_range_is_not_for_light_from_one_direction() {
+    let args = ["--light", "1,2,3,0", "--range", "5"];
+    assert_refused(&args, "a directional light has none");
+    assert_refused(&["--light-kind", "directional", "--range", "5"], "--range");
 }
 
 #[test]
@@ -307,12 +365,8 @@ fn floats(list: &Value) -> Vec<f32> {
 /// The masks agree with the report: wrong pixels counted again from the pictures.
 fn check_visibility(dir: &Path) {
     let read = |name: &str| {
-        let file = std::io::BufReader::new(fs::File::open(dir.join(name)).unwrap());
-        let mut reader = png::Decoder::new(file).read_info().unwrap();
-        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-        let info = reader.next_frame(&mut pixels).unwrap();
-        assert_eq!((info.width, info.height), (160, 90), "{name}");
-        assert_eq!(info.color_type, png::ColorType::Grayscale, "{name}");
+        let (size, pixels) = host::image::read_png(&dir.join(name)).unwrap();
+        assert_eq!((size, pixels.len()), ([160, 90], 160 * 90), "{name}");
         pixels
     };
     let text = fs::read_to_string(dir.join("report.json")).unwrap();
@@ -402,6 +456,28 @@ fn several_scenes_get_a_directory_each_and_other_files_stay() {
         assert!(!files.contains("cube-hard.error.png"));
         assert!(!files.iter().any(|name| name.starts_with('.')), "{files:?}");
     }
+    // One table of both, beside them.
+    let table = fs::read_to_string(scratch.0.join("out/scenes.md")).unwrap();
+    assert!(
+        table.starts_with("| | `spheres` ms | wrong | interior | `teapot` ms |"),
+        "{table}"
+    );
+    let row = table
+        .lines()
+        .find(|line| line.starts_with("| `volume` |"))
+        .unwrap();
+    for scene in ["spheres", "teapot"] {
+        let path = scratch.0.join("out").join(scene).join("report.json");
+        let report: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        let mut techniques = report["techniques"].as_array().unwrap().iter();
+        let volume = techniques.find(|t| t["name"] == "volume").unwrap();
+        let wrong =
+            ["false_lit_percent", "false_shadow_percent"].map(|w| volume[w].as_f64().unwrap());
+        let time = volume["total_ms"].as_f64().unwrap();
+        let cells = format!("| {time:.1} | {:.4} % | ", wrong[0] + wrong[1]);
+        assert!(row.contains(&cells), "{cells}: {row}");
+    }
+    assert_eq!(fs::read_dir(scratch.0.join("out")).unwrap().count(), 3);
     let notes = scratch.0.join("out/teapot/notes.txt");
     assert_eq!(fs::read_to_string(notes).unwrap(), "mine");
 }

@@ -108,8 +108,14 @@ fn the_rust_that_is_advised_makes_exactly_the_configuration() {
             .iter()
             .find(|technique| technique.name == *name)
             .unwrap();
-        assert_eq!(format!("{config:?}"), format!("{:?}", technique.config));
+        assert_eq!(
+            format!("{config:?}"),
+            format!("{:?}", technique.config.kept())
+        );
+        // What keeps nothing was timed, but is advised to nobody.
+        assert!(config.keeps() && !technique.config.keeps(), "{name}");
     }
+    assert!(!text.contains("cache") && !text.contains("keep_between_frames"));
     // The twin: a snippet says nothing of another configuration.
     let [(_, first), (_, second), ..] = written.as_slice() else {
         panic!("too few")
@@ -121,11 +127,20 @@ fn the_rust_that_is_advised_makes_exactly_the_configuration() {
 fn every_configuration_has_a_snippet_of_its_own() {
     let all = techniques("all");
     let snippets: BTreeSet<String> = all.iter().map(|t| snippet::of(&t.config)).collect();
-    let configurations: BTreeSet<String> = all.iter().map(|t| format!("{:?}", t.config)).collect();
+    let configurations: BTreeSet<String> = all
+        .iter()
+        .map(|t| format!("{:?}", t.config.kept()))
+        .collect();
     let names: BTreeSet<&str> = all.iter().map(|t| t.name.as_ref()).collect();
     assert_eq!(names.len(), all.len());
     assert_eq!(snippets.len(), configurations.len());
-    assert!(configurations.len() >= 100, "{}", configurations.len());
+    // Two that differ in keeping alone are one piece of advice.
+    let timed: BTreeSet<String> = all.iter().map(|t| format!("{:?}", t.config)).collect();
+    assert!(
+        (100..timed.len()).contains(&configurations.len()),
+        "{}",
+        configurations.len()
+    );
 }
 
 #[test]
@@ -205,6 +220,21 @@ fn advice_names_the_configuration_and_its_figures() {
     assert!(told[1].contains("`cube-2x2 256`, 1.00 ms"), "{}", told[1]);
     assert!(advice(None, Some(0.5))[0].ends_with("none."));
     assert!(advice(None, None).is_empty());
+    let page = |time_at_most| {
+        let error_at_most = None;
+        let wishes = Wishes {
+            error_at_most,
+            time_at_most,
+        };
+        let swept = Swept {
+            survey: surveyed(&[(1.0, 0.01)]),
+            spread: None,
+            left_out: Default::default(),
+        };
+        sweep::markdown(&swept, "title", [2, 1], 1, &wishes)
+    };
+    assert!(page(Some(1.5)).contains("what stands still is kept"));
+    assert!(!page(Some(0.5)).contains("what stands still is kept"));
 }
 
 #[test]

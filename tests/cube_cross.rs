@@ -69,7 +69,7 @@ fn expected(
             let (x, y) = (column * SIZE + i % SIZE, row * SIZE + i / SIZE);
             let along = match encoding {
                 DepthEncoding::MajorAxis => NEAR / (depth * LIGHT.range),
-                DepthEncoding::LinearDistance => depth,
+                _ => depth,
             };
             let grey = (255.0 * (1.0 - along.min(1.0))).round() as u8;
             picture[(y * 4 * SIZE + x) as usize] = match depth == encoding.clear_depth() {

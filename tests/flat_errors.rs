@@ -5,12 +5,12 @@ mod common;
 use common::shapes::square;
 use common::{noop, two_noop_devices};
 use glam::{Affine3A, Mat4, Vec3};
-use shadows::error::{BiasError, CasterError, LightError, PcfError, ShadowMapError};
+use shadows::error::{CasterError, LightError, PcfError, ShadowMapError};
 use shadows::mesh::Bounds;
 use shadows::{
     Bias, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, DirectionalLight, FlatLight,
-    MapKind, PcfDescriptor, PcfSampler, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, View,
-    glam, wgpu,
+    MapKind, PcfDescriptor, PcfSampler, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    SpotLight, View, glam, wgpu,
 };
 
 fn sun() -> FlatLight {
@@ -39,10 +39,8 @@ fn sizes_and_biases_out_of_range_are_refused() {
         bias,
         ..Default::default()
     };
-    let field = BiasError {
-        field: "constant",
-        value: -1.0,
-    };
+    let field = bias.validate().unwrap_err();
+    assert_eq!((field.field, field.value), ("constant", -1.0));
     assert_eq!(new(&descriptor).unwrap_err(), ShadowMapError::Bias(field));
 }
 
@@ -75,6 +73,33 @@ fn a_reach_out_of_range_is_refused() {
         };
         assert_eq!(new(&descriptor).unwrap_err(), ShadowMapError::Reach(reach));
     }
+}
+
+#[test]
+fn a_directional_light_needs_a_map_with_texels_to_spare_for_its_kernels() {
+    let (device, queue) = noop();
+    let casters = [square(1.0).caster(&device, Affine3A::IDENTITY)];
+    let prepared = |size, reach, light| {
+        let descriptor = ShadowMapDescriptor {
+            size,
+            reach,
+            ..Default::default()
+        };
+        let mut map = ShadowMap::new(&device, &descriptor).unwrap();
+        map.prepare(&device, &queue, &ShadowFrame::new(light, &casters))
+    };
+    let refused = Err(ShadowMapError::ReachOfSize {
+        reach: 12.0,
+        size: 51,
+    });
+    assert_eq!(prepared(51, Radius::Texels(12.0), sun()), refused);
+    assert!(refused.unwrap_err().to_string().contains("at least 52"));
+    assert_eq!(prepared(52, Radius::Texels(12.0), sun()), Ok(()));
+    // In world units, too: such a map holds the usual kernels as well.
+    assert!(prepared(51, Radius::World(1e-3), sun()).is_err());
+    // A spot's map is its cone.
+    let spot = SpotLight::new(Vec3::Y, Vec3::NEG_Y, 0.5, 9.0);
+    assert_eq!(prepared(1, Radius::Texels(64.0), spot.into()), Ok(()));
 }
 
 #[test]

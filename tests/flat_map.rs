@@ -114,6 +114,7 @@ fn to_light(light: FlatLight, point: Vec3) -> DVec3 {
     match light {
         FlatLight::Spot(light) => (light.position - point).as_dvec3(),
         FlatLight::Directional(light) => light.toward_light.as_dvec3() * 100.0,
+        _ => unreachable!("a kind that these tests do not ask for"),
     }
 }
 
@@ -171,7 +172,7 @@ fn shadows_fall_where_rays_say() {
         for kernel in Kernel::ALL {
             let texels = match kernel.radius() {
                 Radius::Texels(radius) => 1.5 + 1.8 * radius,
-                Radius::World(_) => unreachable!("these tests ask for texels"),
+                _ => unreachable!("these tests ask for texels"),
             };
             // Texels are at most 12 / 2048 wide here, and as much longer as the light is oblique.
             let points = interior(&field, light, texels * 1.5 * 12.0 / 2048.0);
@@ -393,6 +394,69 @@ fn what_has_not_changed_is_not_drawn_again() {
     assert!(draws(&mut map, light, &casters).rendered);
     gpu.run(|encoder| drop(map.begin_pass(encoder)));
     assert!(draws(&mut map, light, &casters).rendered);
+}
+
+#[test]
+fn what_has_not_changed_is_not_uploaded() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut casters = field(&gpu).casters;
+    for light in [
+        spot(Vec3::Y * 9.0, Vec3::NEG_Y, 0.7, 1.0),
+        sun(Vec3::new(0.1, 1.0, 0.0)),
+    ] {
+        let mut map = ShadowMap::new(&gpu.device, &of_size(256, Bias::default())).unwrap();
+        let mut frame = |casters: &[Caster], receivers| {
+            let frame = ShadowFrame {
+                receivers,
+                ..ShadowFrame::new(light, casters)
+            };
+            map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+            gpu.run(|encoder| map.encode(encoder));
+            let s = map.statistics();
+            assert_eq!(s.casters_drawn + s.casters_outside, casters.len() as u32);
+            (s.rendered, s.uploaded)
+        };
+        let around = |half: f32| {
+            Some(shadows::mesh::Bounds {
+                min: Vec3::splat(-half),
+                max: Vec3::splat(half),
+            })
+        };
+        let (rendered, uploaded) = frame(&casters, around(3.0));
+        // A row of a matrix for each caster at least.
+        assert!(rendered && uploaded > 48 * 8, "{uploaded}");
+        assert_eq!(frame(&casters, around(3.0)), (false, 0), "still");
+        casters.reverse();
+        assert_eq!(frame(&casters, around(3.0)), (false, 0), "another order");
+        // The broken twin: one that moved.
+        casters[0].world_from_object.translation.y += 0.1;
+        let (rendered, uploaded) = frame(&casters, around(3.0));
+        assert!(rendered && uploaded > 48 * 8, "{uploaded}");
+        assert_eq!(frame(&casters, around(3.0)), (false, 0));
+    }
+}
+
+#[test]
+fn a_caster_that_moves_beside_a_spots_cone_uploads_nothing() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut casters = field(&gpu).casters;
+    let far = Affine3A::from_translation(Vec3::X * 500.0);
+    casters.push(cuboid(Vec3::ONE).caster(&gpu.device, far));
+    let light = spot(Vec3::Y * 9.0, Vec3::NEG_Y, 0.7, 1.0);
+    let mut map = drawn(
+        &gpu,
+        &of_size(256, Bias::default()),
+        &ShadowFrame::new(light, &casters),
+    );
+    let mut moved = |index: usize| {
+        casters[index].world_from_object.translation.z += 0.5;
+        map.prepare(&gpu.device, &gpu.queue, &ShadowFrame::new(light, &casters))
+            .unwrap();
+        gpu.run(|encoder| map.encode(encoder));
+        (map.statistics().rendered, map.statistics().uploaded > 0)
+    };
+    assert_eq!(moved(12), (false, false));
+    assert_eq!(moved(0), (true, true), "the broken twin: one on the map");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use common::noop;
 use shadows::error::PcfError;
 use shadows::{
     ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
-    PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
+    PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor, VogelDisk,
 };
 
 fn make(kernel: Kernel) -> Result<PcfSampler, PcfError> {
@@ -172,8 +172,150 @@ fn textbook_receivers_of_another_encoding_are_refused() {
     assert_eq!(error, Err(PcfError::Textbook(major)));
     assert_eq!(made(linear, MapKind::Cube, true), Ok(()));
     assert_eq!(made(major, MapKind::Cube, false), Ok(()));
-    // Flat maps have neither encodings nor textbook receivers.
-    assert_eq!(made(major, MapKind::Flat, true), Ok(()));
+}
+
+#[test]
+fn settings_that_would_have_no_effect_are_refused() {
+    let (device, queue) = noop();
+    let made =
+        |descriptor: &PcfDescriptor<'_>| PcfSampler::new(&device, &queue, descriptor).map(drop);
+    let flat = PcfDescriptor {
+        map: MapKind::Flat,
+        ..Default::default()
+    };
+    assert_eq!(made(&flat), Ok(()));
+    for (setting, cubes_only) in [
+        (
+            "many_lights",
+            PcfDescriptor {
+                many_lights: true,
+                ..flat.clone()
+            },
+        ),
+        (
+            "textbook",
+            PcfDescriptor {
+                textbook: true,
+                ..flat.clone()
+            },
+        ),
+        (
+            "encoding",
+            PcfDescriptor {
+                encoding: DepthEncoding::LinearDistance,
+                ..flat.clone()
+            },
+        ),
+    ] {
+        let map = MapKind::Flat;
+        let error = made(&cubes_only).unwrap_err();
+        assert_eq!(error, PcfError::CubesOnly { setting, map });
+        assert!(error.to_string().starts_with(setting), "{error}");
+    }
+    // Textbook receivers are one tap.
+    for (kernel, taken) in Kernel::ALL
+        .into_iter()
+        .zip([true, true].into_iter().chain([false; 7]))
+    {
+        let textbook = PcfDescriptor {
+            kernel,
+            encoding: DepthEncoding::LinearDistance,
+            textbook: true,
+            ..Default::default()
+        };
+        let expected = if taken {
+            Ok(())
+        } else {
+            Err(PcfError::TextbookKernel(kernel))
+        };
+        assert_eq!(made(&textbook), expected);
+    }
+}
+
+#[test]
+fn a_kernel_that_a_map_was_not_made_for_is_refused() {
+    let (device, queue) = noop();
+    let cube = |reach| {
+        let descriptor = CubeShadowMapDescriptor {
+            size: 16,
+            reach,
+            ..Default::default()
+        };
+        CubeShadowMap::new(&device, &descriptor).unwrap()
+    };
+    let flat = |reach| {
+        let descriptor = ShadowMapDescriptor {
+            size: 16,
+            reach,
+            ..Default::default()
+        };
+        ShadowMap::new(&device, &descriptor).unwrap()
+    };
+    let bound = |kernel, reach: Option<Radius>| {
+        let of = |map| {
+            let descriptor = PcfDescriptor {
+                kernel,
+                map,
+                ..Default::default()
+            };
+            PcfSampler::new(&device, &queue, &descriptor).unwrap()
+        };
+        let usual = CubeShadowMapDescriptor::default().reach;
+        assert_eq!(usual, ShadowMapDescriptor::default().reach);
+        let (cube, flat) = (cube(reach.unwrap_or(usual)), flat(reach.unwrap_or(usual)));
+        let results = [
+            of(MapKind::Cube).bind_group(&device, &cube).map(drop),
+            of(MapKind::Cube).bind_group_of(&device, &cube, 0).map(drop),
+            of(MapKind::Flat).bind_group(&device, &flat).map(drop),
+        ];
+        assert!(results.iter().all(|result| *result == results[0]));
+        results[0]
+    };
+    for kernel in Kernel::ALL {
+        assert_eq!(
+            bound(kernel, None),
+            Ok(()),
+            "{kernel:?} as it is by default"
+        );
+    }
+    let vogel = |radius| {
+        Kernel::Vogel(VogelDisk {
+            radius,
+            ..Default::default()
+        })
+    };
+    let contact = |max_radius| {
+        Kernel::ContactHardening(ContactHardening {
+            max_radius,
+            ..Default::default()
+        })
+    };
+    let (texels, world) = (Radius::Texels, Radius::World);
+    for kernel in [vogel, contact] {
+        for (radius, reach, fits) in [
+            (texels(12.0), texels(8.0), false),
+            (texels(12.0), texels(12.0), true),
+            (world(0.3), world(0.2), false),
+            (world(0.3), world(0.3), true),
+            (world(0.3), texels(64.0), false),
+            (texels(12.0), world(0.3), true),
+            (texels(13.0), world(0.3), false),
+        ] {
+            let expected = match fits {
+                true => Ok(()),
+                false => Err(PcfError::Reach {
+                    kernel: radius,
+                    map: reach,
+                }),
+            };
+            assert_eq!(bound(kernel(radius), Some(reach)), expected);
+        }
+    }
+    let error = bound(vogel(texels(12.0)), Some(texels(8.0))).unwrap_err();
+    let told = error.to_string();
+    for part in ["Texels(12.0)", "Texels(8.0)", "reach: Radius::Texels(12.0)"] {
+        assert!(told.contains(part), "{told}");
+    }
 }
 
 #[test]

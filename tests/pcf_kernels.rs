@@ -47,25 +47,22 @@ fn squares_of_texels_say_what_they_say_with_exact_texels() {
 #[test]
 fn a_vogel_disk_says_what_it_says_with_exact_taps() {
     let Some(yard) = Yard::new() else { return };
-    let (cube, flat) = (yard.cube(), yard.flat());
     for (taps, radius) in [(4, 3.0), (16, 8.0), (64, 24.0)] {
         let radius_on_ground = radius * TEXEL;
+        let [texels, world_units] = [
+            Radius::Texels(radius as f32),
+            Radius::World(radius_on_ground as f32),
+        ];
+        let maps = |reach| (yard.cube_of(reach), yard.flat_of(reach));
+        let ((cube, flat), (world_cube, world_flat)) = (maps(texels), maps(world_units));
         // The disk's axes on the ground: first -z, then -x; in the spot's frame first +z, then -x.
         let world = DVec2::new(-1.0, -1.0);
         let framed = DVec2::new(-1.0, 1.0);
         for (map, axes, radius) in [
-            (AnyMap::from(&cube), world, Radius::Texels(radius as f32)),
-            (
-                AnyMap::from(&cube),
-                world,
-                Radius::World(radius_on_ground as f32),
-            ),
-            (AnyMap::from(&flat), framed, Radius::Texels(radius as f32)),
-            (
-                AnyMap::from(&flat),
-                framed,
-                Radius::World(radius_on_ground as f32),
-            ),
+            (AnyMap::from(&cube), world, texels),
+            (AnyMap::from(&world_cube), world, world_units),
+            (AnyMap::from(&flat), framed, texels),
+            (AnyMap::from(&world_flat), framed, world_units),
         ] {
             let disk = |i, point| vogel(&yard, i, point, taps, radius_on_ground * axes);
             let exact = yard.exact(|_, i, point| disk(i, point));
@@ -177,7 +174,8 @@ fn a_random_disk_scatters_around_the_mean_of_its_disk() {
 fn contact_hardening_is_sharp_at_contacts_and_wide_far_from_them() {
     let Some(mut yard) = Yard::new() else { return };
     yard.points.truncate(1500);
-    let (cube, flat) = (yard.cube(), yard.flat());
+    let widest = Radius::World(0.2);
+    let (cube, flat) = (yard.cube_of(widest), yard.flat_of(widest));
     let light_size = 0.15;
     // A light disk that faces the ground.
     let exact = yard.exact(|yard, _, point| {
@@ -190,7 +188,7 @@ fn contact_hardening_is_sharp_at_contacts_and_wide_far_from_them() {
     let kernel = |light_size| {
         Kernel::ContactHardening(ContactHardening {
             light_size,
-            max_radius: Radius::World(0.2),
+            max_radius: widest,
             search_taps: 32,
             taps: 64,
         })
@@ -234,7 +232,12 @@ fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
     for height in [2.0, 10.0] {
         let place = Affine3A::from_translation(Vec3::Y * height);
         let casters = [shapes::square(half).caster(&gpu.device, place)];
-        let mut map = ShadowMap::new(&gpu.device, &ShadowMapDescriptor::default()).unwrap();
+        let max_radius = Radius::World(1.5 * light_size * height);
+        let descriptor = ShadowMapDescriptor {
+            reach: max_radius,
+            ..Default::default()
+        };
+        let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();
         let light = FlatLight::Directional(DirectionalLight::new(Vec3::Y));
         map.prepare(&gpu.device, &gpu.queue, &ShadowFrame::new(light, &casters))
             .unwrap();
@@ -242,7 +245,7 @@ fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
         let descriptor = PcfDescriptor {
             kernel: Kernel::ContactHardening(ContactHardening {
                 light_size,
-                max_radius: Radius::World(1.5 * light_size * height),
+                max_radius,
                 search_taps: 32,
                 taps: 64,
             }),

@@ -369,12 +369,13 @@ fn every_encoding_number_of_lights_and_method_is_valid() {
     let (device, queue) = noop();
     for kernel in Kernel::ALL {
         for way in ways() {
+            if way.textbook && kernel != Kernel::Hard {
+                continue; // refused
+            }
             let sampler = made(&device, &queue, &PcfDescriptor { kernel, ..way });
-            // Textbook receivers are one tap, whatever the kernel.
-            let called = if way.textbook { Kernel::Hard } else { kernel };
             let host = |many_lights| {
                 host(&PcfDescriptor {
-                    kernel: called,
+                    kernel,
                     many_lights,
                     ..way
                 })

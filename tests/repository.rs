@@ -3,6 +3,10 @@
 
 #[path = "repository/dependencies.rs"]
 mod dependencies;
+#[path = "repository/features.rs"]
+mod features;
+#[path = "repository/figures.rs"]
+mod figures;
 #[path = "repository/pages.rs"]
 mod pages;
 #[path = "repository/rust_version.rs"]

@@ -114,7 +114,7 @@ fn cross(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         |_| {},
         |cube| cross.bind_group(device, &cube.map, 0).unwrap(),
     );
-    let group = cross.bind_group(device, &cube.map, 0).unwrap();
+    let group = cross.bind_group(device, &cube.map, 0)?;
     let draw = |_: &mut Cube<'_>, encoder: &mut wgpu::CommandEncoder| {
         cross.render(&mut stage.host.begin_overlay_pass(encoder), &group);
     };

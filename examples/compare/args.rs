@@ -4,42 +4,33 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{CommandFactory as _, FromArgMatches as _, Parser};
 use shadows::glam::{Vec3, Vec4};
 
 use crate::host::scene::LightKind;
+use crate::host::terminal::note;
 use crate::table::{ROWS, Row};
 
-/// The built-in scenes `--scene` knows besides files.
-const SCENES: [&str; 3] = ["spheres", "courtyard", "teapot"];
+// By their paths, as a test takes this file for itself.
+#[path = "args/mode.rs"]
+mod mode;
+#[path = "args/values.rs"]
+mod values;
+
+use values::{
+    MAX_SIDE, camera, light, light_kind, milliseconds, part, range, scene_name, size, times,
+};
+
 /// What `--technique` calls the few that are compared where nothing else is asked for.
 pub const USUAL: &str = "usual";
-/// What a mode has no use for: it has scenes, sizes and techniques of its own.
-const OF_SCENES: [&str; 12] = [
-    "scenes",
-    "ground",
-    "light",
-    "light_kind",
-    "range",
-    "camera",
-    "size",
-    "techniques",
-    "face",
-    "frames",
-    "seed",
-    "export",
-];
-/// Textures wider than this are refused by many devices (WebGPU's default limit).
-const MAX_SIDE: u32 = 8192;
-
 /// Renders scenes with each shadow technique, measures the error against exact ray casting and the
 /// time a frame takes, and writes pictures and a report.
 #[derive(Clone, Debug, PartialEq, Parser)]
 #[command(name = "compare", disable_help_subcommand = true)]
 pub struct Args {
     /// spheres, courtyard, teapot, or an .obj, .gltf or .glb file; may be given several times.
-    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = scene, default_value = "spheres")]
+    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = scene_name, default_value = "spheres")]
     pub scenes: Vec<String>,
 
     /// Whether a model file is put on a ground square.
@@ -63,6 +54,7 @@ pub struct Args {
     #[arg(
         long,
         value_name = "EX,EY,EZ,TX,TY,TZ[,FOVY]",
+        value_parser = camera,
         allow_hyphen_values = true
     )]
     pub camera: Option<CameraArg>,
@@ -101,15 +93,15 @@ pub struct Args {
 
     /// Instead of a few techniques, try them all over their settings (--technique leaves out the
     /// others), and write which are both fastest and most exact.
-    #[arg(long, group = "mode", conflicts_with_all = ["face", "seed", "export"])]
+    #[arg(long, group = "mode")]
     pub sweep: bool,
 
     /// Advise the cheapest with at most this part of the pixels wrong, such as 0.001.
-    #[arg(long, value_name = "PART", value_parser = part, requires = "sweep")]
+    #[arg(long, value_name = "PART", value_parser = part)]
     pub error_at_most: Option<f64>,
 
     /// Advise the most exact within this time a frame, such as 2ms.
-    #[arg(long, value_name = "TIME", value_parser = milliseconds, requires = "sweep")]
+    #[arg(long, value_name = "TIME", value_parser = milliseconds)]
     pub time_at_most: Option<f64>,
 
     /// Also write the scene as PLY and the rendered masks, for other tools to measure.
@@ -118,23 +110,22 @@ pub struct Args {
 
     /// Instead of a scene, try every technique on the cases where shadows usually break, and write
     /// a table of which pass. Exits with 1 if one fails that should not.
-    #[arg(long, group = "mode", conflicts_with_all = OF_SCENES)]
+    #[arg(long, group = "mode")]
     pub hard_cases: bool,
 
     /// Rounds of the hard cases, each with other lights and cameras.
-    #[arg(long, value_name = "N", default_value_t = 4, requires = "hard_cases",
+    #[arg(long, value_name = "N", default_value_t = 4,
           value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub rounds: u32,
 
     /// Instead, watch how much the techniques shimmer while light or camera move a little, in
     /// pictures of this size.
     #[arg(long, value_name = "WxH", num_args = 0..=1, default_missing_value = "320x180",
-          value_parser = size, group = "mode",
-          conflicts_with_all = ["size", "frames", "seed", "export"])]
+          value_parser = size, group = "mode")]
     pub temporal: Option<[u32; 2]>,
 
     /// Steps of each path of --temporal.
-    #[arg(long, value_name = "N", default_value_t = 64, requires = "temporal",
+    #[arg(long, value_name = "N", default_value_t = 64,
           value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub steps: u32,
 
@@ -142,8 +133,7 @@ pub struct Args {
     /// size, each from its least to at most so many times that, but at two amounts at least; all the way where
     /// no number is given.
     #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1000000",
-          value_parser = times, group = "mode",
-          conflicts_with_all = OF_SCENES.into_iter().filter(|name| *name != "frames"))]
+          value_parser = times, group = "mode")]
     pub growth: Option<f64>,
 
     /// Directory for all that is written; made where it is missing.
@@ -216,32 +206,6 @@ pub struct CameraArg {
     pub fovy: Option<f32>,
 }
 
-impl FromStr for CameraArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let n = numbers(text, 6..=7)?;
-        let eye = Vec3::new(n[0], n[1], n[2]);
-        let target = Vec3::new(n[3], n[4], n[5]);
-        if eye == target {
-            return Err("eye and target are the same point".into());
-        }
-        if eye.x == target.x && eye.z == target.z {
-            return Err("the target is straight above or below the eye; move it sideways".into());
-        }
-        let fovy = match n.get(6) {
-            Some(degrees) if *degrees > 0.0 && *degrees < 180.0 => Some(degrees.to_radians()),
-            Some(degrees) => {
-                return Err(format!(
-                    "field of view {degrees} is not between 0 and 180 degrees"
-                ));
-            }
-            None => None,
-        };
-        Ok(Self { eye, target, fovy })
-    }
-}
-
 impl Args {
     /// `--camera` as eye, target and field of view in radians.
     pub fn camera_override(&self) -> Option<(Vec3, Vec3, Option<f32>)> {
@@ -275,7 +239,7 @@ pub fn parse() -> Args {
         Ok(args) => args,
         Err(error) if error.kind() == ErrorKind::DisplayHelp => error.exit(),
         Err(error) => {
-            eprintln!("{}", one_line(&error));
+            note(&one_line(&error));
             std::process::exit(2)
         }
     }
@@ -284,11 +248,15 @@ pub fn parse() -> Args {
 /// Reads a command line whose first item is the program's name. A scene given twice is kept once.
 ///
 /// # Errors
-/// What clap says; `kind()` is `DisplayHelp` where help was asked for. [`one_line`] shortens it.
+/// What clap says, or that an option is of no use to what is asked for; `kind()` is `DisplayHelp` where
+/// help was asked for. [`one_line`] shortens it.
 pub fn try_parse_from<T: Into<OsString> + Clone>(
     items: impl IntoIterator<Item = T>,
 ) -> Result<Args, clap::Error> {
-    let mut args = Args::try_parse_from(items)?;
+    let mut command = Args::command();
+    let matches = command.try_get_matches_from_mut(items)?;
+    let mut args = Args::from_arg_matches(&matches).map_err(|e| e.format(&mut command))?;
+    mode::check(&args, &matches, &mut command)?;
     let mut seen: Vec<String> = Vec::new();
     args.scenes.retain(|scene| {
         let new = !seen.contains(scene);
@@ -304,106 +272,4 @@ pub fn one_line(error: &clap::Error) -> String {
     let lines = text.lines().map(str::trim);
     let told = lines.take_while(|l| !l.starts_with("Usage:") && !l.starts_with("For more"));
     told.filter(|l| !l.is_empty()).collect::<Vec<_>>().join(" ")
-}
-
-fn scene(text: &str) -> Result<String, String> {
-    let ending = Path::new(text).extension().and_then(|e| e.to_str());
-    let is_file = ending.is_some_and(|e| {
-        ["obj", "gltf", "glb"]
-            .iter()
-            .any(|known| e.eq_ignore_ascii_case(known))
-    });
-    if is_file || SCENES.contains(&text) {
-        return Ok(text.into());
-    }
-    let names = SCENES.join(", ");
-    Err(format!(
-        "no such scene; known are {names}, and .obj, .gltf or .glb files"
-    ))
-}
-
-fn light(text: &str) -> Result<Vec4, String> {
-    let n = numbers(text, 3..=4)?;
-    let w = n.get(3).copied().unwrap_or(1.0);
-    if w != 0.0 && w != 1.0 {
-        return Err(format!(
-            "w is {w}; it must be 1 (a point) or 0 (a direction)"
-        ));
-    }
-    let light = Vec4::new(n[0], n[1], n[2], w);
-    if light == Vec4::ZERO {
-        return Err("a direction cannot be 0,0,0".into());
-    }
-    Ok(light)
-}
-
-fn light_kind(text: &str) -> Result<LightKind, String> {
-    match text {
-        "point" => Ok(LightKind::Point),
-        "spot" => Ok(LightKind::Spot),
-        "directional" => Ok(LightKind::Directional),
-        _ => Err("it must be point, spot or directional".into()),
-    }
-}
-
-fn range(text: &str) -> Result<f32, String> {
-    let range = number(text)?;
-    if range > 0.0 {
-        Ok(range)
-    } else {
-        Err("it must be above 0".into())
-    }
-}
-
-fn part(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(part) if (0.0..=1.0).contains(&part) => Ok(part),
-        _ => Err("it must be a number from 0 to 1".into()),
-    }
-}
-
-fn times(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(times) if times >= 1.0 => Ok(times),
-        _ => Err("it must be a number of at least 1".into()),
-    }
-}
-
-fn milliseconds(text: &str) -> Result<f64, String> {
-    let number = text
-        .strip_suffix("ms")
-        .and_then(|number| number.parse().ok());
-    let time = number.filter(|time: &f64| time.is_finite() && *time > 0.0);
-    time.ok_or_else(|| "it must be milliseconds above 0, such as 2ms or 0.5ms".into())
-}
-
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let side = |s: &str| s.parse().ok().filter(|n| (1..=MAX_SIDE).contains(n));
-    let sides = text.split_once(['x', 'X']);
-    match sides.map(|(w, h)| (side(w), side(h))) {
-        Some((Some(w), Some(h))) => Ok([w, h]),
-        _ => Err(format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}")),
-    }
-}
-
-fn number(text: &str) -> Result<f32, String> {
-    let number: Result<f32, _> = text.trim().parse();
-    let number = number.map_err(|_| format!("{text:?} is not a number"))?;
-    if number.is_finite() {
-        Ok(number)
-    } else {
-        Err(format!("{text} is not finite"))
-    }
-}
-
-fn numbers(text: &str, count: std::ops::RangeInclusive<usize>) -> Result<Vec<f32>, String> {
-    let numbers: Vec<f32> = text.split(',').map(number).collect::<Result<_, _>>()?;
-    if count.contains(&numbers.len()) {
-        return Ok(numbers);
-    }
-    let [least, most] = [count.start(), count.end()];
-    Err(format!(
-        "expected {least} or {most} numbers, got {}",
-        numbers.len()
-    ))
 }

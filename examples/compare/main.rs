@@ -16,6 +16,7 @@ mod output;
 mod plot;
 mod progress;
 mod report;
+mod scenes;
 mod shadow;
 mod snippet;
 mod soft;
@@ -33,11 +34,12 @@ use shadows::reference::ReferenceImage;
 
 use crate::args::Args;
 use crate::host::gpu::{Gpu, describe};
-use crate::host::scene::{self, Scene};
+use crate::host::scene::{self, LightKind, Scene};
+use crate::host::terminal::{note, say};
 use crate::measure::Plan;
 use crate::output::{File, Results};
 use crate::progress::progress;
-use crate::report::LeftOut;
+use crate::report::{LeftOut, Report};
 use crate::stage::Stage;
 use crate::sweep::Wishes;
 use crate::technique::{Config, Technique};
@@ -48,7 +50,7 @@ fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) => {
             let message = format!("{error:#}").replace(['\n', '\r'], " ");
-            eprintln!("error: {message}");
+            note(&format!("error: {message}"));
             ExitCode::from(2)
         }
     }
@@ -64,65 +66,74 @@ struct Job {
 
 fn run(args: &Args) -> Result<ExitCode> {
     if args.hard_cases {
-        return hard_cases(args);
+        let gpu = opened(args, [&args.out])?;
+        return Ok(match hard::run(&gpu, &args.out, args.rounds)? {
+            0 => ExitCode::SUCCESS,
+            _ => ExitCode::FAILURE,
+        });
     }
     if let Some(times) = args.growth {
-        return growth(args, times);
+        let gpu = opened(args, [&args.out])?;
+        growth::run(&gpu, times, args.frames, &args.out)?;
+    } else if let Some(size) = args.temporal {
+        temporal(args, size)?;
+    } else {
+        each_scene(args)?;
     }
-    if let Some(size) = args.temporal {
-        return temporal(args, size);
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The device, once it is sure that results can be written.
+fn opened<'a>(args: &Args, dirs: impl IntoIterator<Item = &'a PathBuf>) -> Result<Gpu> {
+    for dir in dirs {
+        output::check(dir)?;
     }
+    let gpu = Gpu::new(args.adapter.as_deref())?;
+    note(&describe(&gpu.info));
+    Ok(gpu)
+}
+
+fn each_scene(args: &Args) -> Result<()> {
     // Everything that can be wrong with what was asked comes before the first picture.
     let jobs: Vec<Job> = args
         .scene_dirs()
         .into_iter()
         .map(|(name, dir)| job(args, name, dir))
         .collect::<Result<_>>()?;
-    for job in &jobs {
-        output::check(&job.dir)?;
+    let gpu = opened(args, jobs.iter().map(|job| &job.dir))?;
+    let mut results = Vec::new();
+    let mut reports = Vec::new();
+    for job in jobs {
+        let name = job.scene.name.clone();
+        let (files, report) = compare(args, &gpu, job).with_context(|| format!("scene {name}"))?;
+        results.push(files);
+        reports.extend(report);
     }
-    let gpu = Gpu::new(args.adapter.as_deref())?;
-    eprintln!("{}", describe(&gpu.info));
-    let results: Vec<Results> = jobs
-        .into_iter()
-        .map(|job| {
-            let name = job.scene.name.clone();
-            compare(args, &gpu, job).with_context(|| format!("scene {name}"))
-        })
-        .collect::<Result<_>>()?;
+    if reports.len() > 1 {
+        results.push(Results {
+            dir: args.out.clone(),
+            files: vec![File::new("scenes.md", scenes::markdown(&reports))],
+            report: "scenes.md",
+            summary: "all scenes:".into(),
+            export: None,
+        });
+    }
     // Written only now, so that a failure leaves nothing half done.
     output::write_all(&results)?;
     for result in &results {
-        println!("{}", result.summary);
-        println!("{}", result.dir.join(result.report).display());
+        say(&result.summary)?;
+        say(&result.dir.join(result.report).display().to_string())?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
-fn hard_cases(args: &Args) -> Result<ExitCode> {
-    let gpu = Gpu::new(args.adapter.as_deref())?;
-    eprintln!("{}", describe(&gpu.info));
-    Ok(match hard::run(&gpu, &args.out, args.rounds)? {
-        0 => ExitCode::SUCCESS,
-        _ => ExitCode::FAILURE,
-    })
-}
-
-fn growth(args: &Args, times: f64) -> Result<ExitCode> {
-    let gpu = Gpu::new(args.adapter.as_deref())?;
-    eprintln!("{}", describe(&gpu.info));
-    growth::run(&gpu, times, args.frames, &args.out)?;
-    Ok(ExitCode::SUCCESS)
-}
-
-fn temporal(args: &Args, size: [u32; 2]) -> Result<ExitCode> {
+fn temporal(args: &Args, size: [u32; 2]) -> Result<()> {
     let scenes = args.scene_dirs();
     let loaded: Vec<(Scene, PathBuf)> = scenes
         .into_iter()
         .map(|(name, dir)| Ok((asked_scene(args, name, size)?, dir)))
         .collect::<Result<_>>()?;
-    let gpu = Gpu::new(args.adapter.as_deref())?;
-    eprintln!("{}", describe(&gpu.info));
+    let gpu = opened(args, loaded.iter().map(|(_, dir)| dir))?;
     let plan = temporal::Plan {
         techniques: &args.techniques,
         side: args.face,
@@ -133,17 +144,26 @@ fn temporal(args: &Args, size: [u32; 2]) -> Result<ExitCode> {
         temporal::run(&gpu, &scene, &plan, &dir)
             .with_context(|| format!("scene {}", scene.name))?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }
 
 /// A scene with what the command line replaces in it.
 fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
     let ground = args.ground == args::Ground::Auto;
     let mut scene = scene::load(name, ground)?;
+    if !scene.left_out.is_empty() {
+        note(&format!(
+            "{name}: left out are {}",
+            scene.left_out.join(", ")
+        ));
+    }
     scene.override_with(args.light, args.range, args.camera_override());
     if let Some(kind) = args.light_kind {
         let made = scene.shine_as(kind);
         made.with_context(|| format!("scene {name}: --light-kind"))?;
+    }
+    if args.range.is_some() && scene.light_kind() == LightKind::Directional {
+        bail!("scene {name}: --range is of no use, a directional light has none");
     }
     host::renderer::view(&scene, size).with_context(|| format!("scene {name}: camera"))?;
     Ok(scene)
@@ -180,7 +200,7 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
         })
         .collect();
     for left in &left_out {
-        eprintln!("{} is left out: {}", left.name, left.reason);
+        note(&format!("{} is left out: {}", left.name, left.reason));
     }
     Ok(Job {
         scene,
@@ -190,7 +210,8 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     })
 }
 
-fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
+/// A scene's files, and what they say unless they are of a sweep.
+fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<(Results, Option<Report>)> {
     let stage = Stage::new(gpu, job.scene, args.size)?;
     let name = &stage.scene.name;
 
@@ -202,7 +223,7 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
     if args.sweep {
         let results = swept(args, gpu, &stage, &reference, job.techniques)?;
         let dir = job.dir;
-        return Ok(Results { dir, ..results });
+        return Ok((Results { dir, ..results }, None));
     }
     let plan = Plan {
         techniques: &job.techniques,
@@ -215,7 +236,7 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
     bar.finish_and_clear();
     soft::judge(gpu, &stage, &reference, &mut measured)?;
 
-    let report = report::Report::new(gpu, &stage, &reference, &measured, &job.left_out);
+    let report = Report::new(gpu, &stage, &reference, &measured, &job.left_out);
     let mut files = vec![
         File::new("report.json", report.json()?),
         File::new("report.md", report.markdown(gpu, args.export)),
@@ -225,13 +246,14 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<Results> {
         ),
     ];
     files.extend(output::pictures(args.size, &reference, &measured)?);
-    Ok(Results {
+    let results = Results {
         dir: job.dir,
         files,
         report: "report.md",
         summary: report.summary(),
         export: args.export.then_some(stage.scene),
-    })
+    };
+    Ok((results, Some(report)))
 }
 
 fn swept(

@@ -86,17 +86,24 @@ fn error_picture(shaded: &[[u8; 3]], verdicts: &[Verdict]) -> Vec<[u8; 3]> {
         .collect()
 }
 
-/// Whether results can go to a directory, as far as that shows before anything is written.
+/// Whether results can be written to a directory: by making it, and a file in it, and taking both back.
 ///
 /// # Errors
-/// If something that is no directory is in the way.
+/// What is in the way, before any work is done.
 pub fn check(dir: &Path) -> Result<()> {
     for place in dir.ancestors().filter(|place| place.exists()) {
         if !place.is_dir() {
             bail!("{} is no directory; pass another --out", place.display());
         }
     }
-    Ok(())
+    let trial = Results {
+        dir: dir.into(),
+        files: vec![File::new("trial", "")],
+        report: "",
+        summary: String::new(),
+        export: None,
+    };
+    Staged::new(&trial).context("pass another --out").map(drop)
 }
 
 /// Writes the results of all scenes. Each file appears in its place only when all are complete;
@@ -132,6 +139,7 @@ struct Staged<'a> {
 }
 
 impl<'a> Staged<'a> {
+    /// Writes the files where they are not seen yet.
     fn new(results: &'a Results) -> Result<Self> {
         let dir = &results.dir;
         let missing = dir

@@ -32,6 +32,8 @@ pub struct Report {
     pub shadow_near: Option<f32>,
     pub scene_name: String,
     pub scene: Vec<Object>,
+    /// What the scene's file holds besides.
+    pub left_out_of_file: Vec<String>,
     /// Techniques that cannot shadow this light, each with the reason.
     pub left_out: Vec<LeftOut>,
     pub techniques: Vec<Technique>,
@@ -94,6 +96,8 @@ pub struct Times {
 pub struct Technique {
     pub name: String,
     pub settings: Value,
+    /// Whether what did not move was kept from frame to frame, as all of it did not.
+    pub keeps: bool,
     pub prepare_ms: Times,
     pub generate_ms: Times,
     pub shade_ms: Times,
@@ -144,6 +148,7 @@ impl Report {
             shadow_near: stage.scene.shadow_near,
             scene_name: stage.scene.name.clone(),
             scene: objects(stage),
+            left_out_of_file: stage.scene.left_out.clone(),
             left_out: left_out.to_vec(),
             techniques: measured.iter().map(Technique::new).collect(),
             reference: Reference {
@@ -223,7 +228,11 @@ impl Report {
             self.scene.len(),
             casters.len(),
             casters.len() - closed,
-        )
+        )?;
+        match self.left_out_of_file.as_slice() {
+            [] => Ok(()),
+            others => writeln!(out, "Left out of its file: {}.\n", others.join(", ")),
+        }
     }
 
     fn write_table(&self, out: &mut String) -> std::fmt::Result {
@@ -325,6 +334,7 @@ impl Technique {
         Self {
             name: measured.technique.name.to_string(),
             settings: measured.technique.settings(),
+            keeps: measured.technique.config.keeps(),
             prepare_ms: Times::new(&measured.prepare),
             generate_ms: Times::new(&measured.generate),
             shade_ms: Times::new(&measured.shade),
@@ -341,6 +351,13 @@ impl Technique {
             draws: measured.cost.draws,
             triangles_drawn: measured.cost.triangles,
         }
+    }
+}
+
+impl Adapter {
+    /// On one line.
+    pub fn described(&self) -> String {
+        format!("{} ({}, {})", self.name, self.backend, self.driver)
     }
 }
 

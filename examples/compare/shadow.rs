@@ -157,6 +157,9 @@ impl Shadow {
                 let counts = match descriptor.counter {
                     Counter::Stencil => None,
                     Counter::Exact => Some(exact_count(gpu, label, renderer)?),
+                    other => {
+                        anyhow::bail!("{other:?} is a counter that this example does not know")
+                    }
                 };
                 let volumes = Box::new(volumes);
                 (Means::Volume { volumes, counts }, lit)

@@ -10,12 +10,12 @@ use crate::technique::Config;
 
 /// Statements that bind `map` and `sampler`, or `volumes`. Fields that are as the default has them
 /// are left to it. Labels, and what volumes need to know of the host's depth buffer, are the host's.
-/// Keeping what did not move is off where it was off when timed; a comment says so.
+/// What did not move is kept, as by default: not to keep it is for timing alone.
 pub fn of(config: &Config) -> String {
-    match config {
-        Config::Cube { map, sampler } => cube(map) + &pcf(sampler),
-        Config::Flat { map, sampler } => flat(map) + &pcf(sampler),
-        Config::Volume(volume) => volumes(volume),
+    match config.kept() {
+        Config::Cube { map, sampler } => cube(&map) + &pcf(&sampler),
+        Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
+        Config::Volume(volume) => volumes(&volume),
     }
 }
 
@@ -41,16 +41,6 @@ impl Literal {
     fn written(mut self, name: &str, value: &str, is_default: bool) -> Self {
         if !is_default {
             self.fields += &format!("    {name}: {value},\n");
-        }
-        self
-    }
-
-    /// Whether what did not move is kept, which the default does.
-    fn keeping(mut self, name: &str, keeps: bool) -> Self {
-        if !keeps {
-            self.fields += &format!(
-                "    // For timing alone: leave it out, and what stands still is kept.\n    {name}: false,\n"
-            );
         }
         self
     }
@@ -100,7 +90,7 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
         .field("format", FORMAT, format, &default.format)
         .field("reach", "Radius::", reach, &default.reach)
         .field("cull_casters", "", cull_casters, &default.cull_casters)
-        .keeping("cache", *cache)
+        .field("cache", "", cache, &default.cache)
         .field("sides", "CasterSides::", sides, &default.sides)
         .field(
             "max_faces_per_frame",
@@ -142,7 +132,7 @@ fn flat(map: &ShadowMapDescriptor<'_>) -> String {
             &default.unclipped_depth,
         )
         .field("reach", "Radius::", reach, &default.reach)
-        .keeping("cache", *cache)
+        .field("cache", "", cache, &default.cache)
         .finish()
 }
 
@@ -193,7 +183,12 @@ fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
         .field("extrusion", "Extrusion::", extrusion, &default.extrusion)
         .field("start_from", "StartFrom::", start_from, &default.start_from)
         .field("culling", "", culling, &default.culling)
-        .keeping("keep_between_frames", *keep_between_frames)
+        .field(
+            "keep_between_frames",
+            "",
+            keep_between_frames,
+            &default.keep_between_frames,
+        )
         .field(
             "silhouettes",
             "Silhouettes::",

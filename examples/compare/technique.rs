@@ -65,6 +65,17 @@ impl Config {
         }
     }
 
+    /// As a host would have it: what does not move is kept, as by default.
+    pub fn kept(&self) -> Self {
+        let mut kept = self.clone();
+        match &mut kept {
+            Self::Cube { map, .. } => map.cache = true,
+            Self::Flat { map, .. } => map.cache = true,
+            Self::Volume(volume) => volume.keep_between_frames = true,
+        }
+        kept
+    }
+
     /// The kernel by which the map is read, if there is a map.
     pub fn kernel(&self) -> Option<Kernel> {
         match self {

@@ -1,6 +1,8 @@
 //! Pictures: 8-bit PNG files in memory.
 
-use anyhow::Result;
+use std::path::Path;
+
+use anyhow::{Context as _, Result};
 
 /// A grey picture, one byte a pixel, rows from the top.
 pub fn grey_png(size: [u32; 2], pixels: &[u8]) -> Result<Vec<u8>> {
@@ -21,6 +23,17 @@ fn encode(size: [u32; 2], bytes: &[u8], color: png::ColorType) -> Result<Vec<u8>
     writer.write_image_data(bytes)?;
     writer.finish()?;
     Ok(file)
+}
+
+/// Size and bytes of a file of 8 bits a channel.
+pub fn read_png(path: &Path) -> Result<([u32; 2], Vec<u8>)> {
+    let file = std::io::BufReader::new(std::fs::File::open(path)?);
+    let mut reader = png::Decoder::new(file).read_info()?;
+    let bytes = reader.output_buffer_size().context("it is too large")?;
+    let mut pixels = vec![0; bytes];
+    let info = reader.next_frame(&mut pixels)?;
+    pixels.truncate(info.buffer_size());
+    Ok(([info.width, info.height], pixels))
 }
 
 /// The colours of RGBA pixels.

@@ -30,6 +30,6 @@ pub fn radius_in_texels(kernel: Kernel) -> f32 {
     match kernel.radius() {
         Radius::Texels(radius) if kernel.uses_pixel() => radius * 3.0_f32.sqrt() + 0.5,
         Radius::Texels(radius) => radius,
-        Radius::World(_) => f32::INFINITY, // no pixel is safely interior
+        _ => f32::INFINITY, // no pixel is safely interior
     }
 }

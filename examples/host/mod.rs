@@ -13,4 +13,5 @@ pub mod scene;
 pub mod scene_gpu;
 pub mod shapes;
 mod targets;
+pub mod terminal;
 pub mod timer;

@@ -30,6 +30,9 @@ pub enum LightError {
     /// A directional light without a direction.
     #[error("a directional light needs a direction; (0, 0, 0) was passed")]
     Direction,
+    /// A spot light whose direction is none.
+    #[error("spot direction {0:?} is none; pass a finite vector other than (0, 0, 0)")]
+    SpotDirection([f32; 3]),
     /// The cone of a spot light is none.
     #[error("spot half_angle {0} is out of range; pass radians, 0 < half_angle < pi / 2")]
     HalfAngle(f32),

@@ -4,10 +4,12 @@ use thiserror::Error;
 
 use super::CasterError;
 use super::LightError;
+use super::names::names;
 
 /// A field of [`Bias`](crate::Bias) that is out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("bias {field} = {value}; pass a finite number of texels, at least 0")]
+#[non_exhaustive]
 pub struct BiasError {
     /// The field.
     pub field: &'static str,
@@ -80,11 +82,34 @@ pub enum CubeShadowMapError {
         "StillLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
     )]
     StillLayers,
+    /// Layers of still casters where there are none.
+    #[error(
+        "StillLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false) or several faces at once (FacePasses::Multiview); pass StillLayers::Auto or Never"
+    )]
+    NoStillLayers,
     /// A view of one cube of a cube array, on a back end that has none.
     #[error(
         "wgpu's GL back end reads no single cube out of a cube array; read the array (PcfDescriptor::many_lights), or make the map without cube_array"
     )]
     CubeView,
+    /// A view of a map that holds something else.
+    #[error(
+        "the map holds {map:?} depths, the view was made for {cross:?}; make both with the same"
+    )]
+    Encoding {
+        /// What the map holds.
+        map: crate::DepthEncoding,
+        /// What the view shows.
+        cross: crate::DepthEncoding,
+    },
+    /// A light that the map has no place for.
+    #[error("light {light} was asked for of a map for {lights}, counted from 0")]
+    NoSuchLight {
+        /// The place that was passed.
+        light: usize,
+        /// Lights the map was made for.
+        lights: usize,
+    },
     /// More lights in a frame than the map was made for.
     #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
     TooManyLights {
@@ -95,7 +120,8 @@ pub enum CubeShadowMapError {
     },
     /// Faces are to be drawn in one pass on a device that cannot.
     #[error(
-        "FacePasses::Multiview needs a device with {missing:?} and max_multiview_view_count of at least 6 (this one has {views}); ask for what Support::features and Support::limits give, or pass FacePasses::Auto"
+        "FacePasses::Multiview needs a device with {} and max_multiview_view_count of at least 6 (this one has {views}); ask for what Support::features and Support::limits give, or pass FacePasses::Auto",
+        names(*missing)
     )]
     Multiview {
         /// The features that the device lacks.
@@ -140,6 +166,17 @@ pub enum ShadowMapError {
     /// The reach of the kernels is out of range.
     #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
     Reach(crate::Radius),
+    /// A directional light's map has not as many texels to spare as kernels reach.
+    #[error(
+        "kernels that reach {reach} texels need a map of more: a directional light's is made wider by that and one more on each side, at most by half, so pass a size of at least {}, not {size}, or a smaller reach",
+        (4.0 * (reach + 1.0)).ceil()
+    )]
+    ReachOfSize {
+        /// Texels that kernels reach.
+        reach: f32,
+        /// Texels along a side.
+        size: u32,
+    },
     /// The distance up to which a view shows shadows is out of range.
     #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
     Distance(f32),
@@ -245,6 +282,26 @@ pub enum PcfError {
         "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
     )]
     NoCubeArray,
+    /// A kernel that reaches farther than the map was made for.
+    #[error(
+        "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `reach: Radius::{kernel:?}` or more of that unit, or the sampler with a narrower kernel"
+    )]
+    Reach {
+        /// The kernel's radius.
+        kernel: crate::Radius,
+        /// The map's reach.
+        map: crate::Radius,
+    },
+    /// A setting for cube maps of a sampler that reads others.
+    #[error(
+        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Cube"
+    )]
+    CubesOnly {
+        /// The field.
+        setting: &'static str,
+        /// The maps that the sampler is to read.
+        map: crate::MapKind,
+    },
     /// A sampler for one light and a cube array, on a back end that reads no single cube out of it.
     #[error(
         "wgpu's GL back end reads no single cube out of a cube array; make the sampler with many_lights, or the map without cube_array"
@@ -265,4 +322,9 @@ pub enum PcfError {
         "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"
     )]
     Textbook(crate::DepthEncoding),
+    /// Textbook receivers with a kernel, which they do not have.
+    #[error(
+        "textbook receivers take one tap instead of {0:?}; leave kernel at its default, or pass textbook: false"
+    )]
+    TextbookKernel(crate::Kernel),
 }

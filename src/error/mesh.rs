@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::names::names;
+
 /// What can be wrong with triangles given to [`Adjacency`](crate::mesh::Adjacency).
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -88,7 +90,7 @@ pub enum CasterMeshError {
         vertices: u32,
     },
     /// The host's position buffer lacks a usage.
-    #[error("the position buffer was created without {missing:?}; add it to its usages")]
+    #[error("the position buffer was created without {}; add it to its usages", names(*missing))]
     BufferUsage {
         /// What is missing.
         missing: wgpu::BufferUsages,

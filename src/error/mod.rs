@@ -3,6 +3,7 @@
 mod light;
 mod map;
 mod mesh;
+mod names;
 #[cfg(feature = "reference")]
 mod reference;
 mod volume;

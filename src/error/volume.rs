@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::CasterError;
 use super::LightError;
+use super::names::names;
 
 /// What can be wrong when a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) is made or
 /// prepared.
@@ -19,7 +20,10 @@ pub enum ShadowVolumeError {
     #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
     SampleCount(u32),
     /// The device was created without a feature that the descriptor needs.
-    #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
+    #[error(
+        "{needed_by} needs {}; ask for it when the device is created (see Support)",
+        names(*feature)
+    )]
     MissingFeature {
         /// What is missing.
         feature: wgpu::Features,
@@ -167,7 +171,10 @@ pub enum ScreenPassError {
         what: &'static str,
     },
     /// The device was created without a feature that this needs.
-    #[error("{needed_by} needs {feature:?}; ask for it when the device is created (see Support)")]
+    #[error(
+        "{needed_by} needs {}; ask for it when the device is created (see Support)",
+        names(*feature)
+    )]
     MissingFeature {
         /// What is missing.
         feature: wgpu::Features,
@@ -184,7 +191,8 @@ pub enum ScreenPassError {
     },
     /// Shaders cannot read the source as they have to.
     #[error(
-        "the source is {format:?} with {usage:?}; pass a format that shaders read as float, made with TEXTURE_BINDING"
+        "the source is {format:?} with {}; pass a format that shaders read as float, made with TEXTURE_BINDING",
+        names(*usage)
     )]
     Unreadable {
         /// Its format.

@@ -44,6 +44,7 @@ pub struct CubeCross {
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
     pipeline: wgpu::RenderPipeline,
+    encoding: DepthEncoding,
 }
 
 impl CubeCross {
@@ -62,6 +63,7 @@ impl CubeCross {
             }),
             layout,
             label,
+            encoding: descriptor.encoding,
         }
     }
 
@@ -69,6 +71,7 @@ impl CubeCross {
     /// [`CubeShadowMap::texture_revision`] changes.
     ///
     /// # Errors
+    /// [`CubeShadowMapError`] if the map has another encoding or was made for fewer lights; and
     /// [`CubeShadowMapError::CubeView`], as [`CubeShadowMap::view`].
     pub fn bind_group(
         &self,
@@ -76,6 +79,16 @@ impl CubeCross {
         map: &CubeShadowMap,
         light: usize,
     ) -> Result<wgpu::BindGroup, CubeShadowMapError> {
+        if map.encoding() != self.encoding {
+            return Err(CubeShadowMapError::Encoding {
+                map: map.encoding(),
+                cross: self.encoding,
+            });
+        }
+        let lights = map.most_lights();
+        if light >= lights {
+            return Err(CubeShadowMapError::NoSuchLight { light, lights });
+        }
         let view = map.view(light)?;
         Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),

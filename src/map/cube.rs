@@ -19,7 +19,9 @@ use super::statistics::{Clock, CubeStatistics};
 use super::step::depth_step;
 use super::still_layer::StillLayer;
 use super::texture::Textures;
+use super::transfers::Transfers;
 use crate::error::CubeShadowMapError;
+use crate::submissions::Submissions;
 use crate::{Bias, PointLight, Radius};
 
 /// Omnidirectional depth maps for point lights: six faces each, drawn only where a caster is, and
@@ -70,7 +72,7 @@ use crate::{Bias, PointLight, Radius};
 pub struct CubeShadowMap {
     pub(super) size: u32,
     pub(super) bias: Bias,
-    pub(super) reach: Radius,
+    pub(crate) reach: Radius,
     pub(super) label: String,
     pub(super) array: bool,
     pub(super) format: wgpu::TextureFormat,
@@ -88,6 +90,8 @@ pub struct CubeShadowMap {
     /// For a map that draws several faces in one pass.
     pub(super) joint: Option<Joint>,
     pub(super) lights: resources::Lights,
+    /// The [`texture_revision`](Self::texture_revision) for which those buffers are.
+    pub(super) lights_revision: u64,
     pub(super) instances: wgpu::Buffer,
     pub(super) scene: Scene,
     /// Kept only for its memory: the casters that a light reaches.
@@ -100,9 +104,11 @@ pub struct CubeShadowMap {
     /// The layers of what stands still, by slot and face, and the fewest triangles worth one.
     pub(super) still: Vec<[Option<StillLayer>; 6]>,
     pub(super) still_least: Option<u64>,
-    // What the uniforms hold, by light and by slot.
+    // What the uniforms hold once the transfers are encoded, by light and by slot.
     pub(super) written_lights: Vec<Option<LightUniform>>,
     pub(super) written_faces: Vec<Option<[f32; 2]>>,
+    pub(super) transfers: Transfers,
+    pub(super) submissions: Submissions,
     pub(super) statistics: CubeStatistics,
     pub(super) reordered: u64,
 }
@@ -157,6 +163,7 @@ impl CubeShadowMap {
                 textures.allocate(device, slot);
             }
         }
+        let textures_revision = textures.revision();
         Ok(Self {
             size,
             bias,
@@ -175,7 +182,10 @@ impl CubeShadowMap {
             face_uniforms,
             face_group,
             lights: resources::lights(device, &label, slots as u64, cube_array),
+            lights_revision: textures_revision,
             instances: resources::instances(device, &label, 1),
+            transfers: Transfers::new(device, &label),
+            submissions: Submissions::default(),
             label,
             scene: Scene::new(descriptor.sides),
             reached: Vec::new(),
@@ -210,21 +220,38 @@ impl CubeShadowMap {
         let clock = Clock::start();
         frame.validate(self.slots.len())?;
         self.scene.compare(frame.casters, device)?;
-        self.slots.iter_mut().for_each(Slot::catch_up);
+        let encoder_dropped = self.submissions.take_dropped();
+        if encoder_dropped {
+            self.invalidate();
+        }
         self.take_over(frame);
         self.allocate(device);
+        self.replace_lights(device, queue);
         let plans = self.plan(frame);
         self.reserve(device, &plans)?;
+        let not_encoded = self.is_pending();
+        if not_encoded {
+            self.forget_transfers();
+        }
         self.follow(&plans);
-        self.record_draws(device, queue, &plans, frame);
-        self.write_lights(queue, frame.lights);
+        self.record_draws(device, &plans, frame);
+        self.write_lights(frame.lights);
+        self.transfers.stage(device);
 
         let mut statistics = self.tally(&plans);
         self.count_draws(&mut statistics, &plans);
         statistics.bytes = self.bytes();
+        statistics.uploaded = self.transfers.size();
+        statistics.not_encoded = not_encoded;
+        statistics.encoder_dropped = encoder_dropped;
         statistics.prepare = clock.elapsed();
         self.statistics = statistics;
         Ok(())
+    }
+
+    /// Whether an `encode` would record anything.
+    fn is_pending(&self) -> bool {
+        self.transfers.size() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
     }
 
     /// The matrix of a face for a light of the last [`prepare`](Self::prepare), world space to clip
@@ -264,9 +291,10 @@ impl CubeShadowMap {
     }
 
     /// Changes when a bind group of this map must be made again: when its texture came or went, or
-    /// (for bind groups of one light) when a light changed its place. A bind group from before the
-    /// first texture shows everything in range lit; others that were not made again show a light's
-    /// shadows as they were.
+    /// (for bind groups of one light) when a light changed its place. Compare it after each
+    /// [`prepare`](Self::prepare), before the bind groups are used. To a bind group that was not made
+    /// again all lights are dark, so that nobody takes it for right.
+    #[must_use]
     pub fn texture_revision(&self) -> u64 {
         self.textures.revision() + self.reordered
     }

@@ -9,6 +9,7 @@ use crate::{Bias, PointLight, Radius, View};
 
 /// What the texels of a [`CubeShadowMap`](crate::CubeShadowMap) hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum DepthEncoding {
     /// `near / d`, where `d` is the distance along the face's major axis: infinite reverse-Z, 0
     /// where no caster is. Linear over a face for any plane, and needs no fragment shader.
@@ -40,6 +41,7 @@ impl DepthEncoding {
 
 /// Which sides of casters are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CasterSides {
     /// The sides that face the light, where that shows the same as both: for closed meshes each of
     /// whose surfaces encloses a positive volume (found when the mesh is made; never for meshes in
@@ -62,6 +64,7 @@ pub enum CasterSides {
 
 /// When a [`CubeShadowMap`](crate::CubeShadowMap) takes its texture memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Allocation {
     /// In the first `prepare` in which a light reaches a caster; given back in the first without
     /// any light, and in the 60th in a row in which none reaches a caster (with a cube for each
@@ -105,9 +108,10 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// `d * d / (near * 65536)` at distance `d`.
     pub format: wgpu::TextureFormat,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the
-    /// widest that reads the map. Faces that only such kernels reach from what a frame's
-    /// [`view`](CubeFrame::view) shows are kept up to date, too. Default 12 texels, as wide as any
-    /// kernel is by default. Greater than 0, at most 64 texels.
+    /// widest that reads the map; [`PcfSampler::bind_group`](crate::PcfSampler::bind_group) refuses
+    /// wider ones. Faces that only such kernels reach from what a frame's [`view`](CubeFrame::view)
+    /// shows are kept up to date, too. Default 12 texels, as wide as any kernel is by default. Greater
+    /// than 0, at most 64 texels. A reach in world units holds kernels of up to 12 texels, too.
     pub reach: Radius,
     /// Whether casters go only on the faces they touch. Default true; false draws every caster on
     /// every face, for measuring what culling is worth.
@@ -125,7 +129,8 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
     pub passes: FacePasses,
     /// Whether casters that stand still are kept in a second layer under those that move. Default
-    /// [`StillLayers::Auto`]. Without `cache`, and with [`FacePasses::Multiview`], there are none.
+    /// [`StillLayers::Auto`]. Without `cache`, and with [`FacePasses::Multiview`], there are none, and
+    /// [`StillLayers::AtLeast`] is refused.
     pub still_layers: StillLayers,
 }
 
@@ -174,6 +179,10 @@ impl CubeShadowMapDescriptor<'_> {
         }
         self.passes.validate(device)?;
         self.still_layers.validate(&device.adapter_info())?;
+        let layers = self.cache && !self.passes.joint();
+        if matches!(self.still_layers, StillLayers::AtLeast(_)) && !layers {
+            return Err(CubeShadowMapError::NoStillLayers);
+        }
         self.bias.validate()?;
         if self.bias.slope_scale != 0.0 && self.encoding == DepthEncoding::LinearDistance {
             return Err(CubeShadowMapError::SlopeScale);
@@ -221,7 +230,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             allocation: Allocation::default(),
             encoding: DepthEncoding::default(),
             format: wgpu::TextureFormat::Depth32Float,
-            reach: Radius::Texels(12.0),
+            reach: Radius::Texels(Radius::USUAL_TEXELS),
             cull_casters: true,
             cache: true,
             sides: CasterSides::default(),

@@ -1,40 +1,65 @@
 //! The passes of a cube map.
 
-use std::sync::atomic::Ordering;
-
 use super::cube::CubeShadowMap;
 use super::draws::Draw;
 use super::face::CubeFace;
 use super::resources::UNIFORM_STRIDE;
+use super::slot::Slot;
 
 impl CubeShadowMap {
-    /// Records the passes that the last [`prepare`](Self::prepare) found necessary; once: a second
-    /// call before the next `prepare` records nothing. What is recorded must be submitted.
+    /// Records what the last [`prepare`](Self::prepare) found necessary: its passes, and what it tells
+    /// receivers of the lights. Once: a second call before the next `prepare` records nothing.
+    ///
+    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
+    /// lights as they were; of a map that was never drawn they see all lights dark. What is recorded
+    /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
+    /// ([`CubeStatistics::encoder_dropped`](crate::CubeStatistics)).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        // A bind group that was made before there were texels, and is not made again, says lit.
-        for view in self.textures.blank() {
+        let mut recorded = self.transfers.encode(encoder);
+        for view in self.textures.to_be_cleared() {
             drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(&self.label),
                 depth_stencil_attachment: Some(depth_attachment(view, self.clear())),
                 ..Default::default()
             }));
+            recorded = true;
         }
-        for (index, slot) in self.slots.iter().enumerate() {
-            let pending = slot.pending.swap(0, Ordering::Relaxed);
-            if let Some(joint) = &self.joint {
-                self.encode_joint(encoder, index, pending, joint);
-                slot.encoded.fetch_or(pending, Ordering::Relaxed);
-                continue;
-            }
-            for face in CubeFace::ALL {
-                if pending & face.bit() == 0 {
-                    continue;
-                }
+        self.textures.placeholder_cleared();
+        for index in 0..self.slots.len() {
+            let pending = self.slots[index].pending;
+            let cleared = match &self.joint {
+                Some(joint) => self.encode_joint(encoder, index, pending, joint),
+                None => self.encode_faces(encoder, index, pending),
+            };
+            self.textures.cleared(index, cleared);
+            self.slots[index].encoded(pending);
+            recorded |= pending != 0;
+        }
+        if recorded {
+            self.submissions.watch(encoder);
+        }
+    }
+
+    /// Draws the pending faces of a slot, each in its pass.
+    fn encode_faces(&self, encoder: &mut wgpu::CommandEncoder, index: usize, pending: u8) -> u8 {
+        for face in CubeFace::ALL {
+            if pending & face.bit() != 0 {
                 let draws = self.draws.of(index, face.layer() as usize);
                 self.encode_face(encoder, index, face, draws);
-                slot.encoded.fetch_or(face.bit(), Ordering::Relaxed);
             }
         }
+        pending
+    }
+
+    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has every face drawn again that the
+    /// view shows, whatever the budget. What the last one found is forgotten.
+    ///
+    /// For a host that has written to the map's textures, or has lost what was recorded in a way that
+    /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
+    pub fn invalidate(&mut self) {
+        self.slots.iter_mut().for_each(Slot::doubt_texels);
+        self.textures.doubt();
+        self.forget_transfers();
     }
 
     /// Draws one face in a pass of its own, over what stands still on it.
@@ -87,10 +112,13 @@ impl CubeShadowMap {
         face: CubeFace,
     ) -> Option<wgpu::RenderPass<'encoder>> {
         let &index = self.order.get(light)?;
+        // A host that calls this instead of `encode` tells receivers of the light through it.
+        if self.transfers.encode(encoder) {
+            self.submissions.watch(encoder);
+        }
         let pass = self.begin_pass(encoder, index, face, self.clear())?;
-        let slot = &self.slots[index];
-        slot.pending.fetch_and(!face.bit(), Ordering::Relaxed);
-        slot.touched.fetch_or(face.bit(), Ordering::Relaxed);
+        self.slots[index].touched(face);
+        self.textures.cleared(index, face.bit());
         Some(pass)
     }
 
@@ -101,9 +129,7 @@ impl CubeShadowMap {
         face: CubeFace,
         load: wgpu::LoadOp<f32>,
     ) -> Option<wgpu::RenderPass<'encoder>> {
-        let texture = self.textures.slot(slot)?;
-        texture.cleared.fetch_or(face.bit(), Ordering::Relaxed);
-        let view = &texture.faces[face.layer() as usize];
+        let view = &self.textures.slot(slot)?.faces[face.layer() as usize];
         Some(self.begin_depth_pass(encoder, slot, face, view, load))
     }
 

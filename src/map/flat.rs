@@ -1,24 +1,24 @@
 //! Flat shadow maps for spot and directional lights.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 
-use glam::{DAffine3, Mat4, Vec4};
+use glam::{Mat4, Vec4};
+use wgpu::util::DeviceExt as _;
 
 use super::descriptor::DepthEncoding;
-use super::draws::{Cull, Draw, instance};
-use super::flat_descriptor::{
-    FlatLight, FlatLightUniform, ShadowFrame, ShadowMapDescriptor, ShadowMapStatistics,
-};
-use super::flat_frame::{Fit, FlatFrame, fit};
+use super::draws::Draw;
+use super::flat_content::{Asked, Content, Texels};
+use super::flat_descriptor::{FlatLightUniform, ShadowMapDescriptor, ShadowMapStatistics};
+use super::flat_frame::{FlatFrame, LightBox};
 use super::near::NearPlane;
-use super::resources::{self, FaceUniform, INSTANCE_SIZE, PipelineKey, PipelineKind};
+use super::resources::{self, FaceUniform, PipelineKey, PipelineKind};
 use super::scene::Scene;
 use super::step::depth_step;
 use super::texture;
+use super::transfers::Transfers;
 use crate::error::ShadowMapError;
-use crate::mesh::Caster;
-use crate::{Bias, Radius};
+use crate::submissions::Submissions;
+use crate::{Bias, DirectionalLight, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
 /// over because rows of a texture count down, and z left as it is because WebGPU's clip space has
@@ -44,43 +44,48 @@ pub fn texture_from_clip() -> Mat4 {
 /// Reverse-Z, `Depth32Float` by default: a texel holds `near / d` for a spot and `1 - d / range` for a
 /// directional light, `d` along the light's direction, and 0 where no caster is. What lies outside
 /// the map is lit, and so is what lies behind a spot; beyond a spot's range nothing is.
+///
+/// # What is drawn again
+///
+/// A map that shows all that it must is left alone. This is found by comparing, as for a
+/// [`CubeShadowMap`](crate::CubeShadowMap): of a frame in which nothing has changed, 80 bytes a caster
+/// are read, and nothing is uploaded.
 #[derive(Debug)]
 pub struct ShadowMap {
-    size: u32,
-    bias: Bias,
-    reach: Radius,
-    label: String,
-    cache: bool,
-    texture: wgpu::Texture,
+    pub(super) size: u32,
+    pub(super) bias: Bias,
+    pub(crate) reach: Radius,
+    pub(super) label: String,
+    pub(super) cache: bool,
+    pub(super) texture: wgpu::Texture,
     view: wgpu::TextureView,
-    kind: PipelineKind,
-    near_plane: NearPlane,
-    depth_step: f32,
-    pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    face: wgpu::Buffer,
+    pub(super) kind: PipelineKind,
+    pub(super) near_plane: NearPlane,
+    pub(super) depth_step: f32,
+    pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
+    pub(super) face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
-    light: wgpu::Buffer,
-    instances: wgpu::Buffer,
-    scene: Scene,
-    frame: Option<FlatFrame>,
-    width: Option<f64>,
-    draws: Vec<Draw>,
-    content: Option<Content>,
-    statistics: ShadowMapStatistics,
-    // These change in `encode` and `begin_pass`, which borrow the map shared as a host's frame
-    // graph wants it: what the next encode must do, what the texture may hold, and whether that is
-    // still what `content` says.
-    pending: AtomicBool,
-    filled: AtomicBool,
-    foreign: AtomicBool,
-}
-
-/// What a map shows: the frame, and the sum of the casters' digests.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Content {
-    frame: FlatFrame,
-    casters: u128,
-    count: usize,
+    pub(super) light: wgpu::Buffer,
+    pub(super) instances: wgpu::Buffer,
+    pub(super) scene: Scene,
+    /// What the last frame asked for, where the map lies for it and what it is to show.
+    pub(super) asked: Option<Asked>,
+    pub(super) frame: Option<FlatFrame>,
+    pub(super) width: Option<f64>,
+    /// The box around all casters, as a light sees them.
+    pub(super) caster_box: Option<(DirectionalLight, Option<LightBox>)>,
+    pub(super) wanted: Content,
+    /// What the texels show.
+    pub(super) texels: Texels,
+    /// Whether the next encode draws, and what.
+    pub(super) pending: bool,
+    pub(super) draws: Vec<Draw>,
+    // What the uniforms hold once the transfers are encoded.
+    pub(super) written_light: Option<FlatLightUniform>,
+    pub(super) written_face: Option<FaceUniform>,
+    pub(super) transfers: Transfers,
+    pub(super) submissions: Submissions,
+    pub(super) statistics: ShadowMapStatistics,
 }
 
 impl ShadowMap {
@@ -132,71 +137,43 @@ impl ShadowMap {
             pipelines: HashMap::new(),
             face,
             face_group,
-            light: resources::buffer(
-                device,
-                &format!("{label} light"),
-                size_of::<FlatLightUniform>() as u64,
-                wgpu::BufferUsages::UNIFORM,
-            ),
+            light: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(&format!("{label} light")),
+                contents: bytemuck::bytes_of(&FlatLightUniform::DARK),
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            }),
             instances: resources::instances(device, &label, 1),
             scene: Scene::new(descriptor.sides),
+            asked: None,
             frame: None,
             width: None,
+            caster_box: None,
+            wanted: Content::default(),
+            texels: Texels::Unknown,
+            pending: false,
             draws: Vec::new(),
-            content: None,
+            written_light: None,
+            written_face: None,
+            transfers: Transfers::new(device, &label),
+            submissions: Submissions::default(),
             statistics: ShadowMapStatistics::default(),
-            pending: AtomicBool::new(false),
-            // A new texture's content is unknown until it has been cleared once.
-            filled: AtomicBool::new(true),
-            foreign: AtomicBool::new(true),
             label,
         })
     }
 
-    /// Finds where the map lies, decides which casters go on it and uploads what drawing them
-    /// needs.
+    /// Records what the last [`prepare`](Self::prepare) found necessary: its pass, and what it tells
+    /// receivers of the light. Once: a second call before the next `prepare` records nothing.
     ///
-    /// # Errors
-    /// [`ShadowMapError`] if the light, a caster, the view's distance or the receivers' bounds are
-    /// out of range, each by itself or all together in `f32`; the map is then as it was.
-    pub fn prepare(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        frame: &ShadowFrame<'_>,
-    ) -> Result<(), ShadowMapError> {
-        frame.validate()?;
-        let limit = device.limits().max_buffer_size;
-        let size = frame.casters.len() as u64 * INSTANCE_SIZE;
-        if size > limit {
-            let casters = frame.casters.len();
-            return Err(ShadowMapError::TooManyCasters {
-                casters,
-                size,
-                limit,
-            });
-        }
-        self.scene.compare(frame.casters, device)?;
-        self.scene.update(frame.casters, &mut []);
-        self.place(frame)?;
-        let content = self.gather(device, queue, frame.casters);
-        self.upload(queue);
-
-        let nothing = self.draws.is_empty();
-        let kept = self.cache && content == self.content && !self.foreign.load(Ordering::Relaxed);
-        let clear = nothing && !self.filled.load(Ordering::Relaxed);
-        let pending = !(kept || clear);
-        self.content = content;
-        self.pending.store(pending, Ordering::Relaxed);
-        self.foreign.store(pending, Ordering::Relaxed);
-        self.count(pending, frame.casters.len());
-        Ok(())
-    }
-
-    /// Records the pass that the last [`prepare`](Self::prepare) found necessary; once: a second
-    /// call before the next `prepare` records nothing. What is recorded must be submitted.
+    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
+    /// light as they were; of a map that was never drawn they see a dark light. What is recorded must
+    /// be submitted: if its encoder is dropped, the `prepare` after that draws the map again
+    /// ([`ShadowMapStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        if !self.pending.swap(false, Ordering::Relaxed) {
+        let copied = self.transfers.encode(encoder);
+        if copied || self.pending {
+            self.submissions.watch(encoder);
+        }
+        if !std::mem::take(&mut self.pending) {
             return;
         }
         let mut pass = self.pass(encoder);
@@ -204,9 +181,19 @@ impl ShadowMap {
         for draw in &self.draws {
             draw.record(&mut pass, &self.pipelines, &self.instances);
         }
-        let filled = !self.draws.is_empty();
-        self.filled.store(filled, Ordering::Relaxed);
-        self.foreign.store(false, Ordering::Relaxed);
+        drop(pass);
+        self.texels = self.wanted.on_texels();
+    }
+
+    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the map drawn again. What the
+    /// last one found is forgotten.
+    ///
+    /// For a host that has written to the map's texture, or has lost what was recorded in a way that
+    /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
+    pub fn invalidate(&mut self) {
+        self.pending = false;
+        self.texels = Texels::Unknown;
+        self.forget_transfers();
     }
 
     /// Begins a pass that clears the map, for a host that draws its own geometry (skinned,
@@ -220,9 +207,11 @@ impl ShadowMap {
         &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
-        self.pending.store(false, Ordering::Relaxed);
-        self.filled.store(true, Ordering::Relaxed);
-        self.foreign.store(true, Ordering::Relaxed);
+        if self.transfers.encode(encoder) {
+            self.submissions.watch(encoder);
+        }
+        self.pending = false;
+        self.texels = Texels::Unknown;
         self.pass(encoder)
     }
 
@@ -261,124 +250,6 @@ impl ShadowMap {
 
     pub(crate) fn light_uniform(&self) -> &wgpu::Buffer {
         &self.light
-    }
-
-    /// Where the map lies for a frame, if anything casts.
-    fn place(&mut self, frame: &ShadowFrame<'_>) -> Result<(), ShadowMapError> {
-        let (placed, width) = match &frame.light {
-            FlatLight::Spot(light) => {
-                let near = self.near_plane.of_spot(light);
-                (Some(FlatFrame::of_spot(light, near)), self.width)
-            }
-            FlatLight::Directional(light) => {
-                let fitted = fit(
-                    &Fit {
-                        light,
-                        view: frame.view,
-                        receivers: frame.receivers,
-                        size: self.size,
-                        reach: self.reach,
-                        unclipped_depth: self.kind.unclipped_depth,
-                        last_width: self.width,
-                    },
-                    self.scene.records(),
-                );
-                fitted.unzip()
-            }
-        };
-        if placed.is_some_and(|frame| !frame.fits_f32()) {
-            return Err(ShadowMapError::BeyondF32);
-        }
-        (self.frame, self.width) = (placed, width);
-        Ok(())
-    }
-
-    /// The draws of the casters on the map, one for each mesh, and what they come to.
-    fn gather(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        casters: &[Caster],
-    ) -> Option<Content> {
-        self.draws.clear();
-        let frame = self.frame?;
-        let light_from_world = DAffine3::from_translation(-frame.origin.as_dvec3());
-        let sides = self.scene.sides();
-        let records = self.scene.records().iter().zip(casters).enumerate();
-        let mut members: Vec<_> = records
-            .filter(|(_, (record, _))| record.triangles > 0 && frame.touches(record))
-            .map(|(index, (record, caster))| {
-                let cull = Cull::of(sides, record, frame.is_clear_of(record));
-                (record.group, cull, index, record.digest, caster)
-            })
-            .collect();
-        members.sort_unstable_by_key(|&(group, cull, index, ..)| (group, cull, index));
-        let mut rows = Vec::with_capacity(members.len());
-        for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let Some(group) = self.scene.group(run[0].0) else {
-                continue; // every record's group exists
-            };
-            self.draws.push(Draw {
-                mesh: group.mesh.clone(),
-                cull: run[0].1.face(),
-                first_instance: rows.len() as u64,
-                instance_count: run.len() as u32,
-            });
-            let transforms = run.iter().map(|(.., caster)| caster.transform());
-            rows.extend(transforms.map(|transform| instance(&(light_from_world * transform))));
-        }
-        if rows.len() as u64 * INSTANCE_SIZE > self.instances.size() {
-            self.instances = resources::instances(device, &self.label, rows.len() as u64);
-        }
-        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&rows));
-        for draw in &self.draws {
-            let key = draw.key();
-            self.pipelines
-                .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
-        }
-        let digests = members.iter().map(|member| member.3);
-        Some(Content {
-            frame,
-            casters: digests.fold(0, u128::wrapping_add),
-            count: members.len(),
-        })
-    }
-
-    fn upload(&self, queue: &wgpu::Queue) {
-        let (frame, step) = (self.frame.as_ref(), self.depth_step);
-        let light = FlatLightUniform::new(frame, &self.bias, self.size, step);
-        queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
-        if let Some(frame) = self.frame {
-            let face = FaceUniform {
-                clip_from_light: frame.clip_from_light().to_cols_array(),
-                range: frame.range,
-                padding: [0.0; 3],
-            };
-            queue.write_buffer(&self.face, 0, bytemuck::bytes_of(&face));
-        }
-    }
-
-    fn count(&mut self, rendered: bool, casters: usize) {
-        let drawn: u32 = self.draws.iter().map(|draw| draw.instance_count).sum();
-        let mut statistics = ShadowMapStatistics {
-            rendered,
-            casters_drawn: drawn,
-            casters_outside: casters as u32 - drawn,
-            bytes: u64::from(self.size).pow(2) * texture::texel_bytes(self.texture.format())
-                + self.instances.size()
-                + self.face.size()
-                + self.light.size(),
-            ..Default::default()
-        };
-        if rendered {
-            for draw in &self.draws {
-                statistics.draws += 1;
-                statistics.triangles +=
-                    u64::from(draw.mesh.triangle_count()) * u64::from(draw.instance_count);
-            }
-        }
-        self.statistics = statistics;
     }
 
     fn pass<'encoder>(

@@ -31,9 +31,12 @@ pub struct ShadowMapDescriptor<'a> {
     /// than its [`near`](SpotLight::near).
     pub unclipped_depth: bool,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
-    /// that reads the map. A directional light's map is fitted that much wider than what is seen and
-    /// receives, so that no tap there falls beside it, where all is lit. Default 8 texels. Greater
-    /// than 0, at most 64 texels; of texels, no more than a quarter of the map on either side.
+    /// that reads the map; [`PcfSampler::bind_group`](crate::PcfSampler::bind_group) refuses wider ones.
+    /// A directional light's map is fitted that much wider than what is seen and receives, so that no
+    /// tap there falls beside it, where all is lit. Default 12 texels, as wide as any kernel is by
+    /// default. Greater than 0, at most 64 texels; of texels, with one more for rounding, no more than
+    /// a quarter of the map of a directional light. A reach in world units holds kernels of up to 12
+    /// texels, too.
     pub reach: Radius,
     /// Whether a map whose content has not changed is left alone. Default true; false draws every
     /// frame, for measuring what that is worth.
@@ -65,7 +68,7 @@ impl Default for ShadowMapDescriptor<'_> {
             bias: Bias::default(),
             sides: CasterSides::default(),
             unclipped_depth: true,
-            reach: Radius::Texels(8.0),
+            reach: Radius::Texels(Radius::USUAL_TEXELS),
             cache: true,
         }
     }
@@ -73,6 +76,7 @@ impl Default for ShadowMapDescriptor<'_> {
 
 /// The light of a [`ShadowMap`](crate::ShadowMap).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum FlatLight {
     /// A spot: the map is drawn around its cone.
     Spot(SpotLight),
@@ -81,7 +85,20 @@ pub enum FlatLight {
     Directional(DirectionalLight),
 }
 
-/// What a [`ShadowMap`](crate::ShadowMap) is to show this frame.
+impl From<SpotLight> for FlatLight {
+    fn from(light: SpotLight) -> Self {
+        Self::Spot(light)
+    }
+}
+
+impl From<DirectionalLight> for FlatLight {
+    fn from(light: DirectionalLight) -> Self {
+        Self::Directional(light)
+    }
+}
+
+/// What a [`ShadowMap`](crate::ShadowMap) is to show this frame. A spot's map is its cone, whatever
+/// is seen and receives: there `view` and `receivers` have no effect.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowFrame<'a> {
     /// The light.
@@ -102,10 +119,10 @@ pub struct ShadowFrame<'a> {
 }
 
 impl<'a> ShadowFrame<'a> {
-    /// A frame without a view and without bounds.
-    pub fn new(light: FlatLight, casters: &'a [Caster]) -> Self {
+    /// A frame without a view and without bounds, of a [`SpotLight`] or a [`DirectionalLight`].
+    pub fn new(light: impl Into<FlatLight>, casters: &'a [Caster]) -> Self {
         Self {
-            light,
+            light: light.into(),
             casters,
             view: None,
             receivers: None,
@@ -135,6 +152,7 @@ impl<'a> ShadowFrame<'a> {
 /// What the last [`ShadowMap::prepare`](crate::ShadowMap::prepare) found and the next `encode` will
 /// do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ShadowMapStatistics {
     /// Whether the map will be drawn or cleared; false where it shows all that it must already.
     pub rendered: bool,
@@ -148,6 +166,14 @@ pub struct ShadowMapStatistics {
     pub triangles: u64,
     /// GPU memory held: texture and buffers.
     pub bytes: u64,
+    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    pub uploaded: u64,
+    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
+    /// again. Of a host that prepares and encodes once a frame, always false.
+    pub not_encoded: bool,
+    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
+    /// the last `prepare`: the map is drawn again.
+    pub encoder_dropped: bool,
 }
 
 /// What receivers need to know of the light; `ShadowsFlatLight` in WGSL.
@@ -170,6 +196,22 @@ pub(crate) struct FlatLightUniform {
 }
 
 impl FlatLightUniform {
+    /// A spot that reaches nothing, not even itself.
+    pub(super) const DARK: Self = Self {
+        position: [0.0; 3],
+        near: 0.0,
+        forward: [0.0; 3],
+        scale: 0.0,
+        right: [0.0; 3],
+        size: 0.0,
+        down: [0.0; 3],
+        range: -1.0,
+        normal_offset: 0.0,
+        depth_bias: 0.0,
+        perspective: 1.0,
+        quantum: 0.0,
+    };
+
     /// `frame` is `None` where nothing casts.
     pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32, quantum: f32) -> Self {
         let Some(frame) = frame else {

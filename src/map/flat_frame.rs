@@ -79,8 +79,13 @@ impl FlatFrame {
         !self.perspective || forward.dot(centre) - room > f64::from(self.near)
     }
 
+    /// Whether a caster is drawn on the map.
+    pub fn holds(&self, record: &Record) -> bool {
+        record.triangles > 0 && self.touches(record)
+    }
+
     /// Whether a caster may show on the map.
-    pub fn touches(&self, record: &Record) -> bool {
+    fn touches(&self, record: &Record) -> bool {
         let centre = record.centre - self.origin.as_dvec3();
         let [right, up, forward] = [self.right, self.up, self.forward].map(|axis| axis.as_dvec3());
         let scale = f64::from(self.scale);
@@ -113,16 +118,30 @@ pub(super) struct Fit<'a> {
     pub unclipped_depth: bool,
     /// Width of the last frame's map.
     pub last_width: Option<f64>,
+    /// What casts: [`LightBox::of_casters`].
+    pub casters: Option<LightBox>,
 }
 
 /// A box in the light's axes: right, up, forward.
-#[derive(Clone, Copy)]
-struct LightBox {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightBox {
     min: DVec3,
     max: DVec3,
 }
 
 impl LightBox {
+    /// The box around all casters.
+    pub fn of_casters(light: &DirectionalLight, records: &[Record]) -> Option<Self> {
+        let basis = axes(-light.toward_light.as_dvec3()).map(|axis| axis.as_dvec3());
+        let local = |point: DVec3| DVec3::from_array(basis.map(|axis| axis.dot(point)));
+        let casting = records.iter().filter(|record| record.triangles > 0);
+        Self::of(casting.flat_map(|record| {
+            let half = DVec3::from_array(basis.map(|axis| axis.abs().dot(record.half)))
+                .min(DVec3::splat(record.radius));
+            [local(record.centre) - half, local(record.centre) + half]
+        }))
+    }
+
     fn of(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
         points.into_iter().fold(None, |all: Option<Self>, point| {
             let (min, max) = all.map_or((point, point), |all| (all.min, all.max));
@@ -142,23 +161,18 @@ impl LightBox {
 /// is no more than a step too wide; the grid of texels is fixed in the world (Valient, "Stable
 /// Rendering of Cascaded Shadow Maps", ShaderX6, 2008). So shadows do not shimmer when the camera
 /// moves or turns.
-pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)> {
+pub(super) fn fit(fit: &Fit<'_>) -> Option<(FlatFrame, f64)> {
     let rounded = axes(-fit.light.toward_light.as_dvec3());
     let basis = rounded.map(|axis| axis.as_dvec3());
     let local = |point: DVec3| DVec3::from_array(basis.map(|axis| axis.dot(point)));
-    let casting = records.iter().filter(|record| record.triangles > 0);
-    let casters = LightBox::of(casting.flat_map(|record| {
-        let half = DVec3::from_array(basis.map(|axis| axis.abs().dot(record.half)))
-            .min(DVec3::splat(record.radius));
-        [local(record.centre) - half, local(record.centre) + half]
-    }))?;
+    let casters = fit.casters?;
     let mut across = casters;
     let mut nearest_receiver = f64::NEG_INFINITY;
     let seen = fit
         .view
         .map(|(view, distance)| shown(view, f64::from(distance)));
     let received = fit.receivers.map(|bounds| corners(&bounds));
-    let (reach_texels, reach_world) = fit.reach.texels_and_world();
+    let (reach_texels, reach_world) = fit.reach.reach();
     for points in [seen, received].into_iter().flatten() {
         let bounds = LightBox::of(points.into_iter().map(local))?;
         across.min = across.min.max(bounds.min - f64::from(reach_world));
@@ -169,9 +183,10 @@ pub(super) fn fit(fit: &Fit<'_>, records: &[Record]) -> Option<(FlatFrame, f64)>
     if extent.min_element() < 0.0 {
         return None;
     }
-    // Texels on either side: one for the snap and the tap's own texel, and what kernels reach.
+    // Texels on either side: one for the snap and the tap's own texel, and what kernels reach. No more
+    // than half of the map, see `validate_reach`.
     let share = 2.0 * (f64::from(reach_texels) + 1.0) / f64::from(fit.size);
-    let need = extent.max_element().max(least_extent(&across, fit.size)) / (1.0 - share.min(0.5));
+    let need = extent.max_element().max(least_extent(&across, fit.size)) / (1.0 - share);
     let step = (need.log2() * 4.0).ceil() / 4.0;
     let width = match fit.last_width {
         Some(last) if last >= need && last <= (step + 0.26).exp2() => last,

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::num::NonZeroU32;
-use std::sync::atomic::Ordering;
 
 use super::cube::CubeShadowMap;
 use super::draws::Draw;
@@ -23,6 +22,7 @@ use crate::error::CubeShadowMapError;
 /// once for every face drawn, not only for the two or so that it touches. No GPU has been measured;
 /// run the bench on yours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum FacePasses {
     /// The way that measured faster, which is [`Separate`](Self::Separate) on every device measured
     /// so far.
@@ -137,16 +137,17 @@ impl CubeShadowMap {
         }
     }
 
-    /// Draws the pending faces of a slot, in one pass if they are those that were prepared.
+    /// Draws the pending faces of a slot, in one pass if they are those that were prepared. Gives the
+    /// faces that are clear or drawn then.
     pub(super) fn encode_joint(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         index: usize,
         pending: u8,
         joint: &Joint,
-    ) {
+    ) -> u8 {
         if pending == 0 {
-            return;
+            return 0;
         }
         let drawn = self.plans[index].drawn;
         let draws = self.draws.of(index, drawn.trailing_zeros() as usize);
@@ -154,6 +155,7 @@ impl CubeShadowMap {
             Some(mask) if pending == drawn => {
                 self.clear_others(encoder, index, pending);
                 self.encode_views(encoder, index, mask, draws, joint);
+                ALL_FACES
             }
             // One face, or the host has begun one of them in the meantime: its set of faces has no
             // pipeline.
@@ -163,6 +165,7 @@ impl CubeShadowMap {
                         self.encode_face(encoder, index, face, draws);
                     }
                 }
+                pending
             }
         }
     }
@@ -179,7 +182,6 @@ impl CubeShadowMap {
             return; // prepare made the texture of every slot with pending faces
         };
         let bits = mask.get() as u8;
-        texture.cleared.fetch_or(bits, Ordering::Relaxed);
         let label = format!("{} {index} faces {bits:06b}", self.label);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(&label),
@@ -203,7 +205,7 @@ impl CubeShadowMap {
         let Some(texture) = self.textures.slot(index) else {
             return;
         };
-        let unknown = ALL_FACES & !mask & !texture.cleared.load(Ordering::Relaxed);
+        let unknown = ALL_FACES & !mask & !texture.cleared;
         for face in CubeFace::ALL {
             if unknown & face.bit() != 0 {
                 drop(self.begin_pass(encoder, index, face, self.clear()));

@@ -9,8 +9,10 @@ mod draws;
 mod encode;
 mod face;
 mod flat;
+mod flat_content;
 mod flat_descriptor;
 mod flat_frame;
+mod flat_prepare;
 mod joint;
 mod light;
 mod masks;
@@ -26,6 +28,7 @@ mod step;
 mod still;
 mod still_layer;
 mod texture;
+mod transfers;
 mod upload;
 mod visible;
 

@@ -15,7 +15,7 @@ pub(super) const INSTANCE_SIZE: u64 = size_of::<Instance>() as u64;
 pub(super) const UNIFORM_STRIDE: u64 = 256;
 
 /// `ShadowsCubeFaceUniform` in WGSL.
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(super) struct FaceUniform {
     pub clip_from_light: [f32; 16],

@@ -1,7 +1,5 @@
 //! One light's place in a map: which casters its faces hold, and which they were drawn with.
 
-use std::sync::atomic::{AtomicU8, Ordering};
-
 use super::face::{CubeFace, LightBounds};
 use super::masks::FaceMasks;
 use super::scene::{Record, Scene};
@@ -90,12 +88,8 @@ pub(super) struct Slot {
     /// Frames since there was one.
     pub idle: u32,
     pub cull: bool,
-    // Faces that the next encode must draw; faces that an encode has drawn, and that a host has
-    // drawn on, since the last prepare. Atomic because `encode` and `begin_face` borrow the map
-    // shared, as a host's frame graph wants it.
-    pub pending: AtomicU8,
-    pub encoded: AtomicU8,
-    pub touched: AtomicU8,
+    /// Faces that the next encode must draw.
+    pub pending: u8,
 }
 
 impl Slot {
@@ -110,26 +104,37 @@ impl Slot {
         &self.masks
     }
 
-    /// Learns what `encode` and `begin_face` did since the last frame.
-    pub fn catch_up(&mut self) {
-        let encoded = self.encoded.swap(0, Ordering::Relaxed);
-        let touched = self.touched.swap(0, Ordering::Relaxed);
+    /// Learns that faces were drawn as scheduled.
+    pub fn encoded(&mut self, mask: u8) {
+        self.pending &= !mask;
         for (bit, face) in self.faces.iter_mut().enumerate() {
-            if touched & 1 << bit != 0 {
-                face.rendered = None;
-            } else if encoded & 1 << bit != 0 {
+            if mask & 1 << bit != 0 {
                 face.rendered = face.scheduled;
-            }
-            if encoded & 1 << bit != 0 {
                 face.still.encoded();
             }
         }
+    }
+
+    /// Learns that somebody else draws on a face.
+    pub fn touched(&mut self, face: CubeFace) {
+        self.pending &= !face.bit();
+        self.faces[face.layer() as usize].rendered = None;
     }
 
     /// Nothing is known of the texels any more: they are new.
     pub fn forget_texels(&mut self) {
         self.faces.iter_mut().for_each(|face| face.rendered = None);
         self.shown = None;
+    }
+
+    /// Nothing is known of the texels any more, nor of the layers under them, and nothing is to be
+    /// drawn on those. Receivers are given the light that they were.
+    pub fn doubt_texels(&mut self) {
+        self.pending = 0;
+        for face in &mut self.faces {
+            face.rendered = None;
+            face.still = Still::default();
+        }
     }
 
     /// Takes another light (or none) and sorts all casters anew, of which `reached` are those that
@@ -260,7 +265,7 @@ impl Slot {
                 face.change = 0.0;
             }
         }
-        self.pending.store(mask, Ordering::Relaxed);
+        self.pending = mask;
     }
 
     /// Decides how the faces of a mask are drawn: on layers of at least so many triangles that stand

@@ -7,6 +7,7 @@ use std::time::Duration;
 ///
 /// Each face of each light in the frame is one of rendered, kept, empty, hidden and postponed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct CubeStatistics {
     /// Faces that will be drawn, or cleared because their last caster left.
     pub faces_rendered: u32,
@@ -33,12 +34,21 @@ pub struct CubeStatistics {
     pub triangles: u64,
     /// GPU memory held: textures and buffers.
     pub bytes: u64,
+    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    pub uploaded: u64,
+    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
+    /// again. Of a host that prepares and encodes once a frame, always false.
+    pub not_encoded: bool,
+    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
+    /// the last `prepare`: everything is drawn again.
+    pub encoder_dropped: bool,
     /// CPU time of `prepare`. Zero on the web, where the standard library has no clock.
     pub prepare: Duration,
 }
 
 /// What became of a face in the last `prepare`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum FaceState {
     /// Will be drawn or cleared by the next `encode`.
     Rendered,
@@ -55,6 +65,7 @@ pub enum FaceState {
 
 /// One face of one light after the last `prepare`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FaceStatistics {
     /// What became of it.
     pub state: FaceState,

@@ -16,6 +16,7 @@ use crate::error::CubeShadowMapError;
 ///
 /// Layers need copies between depth textures, which wgpu's GL back end does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum StillLayers {
     /// Where enough triangles stand still for the texels of a face. Nowhere on the GL back end.
     ///

@@ -1,7 +1,6 @@
 //! The textures of a cube map, made when the first light casts.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
 use super::face::CubeFace;
 use crate::gl;
@@ -13,9 +12,8 @@ pub(super) struct SlotTexture {
     pub first_layer: u32,
     pub cube: wgpu::TextureView,
     pub faces: [wgpu::TextureView; 6],
-    /// Faces that have been cleared or drawn since the texture was made. Atomic because `encode`
-    /// borrows the map shared.
-    pub cleared: AtomicU8,
+    /// Faces that have been cleared or drawn since the texture was made.
+    pub cleared: u8,
     layers: OnceLock<wgpu::TextureView>,
 }
 
@@ -29,16 +27,11 @@ pub(super) struct Textures {
     array: Option<Array>,
     /// A texel for each face, bound as long as there is nothing else.
     placeholder: wgpu::TextureView,
-    blank: Blank,
+    /// The faces of the placeholder, and whether they are clear.
+    blank: [wgpu::TextureView; 6],
+    blank_is_clear: bool,
+    blank_layers: u32,
     revision: u64,
-}
-
-/// The faces of the placeholder, and whether they are clear.
-#[derive(Debug)]
-struct Blank {
-    layers: u32,
-    faces: [wgpu::TextureView; 6],
-    clear: AtomicBool,
 }
 
 #[derive(Debug)]
@@ -76,11 +69,9 @@ impl Textures {
                 placeholder: array_view(&placeholder, label),
                 view: None,
             }),
-            blank: Blank {
-                layers: placeholder.depth_or_array_layers(),
-                faces: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
-                clear: AtomicBool::new(false),
-            },
+            blank_layers: placeholder.depth_or_array_layers(),
+            blank: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
+            blank_is_clear: false,
             placeholder: cube_view(&placeholder, label, 0),
             revision: 0,
         }
@@ -128,11 +119,31 @@ impl Textures {
         readable.then_some(cube)
     }
 
-    /// The faces of the placeholder, the first time that it is asked for them.
-    pub fn blank(&self) -> &[wgpu::TextureView] {
-        match self.blank.clear.swap(true, Ordering::Relaxed) {
+    /// The faces of the placeholder, until they are said to be clear.
+    pub fn to_be_cleared(&self) -> &[wgpu::TextureView] {
+        match self.blank_is_clear {
             true => &[],
-            false => &self.blank.faces,
+            false => &self.blank,
+        }
+    }
+
+    /// Learns that the placeholder is clear.
+    pub fn placeholder_cleared(&mut self) {
+        self.blank_is_clear = true;
+    }
+
+    /// Learns that some faces of a slot were cleared or drawn.
+    pub fn cleared(&mut self, slot: usize, mask: u8) {
+        if let Some(slot) = self.slots.get_mut(slot).and_then(Option::as_mut) {
+            slot.cleared |= mask;
+        }
+    }
+
+    /// Nothing is known of any texel any more.
+    pub fn doubt(&mut self) {
+        self.blank_is_clear = false;
+        for slot in self.slots.iter_mut().flatten() {
+            slot.cleared = 0;
         }
     }
 
@@ -150,7 +161,7 @@ impl Textures {
         let textures = self.slots.iter().flatten();
         let textures = textures.filter(|slot| slot.first_layer == 0);
         let layers: u32 = textures.map(|t| t.texture.depth_or_array_layers()).sum();
-        let blank = self.blank.layers;
+        let blank = self.blank_layers;
         (u64::from(layers) * u64::from(self.size).pow(2) + u64::from(blank))
             * texel_bytes(self.format)
     }
@@ -169,7 +180,7 @@ impl SlotTexture {
         Self {
             cube: cube_view(&texture, label, first_layer),
             faces: CubeFace::ALL.map(|face| face_view(&texture, label, first_layer, face)),
-            cleared: AtomicU8::new(0),
+            cleared: 0,
             layers: OnceLock::new(),
             texture,
             first_layer,

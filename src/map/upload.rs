@@ -44,7 +44,6 @@ impl CubeShadowMap {
     pub(super) fn record_draws(
         &mut self,
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
         plans: &[SlotPlan],
         frame: &CubeFrame<'_>,
     ) {
@@ -64,7 +63,7 @@ impl CubeShadowMap {
                 frame.casters,
             );
             if let Some(light) = slot.light {
-                self.write_faces(queue, index, &light);
+                self.write_faces(index, &light);
             }
         }
         for draw in self.draws.iter() {
@@ -74,13 +73,35 @@ impl CubeShadowMap {
                 .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
         }
         self.make_joint_pipelines(device, plans);
-        if !self.draws.instances.is_empty() {
-            let bytes = bytemuck::cast_slice(&self.draws.instances);
-            queue.write_buffer(&self.instances, 0, bytes);
-        }
+        let bytes = bytemuck::cast_slice(&self.draws.instances);
+        self.transfers.push(&self.instances, 0, bytes);
     }
 
-    fn write_faces(&mut self, queue: &wgpu::Queue, slot: usize, light: &PointLight) {
+    /// Forgets what was to be written, and what has been.
+    pub(super) fn forget_transfers(&mut self) {
+        self.transfers.clear();
+        self.written_lights.fill(None);
+        self.written_faces.fill(None);
+    }
+
+    /// Gives the lights other buffers, once bind groups of the old ones must be made again. Those that
+    /// are not read a light without range, which is dark, for good: better that than shadows that are
+    /// not there, or are somebody else's.
+    pub(super) fn replace_lights(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) {
+        let revision = self.texture_revision();
+        if std::mem::replace(&mut self.lights_revision, revision) == revision {
+            return;
+        }
+        for old in [Some(&self.lights.uniforms), self.lights.all.as_ref()] {
+            if let Some(old) = old {
+                queue.write_buffer(old, 0, &vec![0; old.size() as usize]);
+            }
+        }
+        self.lights = resources::lights(device, &self.label, self.slots.len() as u64, self.array);
+        self.written_lights.fill(None);
+    }
+
+    fn write_faces(&mut self, slot: usize, light: &PointLight) {
         let near = self.near_plane.of_point(light);
         let content = Some([near, light.range]);
         if self.written_faces[slot] == content {
@@ -94,11 +115,12 @@ impl CubeShadowMap {
                 padding: [0.0; 3],
             };
             let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
-            queue.write_buffer(&self.face_uniforms, offset, bytemuck::bytes_of(&uniform));
+            let bytes = bytemuck::bytes_of(&uniform);
+            self.transfers.push(&self.face_uniforms, offset, bytes);
         }
     }
 
-    pub(super) fn write_lights(&mut self, queue: &wgpu::Queue, lights: &[PointLight]) {
+    pub(super) fn write_lights(&mut self, lights: &[PointLight]) {
         for (place, wanted) in lights.iter().enumerate() {
             let index = self.order[place];
             let slot = &self.slots[index];
@@ -124,9 +146,10 @@ impl CubeShadowMap {
             }
             self.written_lights[place] = Some(uniform);
             let bytes = bytemuck::bytes_of(&uniform);
-            queue.write_buffer(&self.lights.uniforms, place as u64 * UNIFORM_STRIDE, bytes);
+            let (at, at_all) = (place as u64 * UNIFORM_STRIDE, (place * bytes.len()) as u64);
+            self.transfers.push(&self.lights.uniforms, at, bytes);
             if let Some(all) = &self.lights.all {
-                queue.write_buffer(all, place as u64 * bytes.len() as u64, bytes);
+                self.transfers.push(all, at_all, bytes);
             }
         }
     }

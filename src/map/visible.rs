@@ -50,7 +50,7 @@ impl Frustum {
 
     /// A mask of the faces that kernels may read for something that the view shows, never too few.
     pub fn faces(&self, light: &PointLight, reach: Radius, size: u32) -> u8 {
-        let (texels, world) = reach.texels_and_world();
+        let (texels, world) = reach.reach();
         let margin = STRETCH * f64::from(world);
         let Some(wide) = widened(f64::from(texels), f64::from(size)) else {
             return if self.misses(&Region::range(light)) {
@@ -168,7 +168,7 @@ mod tests {
 
     /// A point that a kernel may read for a receiver at `point`, both relative to the light.
     fn tap(state: &mut u32, point: DVec3, reach: Radius, size: u32) -> DVec3 {
-        let (texels, world) = reach.texels_and_world();
+        let (texels, world) = reach.reach();
         let texel = 2.0 * point.abs().max_element() / f64::from(size);
         let radius = f64::from(world) + f64::from(texels) * texel;
         let (a, b) = point.normalize().any_orthonormal_pair();

@@ -5,6 +5,7 @@ use crate::error::PcfError;
 
 /// How wide a kernel is, at the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Radius {
     /// In texels of the map: as wide in the world as the texels are where the receiver is. Greater
     /// than 0, at most 64.
@@ -38,6 +39,24 @@ impl Radius {
             Self::Texels(value) => (value, 0.0),
             Self::World(value) => (0.0, value),
         }
+    }
+
+    /// The reach of kernels in texels that a map has whose reach is in world units: as far as any
+    /// kernel does by default.
+    pub(crate) const USUAL_TEXELS: f32 = 12.0;
+
+    /// The widest kernels, in texels and in world units, that a map of this reach is made for.
+    pub(crate) fn reach(self) -> (f32, f32) {
+        match self {
+            Self::Texels(value) => (value, 0.0),
+            Self::World(value) => (Self::USUAL_TEXELS, value),
+        }
+    }
+
+    /// Whether kernels of this radius may read a map of that reach.
+    pub(crate) fn is_within(self, reach: Self) -> bool {
+        let ((texels, world), (most_texels, most_world)) = (self.texels_and_world(), reach.reach());
+        texels <= most_texels && world <= most_world
     }
 }
 
@@ -231,5 +250,27 @@ fn uniform(radius: Radius, light_size: f32, taps: u32, first_taps: u32) -> Kerne
         taps,
         first_taps,
         padding: [0; 2],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Radius::{Texels, World};
+
+    #[test]
+    fn no_kernel_is_wider_than_a_map_was_made_for() {
+        for (kernel, reach, fits) in [
+            (Texels(12.0), Texels(8.0), false),
+            (Texels(8.0), Texels(8.0), true),
+            (World(0.2), World(0.1), false),
+            (World(0.1), World(0.1), true),
+            // How many texels that is depends on the receiver.
+            (World(1e-9), Texels(64.0), false),
+            // The kernels of every host, beside those in world units.
+            (Texels(12.0), World(1e-9), true),
+            (Texels(12.5), World(1e9), false),
+        ] {
+            assert_eq!(kernel.is_within(reach), fits, "{kernel:?} {reach:?}");
+        }
     }
 }

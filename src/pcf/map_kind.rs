@@ -1,6 +1,6 @@
 //! The kinds of shadow map that a sampler can read.
 
-use crate::{CubeShadowMap, DepthEncoding, ShadowMap};
+use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowMap};
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -29,6 +29,14 @@ impl<'a> AnyMap<'a> {
         match self {
             Self::Cube(_) => MapKind::Cube,
             Self::Flat(_) => MapKind::Flat,
+        }
+    }
+
+    /// The widest kernels that it was made for.
+    pub(super) fn reach(self) -> Radius {
+        match self {
+            Self::Cube(map) => map.reach,
+            Self::Flat(map) => map.reach,
         }
     }
 }

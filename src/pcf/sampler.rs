@@ -18,19 +18,47 @@ pub struct PcfDescriptor<'a> {
     pub kernel: Kernel,
     /// The kind of map it reads. Default [`MapKind::Cube`].
     pub map: MapKind,
-    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]. Cube maps.
+    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]; flat maps have no other.
     pub encoding: DepthEncoding,
     /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
     /// a cube map. Such maps are made with `cube_array`, and the device has
-    /// [`Support::cube_arrays`](crate::Support). Default false: one light a bind group.
+    /// [`Support::cube_arrays`](crate::Support). Default false: one light a bind group. For cube maps.
     pub many_lights: bool,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
-    /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). Default
-    /// false. Cube maps.
+    /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). `kernel` is
+    /// then its default, or [`Kernel::Hard`]. Default false. For cube maps.
     pub textbook: bool,
     /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
     pub gather: Gather,
+}
+
+impl PcfDescriptor<'_> {
+    /// Refuses what would have no effect.
+    fn validate_combination(&self) -> Result<(), PcfError> {
+        if self.map != MapKind::Cube {
+            let cubes_only = [
+                ("many_lights", self.many_lights),
+                ("textbook", self.textbook),
+                ("encoding", self.encoding != DepthEncoding::default()),
+            ];
+            if let Some((setting, _)) = cubes_only.into_iter().find(|(_, set)| *set) {
+                let map = self.map;
+                return Err(PcfError::CubesOnly { setting, map });
+            }
+        }
+        if !self.textbook {
+            return Ok(());
+        }
+        if self.encoding != DepthEncoding::LinearDistance {
+            return Err(PcfError::Textbook(self.encoding));
+        }
+        match self.kernel {
+            Kernel::Hard => Ok(()),
+            kernel if kernel == Kernel::default() => Ok(()),
+            kernel => Err(PcfError::TextbookKernel(kernel)),
+        }
+    }
 }
 
 /// Reads a [`CubeShadowMap`] or a [`ShadowMap`](crate::ShadowMap) in the host's lighting shader.
@@ -63,7 +91,8 @@ impl PcfSampler {
     ///
     /// # Errors
     /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
-    /// many lights or no gathers for [`Gather::Always`], or textbook receivers are to read another encoding than theirs.
+    /// many lights or no gathers for [`Gather::Always`], textbook receivers are to read another encoding
+    /// than theirs, or a setting would have no effect.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -79,13 +108,9 @@ impl PcfSampler {
             gather,
         } = descriptor;
         kernel.validate()?;
-        let many_lights = many_lights && map == MapKind::Cube;
+        descriptor.validate_combination()?;
         if many_lights && !crate::support::has_cube_arrays(device) {
             return Err(PcfError::CubeArray);
-        }
-        let textbook = textbook && map == MapKind::Cube;
-        if textbook && encoding != DepthEncoding::LinearDistance {
-            return Err(PcfError::Textbook(encoding));
         }
         let border = map == MapKind::Flat
             && device
@@ -165,10 +190,12 @@ impl PcfSampler {
     /// size may be read with one sampler.
     ///
     /// It stays right whatever light the map is prepared for, until
-    /// [`CubeShadowMap::texture_revision`] changes.
+    /// [`CubeShadowMap::texture_revision`] changes; after that, all lights are dark to it. A flat map's
+    /// stays right for good.
     ///
     /// # Errors
-    /// [`PcfError`] if the map is of another kind, has another encoding or is no cube array.
+    /// [`PcfError`] if the map is of another kind, has another encoding, is no cube array, or was made
+    /// for kernels that do not reach as far as this one.
     pub fn bind_group<'a>(
         &self,
         device: &wgpu::Device,
@@ -179,6 +206,7 @@ impl PcfSampler {
             let (made_for, given) = (self.map(), map.kind());
             return Err(PcfError::Map { made_for, given });
         }
+        self.check_reach(map)?;
         match map {
             AnyMap::Cube(map) => self.bind_group_of(device, map, 0),
             AnyMap::Flat(map) => {
@@ -203,6 +231,7 @@ impl PcfSampler {
             let (made_for, given) = (self.map(), MapKind::Cube);
             return Err(PcfError::Map { made_for, given });
         }
+        self.check_reach(map.into())?;
         if map.encoding() != self.reads.encoding {
             return Err(PcfError::Encoding {
                 map: map.encoding(),
@@ -222,6 +251,15 @@ impl PcfSampler {
             }
         };
         Ok(self.group(device, view, lights))
+    }
+
+    /// What a kernel reads beyond a map's reach may be out of date, or beside the map.
+    fn check_reach(&self, map: AnyMap<'_>) -> Result<(), PcfError> {
+        let (kernel, map) = (self.kernel.radius(), map.reach());
+        match kernel.is_within(map) {
+            true => Ok(()),
+            false => Err(PcfError::Reach { kernel, map }),
+        }
     }
 
     fn group(

@@ -12,6 +12,7 @@ pub(super) const FEATURE: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE;
 
 /// What holds the number of volumes that each visible point is in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Counter {
     /// The 8-bit stencil, which wraps: a point in a multiple of 256 volumes at once reads 0 and is
     /// lit. [`ShadowVolumeRenderer::may_wrap`](crate::ShadowVolumeRenderer::may_wrap) says whether

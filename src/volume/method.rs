@@ -36,6 +36,7 @@ use crate::{HomogeneousLight, View};
 
 /// Which of a volume's faces are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Method {
     /// z-pass for each caster for which it is proven right in this frame, z-fail for the others.
     #[default]
@@ -49,6 +50,7 @@ pub enum Method {
 
 /// How z-fail closes a volume at its far end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Caps {
     /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the
     /// silhouette for a point light outside the caster's bounds; the full cap inside.
@@ -60,6 +62,7 @@ pub enum Caps {
 
 /// How far volumes reach.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Extrusion {
     /// To infinity.
     Infinite,

@@ -34,6 +34,7 @@
 /// where the caster touches another surface, which the rasteriser decides (at most 2 of 65,536 in the
 /// pictures measured).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum StartFrom {
     /// From the triangles facing the light: those turned away are in shadow. Right for any host.
     #[default]

@@ -5,7 +5,7 @@
 use shadows::glam::{Affine3A, DVec2, DVec3, Vec3};
 use shadows::{
     AnyMap, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FlatLight, Kernel,
-    PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
+    PointLight, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
 };
 
 use crate::common::rays::Triangles;
@@ -64,10 +64,16 @@ impl Yard {
         })
     }
 
+    /// For the kernels of a host, none of which is wider.
     pub fn cube(&self) -> CubeShadowMap {
+        self.cube_of(Radius::Texels(24.0))
+    }
+
+    pub fn cube_of(&self, reach: Radius) -> CubeShadowMap {
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let descriptor = CubeShadowMapDescriptor {
             size: SIZE,
+            reach,
             ..Default::default()
         };
         let mut map = CubeShadowMap::new(device, &descriptor).unwrap();
@@ -83,9 +89,14 @@ impl Yard {
 
     /// The spot with the cube face's frustum; its axes are the face's up to signs.
     pub fn flat(&self) -> ShadowMap {
+        self.flat_of(Radius::Texels(24.0))
+    }
+
+    pub fn flat_of(&self, reach: Radius) -> ShadowMap {
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let descriptor = ShadowMapDescriptor {
             size: SIZE,
+            reach,
             ..Default::default()
         };
         let mut map = ShadowMap::new(device, &descriptor).unwrap();

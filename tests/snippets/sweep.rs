@@ -3,8 +3,6 @@ vec![
 ("cube-2x2 4096", {
 let map = CubeShadowMapDescriptor {
     size: 4096,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();
@@ -13,8 +11,6 @@ Config::Cube { map, sampler }
 ("cube-7x7 256", {
 let map = CubeShadowMapDescriptor {
     size: 256,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -26,8 +22,6 @@ Config::Cube { map, sampler }
 ("cube-disk 512", {
 let map = CubeShadowMapDescriptor {
     size: 512,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -37,11 +31,7 @@ let sampler = PcfDescriptor {
 Config::Cube { map, sampler }
 }),
 ("cube-vogel 1024", {
-let map = CubeShadowMapDescriptor {
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
-    ..Default::default()
-};
+let map = CubeShadowMapDescriptor::default();
 let sampler = PcfDescriptor {
     kernel: Kernel::Vogel(VogelDisk { radius: Radius::Texels(3.0), taps: 16 }),
     ..Default::default()
@@ -51,8 +41,6 @@ Config::Cube { map, sampler }
 ("cube-pcss 2048", {
 let map = CubeShadowMapDescriptor {
     size: 2048,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -67,8 +55,6 @@ let map = CubeShadowMapDescriptor {
     bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0 },
     encoding: DepthEncoding::LinearDistance,
     cull_casters: false,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     sides: CasterSides::Both,
     ..Default::default()
 };
@@ -84,8 +70,6 @@ Config::Cube { map, sampler }
 let map = CubeShadowMapDescriptor {
     encoding: DepthEncoding::LinearDistance,
     format: wgpu::TextureFormat::Depth16Unorm,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -97,8 +81,6 @@ Config::Cube { map, sampler }
 ("cube-2x2 1024, fourfold bias", {
 let map = CubeShadowMapDescriptor {
     bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0 },
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();
@@ -106,8 +88,6 @@ Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, far sides", {
 let map = CubeShadowMapDescriptor {
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     sides: CasterSides::Far,
     ..Default::default()
 };
@@ -117,8 +97,6 @@ Config::Cube { map, sampler }
 ("flat-disk-full 256", {
 let map = ShadowMapDescriptor {
     size: 256,
-    // For timing alone: leave it out, and what stands still is kept.
-    cache: false,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -131,8 +109,6 @@ Config::Flat { map, sampler }
 ("volume z-fail, vertex", {
 let volumes = ShadowVolumeDescriptor {
     method: Method::ZFail,
-    // For timing alone: leave it out, and what stands still is kept.
-    keep_between_frames: false,
     silhouettes: Silhouettes::Vertex,
     ..Default::default()
 };
@@ -144,8 +120,6 @@ let volumes = ShadowVolumeDescriptor {
     caps: Caps::Full,
     extrusion: Extrusion::Infinite,
     culling: false,
-    // For timing alone: leave it out, and what stands still is kept.
-    keep_between_frames: false,
     ..Default::default()
 };
 Config::Volume(volumes)

@@ -11,6 +11,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result};
 
 use crate::host::gpu::{Gpu, describe};
+use crate::host::terminal::say;
 use crate::host::timer::Timer;
 use crate::measure::median;
 use crate::output::{self, File};
@@ -58,7 +59,6 @@ pub struct Series {
 /// # Errors
 /// If the device cannot do what is needed, or a file cannot be written.
 pub fn run(gpu: &Gpu, times: f64, rounds: u32, out: &Path) -> Result<()> {
-    output::check(out)?;
     let timer = Timer::new(gpu);
     let series: Vec<Series> = Quantity::ALL
         .into_iter()
@@ -83,8 +83,7 @@ pub fn run(gpu: &Gpu, times: f64, rounds: u32, out: &Path) -> Result<()> {
         ));
     }
     output::write(out, files)?;
-    println!("{}", out.join("growth.md").display());
-    Ok(())
+    say(&out.join("growth.md").display().to_string())
 }
 
 /// Rounds over all amounts and techniques, each round beginning with another.

@@ -25,6 +25,7 @@ use self::trial::Trial;
 use crate::date;
 use crate::host::gpu::{Gpu, describe};
 use crate::host::image::rgb_png;
+use crate::host::terminal::{note, say};
 use crate::output::{self, File};
 use crate::progress::progress;
 use crate::table::{ROWS, volume};
@@ -60,7 +61,6 @@ const SIXTEEN_BITS: &str = "cube-2x2-16-bit";
 /// # Errors
 /// If the device cannot do what a technique needs, or nothing can be written to `dir`.
 pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
-    output::check(dir)?;
     let techniques = techniques()?;
     let cases: Vec<Case> = cases::all().collect();
     let bar = progress(cases.len() as u64 * u64::from(rounds), "hard cases");
@@ -88,8 +88,8 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     };
     write(&table, dir)?;
     let failures = table.failures();
-    failures.iter().for_each(|failure| eprintln!("{failure}"));
-    println!("{}", dir.join("hard-cases.md").display());
+    failures.iter().for_each(|failure| note(failure));
+    say(&dir.join("hard-cases.md").display().to_string())?;
     Ok(failures.len())
 }
 

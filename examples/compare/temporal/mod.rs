@@ -13,6 +13,7 @@ use shadows::reference::{Flips, ReferenceImage};
 use crate::args::Techniques;
 use crate::host::gpu::{Gpu, describe};
 use crate::host::scene::{LightKind, Scene};
+use crate::host::terminal::{note, say};
 use crate::output::{self, File};
 use crate::progress::progress;
 use crate::shadow::Shadow;
@@ -85,7 +86,6 @@ impl Shimmer {
 /// If no technique can shadow the scene's light, the device cannot do what one needs, or a file cannot
 /// be written.
 pub fn run(gpu: &Gpu, scene: &Scene, plan: &Plan<'_>, out: &Directory) -> Result<()> {
-    output::check(out)?;
     let kinds = kinds(scene.light_kind(), plan)?;
     let mut watched = Vec::new();
     for kind in kinds {
@@ -103,8 +103,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, plan: &Plan<'_>, out: &Directory) -> Result
         File::new("temporal.svg", plot::dots(&title, &watched)?),
     ];
     output::write(out, files)?;
-    println!("{}", out.join("temporal.md").display());
-    Ok(())
+    say(&out.join("temporal.md").display().to_string())
 }
 
 /// The kinds of light that the techniques are watched under: the scene's, and parallel light instead of
@@ -124,7 +123,11 @@ fn kinds(own: LightKind, plan: &Plan<'_>) -> Result<Vec<LightKind>> {
     }
     if !plan.techniques.are_usual() {
         for other in none {
-            eprintln!("{} is left out: {}", other.name, other.config.limit());
+            note(&format!(
+                "{} is left out: {}",
+                other.name,
+                other.config.limit()
+            ));
         }
     }
     kinds.retain(|&kind| {

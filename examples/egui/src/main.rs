@@ -69,6 +69,10 @@ fn size(wanted: &str) -> Result<u32, String> {
 fn main() -> anyhow::Result<()> {
     let args = Args::parse();
     let scene = host::scene::load(&args.scene, true)?;
+    if !scene.left_out.is_empty() {
+        let left_out = scene.left_out.join(", ");
+        host::terminal::note(&format!("{}: left out are {left_out}", args.scene));
+    }
     let controls = Controls {
         settings: Settings {
             technique: args.technique,

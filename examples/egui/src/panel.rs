@@ -104,7 +104,7 @@ fn radius_mut(kernel: &mut Kernel) -> Option<&mut f32> {
     };
     match radius {
         Radius::Texels(texels) => Some(texels),
-        Radius::World(_) => None,
+        _ => None,
     }
 }
 

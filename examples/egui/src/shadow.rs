@@ -221,7 +221,11 @@ impl Shadows {
     }
 
     /// Second verb: what is drawn before the lit pass, once the scene's depth is there.
-    pub fn encode(&mut self, renderer: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+    pub fn encode(
+        &mut self,
+        renderer: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<()> {
         match &mut self.means {
             Means::Cube(cube) => cube.map.encode(encoder),
             Means::Flat(map, _) => map.encode(encoder),
@@ -229,10 +233,11 @@ impl Shadows {
                 volumes.renderer.encode(encoder);
                 volumes
                     .renderer
-                    .render(&mut renderer.begin_stencil_pass(encoder)).expect("it is encoded");
+                    .render(&mut renderer.begin_stencil_pass(encoder))?;
             }
             Means::None => {}
         }
+        Ok(())
     }
 
     /// Third verb: the lit pass, with the map bound or the stencil tested, and what is to be shown of

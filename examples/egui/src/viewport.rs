@@ -88,7 +88,9 @@ impl CallbackTrait for Paint {
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
         if let Some(viewport) = resources.get_mut::<Viewport>() {
-            viewport.encode(encoder);
+            if let Err(error) = viewport.encode(encoder) {
+                viewport.problem.get_or_insert(format!("{error:#}"));
+            }
             if let Some(read) = &self.read {
                 viewport.read_visibility(encoder, read.clone());
             }
@@ -195,12 +197,13 @@ impl Viewport {
         }
     }
 
-    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+    fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<()> {
         self.renderer.draw_ambient(encoder, &self.scene_gpu);
         if let Some((_, shadows)) = &mut self.shadows {
-            shadows.encode(&self.renderer, encoder);
+            shadows.encode(&self.renderer, encoder)?;
             shadows.shade(&self.renderer, &self.scene_gpu, encoder);
         }
+        Ok(())
     }
 
     /// Sends the visibility of the frame being recorded, one byte a pixel, once it is drawn.

@@ -58,6 +58,7 @@ impl Yard {
                 fovy: 45_f32.to_radians(),
                 near: 0.1,
             },
+            left_out: Vec::new(),
         })
     }
 

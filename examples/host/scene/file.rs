@@ -1,5 +1,6 @@
 //! Models from files (Wavefront OBJ, glTF 2.0), with a ground, light and camera that fit their size.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -18,7 +19,7 @@ const GREY: [f32; 3] = [0.55, 0.54, 0.52];
 ///
 /// Light, range and camera follow from the model's bounds, so a model gives the same picture in any
 /// unit. With `ground`, a square that only receives lies under its lowest point, eight times as
-/// wide as the model. Materials are ignored.
+/// wide as the model. Materials are ignored; what else is not loaded is told in [`Scene::left_out`].
 ///
 /// # Errors
 /// One line with the path: the file is missing or of another kind, is not what its ending says, has
@@ -36,10 +37,12 @@ fn load(path: &Path, ground: bool) -> Result<Scene> {
         Some("gltf" | "glb") => glb::parse(&read()?, path.parent())?,
         _ => bail!("its name must end in .obj, .gltf or .glb"),
     };
-    ensure!(
-        model.meshes.iter().any(|m| !m.indices.is_empty()),
-        "it has no triangles"
-    );
+    if model.meshes.iter().all(|m| m.indices.is_empty()) {
+        match model.told().as_slice() {
+            [] => bail!("it has no triangles"),
+            others => bail!("it has no triangles, only {}", others.join(", ")),
+        }
+    }
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let mut scene = around(&name, model)?;
     if ground {
@@ -53,9 +56,23 @@ fn load(path: &Path, ground: bool) -> Result<Scene> {
 struct Model {
     meshes: Vec<Mesh>,
     objects: Vec<Object>,
+    /// What is in the file and does not become part of the scene, with how often.
+    left_out: BTreeMap<String, usize>,
 }
 
 impl Model {
+    fn leave_out(&mut self, what: &str) {
+        *self.left_out.entry(what.into()).or_default() += 1;
+    }
+
+    /// How [`Scene::left_out`] says it.
+    fn told(&self) -> Vec<String> {
+        let left_out = self.left_out.iter();
+        left_out
+            .map(|(what, count)| format!("{what} ({count})"))
+            .collect()
+    }
+
     fn put(&mut self, mesh: usize, transform: Affine3A) {
         self.objects.push(Object {
             name: format!("{} {}", self.meshes[mesh].name, self.objects.len()),
@@ -80,15 +97,15 @@ fn checked(
         .iter()
         .position(|p| p.iter().any(|x| !x.is_finite()))
     {
-        bail!("mesh {name:?}: vertex {i} has a coordinate that is not finite");
+        bail!("vertex {i} has a coordinate that is not finite");
     }
     let count = positions.len();
     if let Some(i) = indices.iter().find(|i| **i as usize >= count) {
-        bail!("mesh {name:?}: index {i} is out of range, there are {count} vertices");
+        bail!("index {i} is out of range, there are {count} vertices");
     }
     ensure!(
         indices.len().is_multiple_of(3),
-        "mesh {name:?}: {} indices do not make whole triangles",
+        "{} indices do not make whole triangles",
         indices.len()
     );
     let unit = normals.and_then(|n| normalized(&n, count));
@@ -140,6 +157,7 @@ fn welded(positions: &[[f32; 3]], indices: &[u32]) -> Surface {
 fn around(name: &str, model: Model) -> Result<Scene> {
     let mut scene = Scene {
         name: name.into(),
+        left_out: model.told(),
         meshes: model.meshes,
         objects: model.objects,
         light: shadows::glam::Vec4::W,

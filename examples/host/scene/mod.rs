@@ -55,7 +55,7 @@ pub struct Object {
     pub name: String,
     /// Place of its mesh in [`Scene::meshes`].
     pub mesh: usize,
-    /// World from mesh space; invertible, may mirror.
+    /// World from mesh space; may mirror or flatten.
     pub transform: Affine3A,
     /// Whether it casts a shadow.
     pub casts: bool,
@@ -207,6 +207,8 @@ pub struct Scene {
     pub shadow_near: Option<f32>,
     /// The view.
     pub camera: Camera,
+    /// What the file it came from holds besides, and how much of it.
+    pub left_out: Vec<String>,
 }
 
 impl Scene {
@@ -313,6 +315,7 @@ impl Scene {
                 fovy: std::f32::consts::FRAC_PI_4,
                 near: 0.1,
             },
+            left_out: Vec::new(),
         }
     }
 

@@ -56,6 +56,7 @@ fn empty() -> Scene {
             fovy: std::f32::consts::FRAC_PI_4,
             near: 0.1,
         },
+        left_out: Vec::new(),
     }
 }
 

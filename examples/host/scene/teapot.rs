@@ -92,6 +92,7 @@ pub fn teapot() -> Scene {
             fovy: std::f32::consts::FRAC_PI_4,
             near: 0.1,
         },
+        left_out: Vec::new(),
     }
 }
 

@@ -1,0 +1,96 @@
+//! What the command line asks for, and which options that has a use for.
+
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Command};
+
+use super::Args;
+use super::values::is_file;
+
+/// What may be done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mode {
+    /// A few techniques, side by side.
+    Compare,
+    Sweep,
+    HardCases,
+    Temporal,
+    Growth,
+}
+
+use Mode::{Compare, Growth, HardCases, Sweep, Temporal};
+
+/// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
+/// Options that are not here are of use to all.
+const USES: [(&str, &[Mode]); 16] = [
+    ("scenes", &[Compare, Sweep, Temporal]),
+    ("ground", &[Compare, Sweep, Temporal]),
+    ("light", &[Compare, Sweep, Temporal]),
+    ("light_kind", &[Compare, Sweep, Temporal]),
+    ("range", &[Compare, Sweep, Temporal]),
+    ("camera", &[Compare, Sweep, Temporal]),
+    ("techniques", &[Compare, Sweep, Temporal]),
+    ("size", &[Compare, Sweep]),
+    ("face", &[Compare, Temporal]),
+    ("frames", &[Compare, Sweep, Growth]),
+    ("seed", &[Compare]),
+    ("export", &[Compare]),
+    ("error_at_most", &[Sweep]),
+    ("time_at_most", &[Sweep]),
+    ("rounds", &[HardCases]),
+    ("steps", &[Temporal]),
+];
+
+impl Mode {
+    fn of(args: &Args) -> Self {
+        match args {
+            _ if args.sweep => Sweep,
+            _ if args.hard_cases => HardCases,
+            _ if args.temporal.is_some() => Temporal,
+            _ if args.growth.is_some() => Growth,
+            _ => Compare,
+        }
+    }
+
+    /// The option that asks for it; comparing is what is done unasked.
+    fn option(self) -> Option<&'static str> {
+        match self {
+            Compare => None,
+            Sweep => Some("--sweep"),
+            HardCases => Some("--hard-cases"),
+            Temporal => Some("--temporal"),
+            Growth => Some("--growth"),
+        }
+    }
+}
+
+/// Nothing that is given may be ignored. (By hand, as clap forgets that an option `requires` one that
+/// another given one conflicts with.)
+///
+/// # Errors
+/// The option that would be.
+pub fn check(args: &Args, matches: &ArgMatches, command: &mut Command) -> Result<(), clap::Error> {
+    let mode = Mode::of(args);
+    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    let idle = USES
+        .iter()
+        .find(|(id, modes)| given(id) && !modes.contains(&mode));
+    if let Some((id, modes)) = idle {
+        let option = command.get_arguments().find(|a| a.get_id() == *id);
+        let option = option.and_then(|a| a.get_long()).unwrap_or(id);
+        let users: Vec<&str> = modes.iter().filter_map(|mode| mode.option()).collect();
+        let message = match (mode.option(), users.as_slice()) {
+            (Some(mode), _) => {
+                format!("--{option} cannot be used with {mode}, which has no use for it")
+            }
+            (None, users) => format!("--{option} is of no use without {}", users.join(" or ")),
+        };
+        return Err(command.error(ErrorKind::ArgumentConflict, message));
+    }
+    if given("ground") && !args.scenes.iter().any(|scene| is_file(scene)) {
+        let message =
+            "--ground is of no use without a model file: the built-in scenes bring their own";
+        return Err(command.error(ErrorKind::ArgumentConflict, message));
+    }
+    Ok(())
+}
