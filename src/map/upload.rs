@@ -139,8 +139,8 @@ impl CubeShadowMap {
             };
             let light = slot.shown.unwrap_or(*wanted);
             let near = self.near_plane.of_point(&light);
-            let (size, bias, step) = (self.size, &self.bias, self.depth_step);
-            let uniform = LightUniform::new(&light, near, depths, size, bias, step);
+            let (size, bias, format) = (self.size, &self.bias, self.format);
+            let uniform = LightUniform::new(&light, near, depths, size, bias, format);
             if self.written_lights[place] == Some(uniform) {
                 continue;
             }
