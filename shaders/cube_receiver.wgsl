@@ -107,9 +107,10 @@ fn shadows_cube_receiver(
     let sine = length(cross(n, from_light)) / distance;
     let major = dot(face.forward, from_light);
     let plane_distance = height + light.normal_offset * major * sine;
-    // The light within the bias of the receiver's plane: nothing is between them. Written so that
-    // a receiver at the light itself, where the numbers above are not numbers, is lit too.
-    if !(plane_distance < 0.0) {
+    // The light within the bias of the receiver's plane: nothing is between them. Nor is there at the
+    // light itself, or where there is no plane: there the numbers above are not numbers, which no
+    // comparison may be trusted to say.
+    if distance == 0.0 || dot(normal, normal) == 0.0 || plane_distance >= 0.0 {
         receiver.known = 1.0;
         return receiver;
     }

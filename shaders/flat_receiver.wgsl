@@ -70,7 +70,7 @@ fn shadows_flat_receiver(
         return receiver;
     }
     // Behind a spot the map says nothing.
-    if (light.quantum < 0.0) | (spot & !(local.x > 0.0)) {
+    if (light.quantum < 0.0) | (spot & (local.x <= 0.0)) {
         receiver.known = 1.0;
         return receiver;
     }
@@ -91,8 +91,8 @@ fn shadows_flat_receiver(
     let plane_distance = dot(n, local) + light.normal_offset * receiver.width * sine;
     let across = n.yz / light.scale;
     // A spot within the bias of the receiver's plane: nothing is between them. The plane seen from its
-    // edge by a directional light: nothing of it is hidden.
-    if !(select(n.x, plane_distance, spot) < 0.0) {
+    // edge by a directional light: nothing of it is hidden. Nor where there is no plane.
+    if (dot(normal, normal) == 0.0) | (select(n.x, plane_distance, spot) >= 0.0) {
         receiver.known = 1.0;
         return receiver;
     }

@@ -18,7 +18,9 @@ struct Batch {
     position_offset: u32,
     // 0: an edge record names its two triangles; 1: its first use and their number.
     general: u32,
-    padding: vec2u,
+    // See `settled` in volume_light_side.wgsl.
+    zero: u32,
+    padding: u32,
 }
 
 struct Instance {

@@ -20,20 +20,30 @@ struct Caster {
     object_light: vec4f,
     object_light_rest: vec3f,
     both_sides: u32,
+    // A point of the mesh's box as near to the light as any, in the mesh's own space, and from the
+    // light to it in world space.
+    anchor: vec3f,
+    // See `settled` in volume_light_side.wgsl.
+    zero: u32,
+    anchor_from_light: vec3f,
+    // See volume_depth_steps.wgsl.
+    depth_step: f32,
 }
 
 @group(0) @binding(0) var<uniform> caster: Caster;
 
 fn near_point(position: vec3f) -> vec4f {
-    return shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
+    let clip = shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
+    return set_back(clip);
 }
 
-// From the light to a vertex, in world space. The difference is taken in the mesh's own space, where
-// both are known beyond f32: of a light at the caster's skin, little would be left of it in world
-// space, and nothing of its sign.
+// From the light to a vertex, in world space. What is far from both is taken off where it is known
+// beyond f32, on the CPU: of a light at the caster's skin, little would be left in world space, and
+// nothing of its side. Whatever the order of these sums, they round by no more than their own length
+// (and the mesh's) allows.
 fn from_light(position: vec3f) -> vec3f {
-    let object = (position - caster.object_light.xyz) - caster.object_light_rest;
-    let from_point = (caster.world_from_object * vec4f(object, 0.0)).xyz;
+    let across_mesh = caster.world_from_object * vec4f(position - caster.anchor, 0.0);
+    let from_point = across_mesh.xyz + caster.anchor_from_light;
     // Not a branch: Mesa's lavapipe compiles a shader anew at each draw for what a uniform buffer says,
     // if that decides a branch.
     return select(from_point, -caster.light.xyz, caster.light.w == 0.0);
@@ -60,7 +70,7 @@ fn far_point(position: vec3f) -> vec4f {
 // NVIDIA's GPUs draw too little: up to 90 % of a picture was wrong. So far away a corner may as well be
 // somewhere: 2^30 widths of the picture, where f32 tells no line to it from a parallel one.
 fn far_clip_position(point: vec4f) -> vec4f {
-    let clip = caster.clip_from_world * point;
+    let clip = set_back(caster.clip_from_world * point);
     let size = max(abs(clip.x), max(abs(clip.y), abs(clip.z)));
     return vec4f(clip.xyz, select(clip.w, size * 0x1p-30f, clip.w == 0.0));
 }

@@ -36,6 +36,7 @@ fn shadows_volume_facing(
             position(corners.z),
             instance.light,
             instance.light_rest,
+            batch.zero,
         );
         count = counted(count, instance.both_sides);
         facing[instance.facing_base + triangle] = count;

@@ -14,15 +14,22 @@ fn sum3(v: vec3f) -> f32 {
     return (v.x + v.y) + v.z;
 }
 
+// The same numbers, of which no compiler knows that they are: what was summed before this stays summed
+// before it. `zero` is 0, which only the buffer says. Without it a driver that reassociates sums may add
+// a light's remainder to the light itself, of which it is too small to be a part.
+fn settled(v: vec3f, zero: u32) -> vec3f {
+    return bitcast<vec3f>(bitcast<vec3u>(v) ^ vec3u(zero));
+}
+
 // sign(det(b - a, c - a, light - w a)), and 0 where rounding could have changed the sign.
 //
 // Nine roundings lie on the longest path (differences 1 + 1 + 2, products 2, sums 3), so the error
 // is below 10 * 2^-24 times the determinant's permanent (the bound of Shewchuk, "Adaptive Precision
 // Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, with one more difference).
-fn light_side(a: vec3f, b: vec3f, c: vec3f, light: vec4f, rest: vec3f) -> i32 {
+fn light_side(a: vec3f, b: vec3f, c: vec3f, light: vec4f, rest: vec3f, zero: u32) -> i32 {
     var u = b - a;
     var v = c - a;
-    let toward = light.xyz - light.w * a;
+    let toward = settled(light.xyz - light.w * a, zero);
     var r = toward + rest;
     u *= exact_scale(u);
     v *= exact_scale(v);

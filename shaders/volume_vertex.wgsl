@@ -5,7 +5,8 @@
 // 2004, carries the neighbours' normals, which round on their own.)
 
 fn cap_count(a: vec3f, b: vec3f, c: vec3f) -> i32 {
-    let count = light_side(a, b, c, caster.object_light, caster.object_light_rest);
+    let light = caster.object_light;
+    let count = light_side(a, b, c, light, caster.object_light_rest, caster.zero);
     return counted(count, caster.both_sides);
 }
 

@@ -54,7 +54,14 @@
 //! #     ..wgpu::InstanceDescriptor::new_without_display_handle()
 //! # });
 //! # let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
-//! # let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
+//! let support = Support::of_adapter(&adapter);
+//! let wanted = wgpu::DeviceDescriptor {
+//!     required_features: support.features(),
+//!     required_limits: support.limits(),
+//!     ..Default::default()
+//! };
+//! let (device, queue) = pollster::block_on(adapter.request_device(&wanted))?;
+//!
 //! // Once a mesh: who is whose neighbour, then the GPU's copy.
 //! let positions = [[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
@@ -78,7 +85,7 @@
 //! let mut volumes = ShadowVolumeRenderer::new(
 //!     &device,
 //!     &ShadowVolumeDescriptor {
-//!         depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+//!         depth_stencil_format: support.depth_stencil_format(),
 //!         ..Default::default()
 //!     },
 //! )?;
@@ -92,7 +99,7 @@
 //! #         mip_level_count: 1,
 //! #         sample_count: 1,
 //! #         dimension: wgpu::TextureDimension::D2,
-//! #         format: wgpu::TextureFormat::Depth24PlusStencil8,
+//! #         format: support.depth_stencil_format(),
 //! #         usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
 //! #         view_formats: &[],
 //! #     })
@@ -147,6 +154,14 @@
 //! Longer, in the repository: `docs/choosing.md` (which technique, and what each costs and gets
 //! wrong), `docs/adding.md` (this crate in an engine, step by step) and `docs/numerics.md` (why it is
 //! right).
+//!
+//! # What a version may add
+//!
+//! Errors, statistics and choices (enums of a descriptor) are `#[non_exhaustive]`: variants and fields
+//! come without a breaking release. Descriptors and frames are made with `..Default::default()` or from
+//! their `new`, so that a new field breaks no code; one that takes such a struct apart without `..`
+//! asks to be told of it. Lights, [`Bias`], [`mesh::Bounds`] and the parameters of kernels are what they
+//! are, and so are [`CubeFace`], [`mesh::MeshKind`] and [`DepthConvention`], which hosts match on.
 //!
 //! # Features
 //!

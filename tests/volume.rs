@@ -20,6 +20,8 @@ mod debug_views;
 mod errors;
 #[path = "volume/far_away.rs"]
 mod far_away;
+#[path = "volume/flat_end.rs"]
+mod flat_end;
 #[path = "volume/hard.rs"]
 mod hard;
 #[path = "../examples/host/mod.rs"]
@@ -30,6 +32,8 @@ mod kept;
 mod light_pass;
 #[path = "volume/near_light.rs"]
 mod near_light;
+#[path = "volume/near_plane.rs"]
+mod near_plane;
 #[path = "volume/passes.rs"]
 mod passes;
 #[path = "volume/pictures.rs"]
@@ -40,6 +44,8 @@ mod random;
 mod receivers;
 #[path = "volume/screen.rs"]
 mod screen;
+#[path = "volume/singular.rs"]
+mod singular;
 #[path = "volume/stage.rs"]
 mod stage;
 #[path = "volume/start_from.rs"]

@@ -145,14 +145,6 @@ pub enum CasterError {
         /// Place in the slice of casters.
         index: usize,
     },
-    /// The transform flattens the mesh, so that no light position in its space exists.
-    #[error(
-        "caster {index}: its transform is singular (a scale of 0); leave the caster out instead"
-    )]
-    Singular {
-        /// Place in the slice of casters.
-        index: usize,
-    },
     /// The mesh's buffers belong to another device.
     #[error("caster {index}: its mesh was made on another device; make a CasterMesh on this one")]
     Device {

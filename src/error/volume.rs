@@ -16,6 +16,11 @@ pub enum ShadowVolumeError {
         "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
     )]
     Format(wgpu::TextureFormat),
+    /// The device was created without the depth-stencil format.
+    #[error(
+        "{0:?} needs the device feature of that name: ask for Support::features() when the device is created, or pass what Support::depth_stencil_format() says, here and for the buffer itself"
+    )]
+    FormatFeature(wgpu::TextureFormat),
     /// The sample count is neither 1 nor 4.
     #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
     SampleCount(u32),

@@ -197,7 +197,7 @@ fn counted(gpu: &Gpu, params: &[u8], records: &[EdgeRecord]) -> Vec<i32> {
         buffer(bytemuck::cast_slice(records), storage),
         buffer(&zeros, storage | wgpu::BufferUsages::COPY_SRC),
     ];
-    let source = Feed::Records.source() + COUNT;
+    let source = Feed::Records.source(DepthConvention::InfiniteReverse) + COUNT;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
         source: wgpu::ShaderSource::Wgsl(source.into()),

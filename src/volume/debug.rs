@@ -18,6 +18,7 @@ use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces};
 use super::renderer::Drawn;
 use super::silhouette::Way;
+use super::targets::DEPTH_STENCIL;
 use super::{ShadowVolumeFrame, ShadowVolumeRenderer};
 use crate::error::{ShadowVolumeError, VolumeDebugError};
 use crate::mesh::CasterMesh;
@@ -31,7 +32,7 @@ pub struct VolumeDebugDescriptor<'a> {
     /// Format of the pass's one colour attachment: one that blends. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
-    /// `Depth24PlusStencil8`.
+    /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of both, 1 (default) or 4.
     pub sample_count: u32,
@@ -47,7 +48,7 @@ impl Default for VolumeDebugDescriptor<'_> {
         Self {
             label: None,
             color_format: wgpu::TextureFormat::Rgba8Unorm,
-            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+            depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
             depth: DepthConvention::default(),
             colors: DebugColors::default(),

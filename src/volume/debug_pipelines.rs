@@ -5,6 +5,7 @@ use super::draw::Feed;
 use super::layout::uniform;
 use super::plan::Faces;
 use super::screen::SCREEN;
+use crate::DepthConvention;
 
 const COLOR: &str = include_str!("../../shaders/volume_debug.wgsl");
 const PULLED: &str = include_str!("../../shaders/volume_debug_pulled.wgsl");
@@ -18,12 +19,12 @@ const CASTER_BIAS_ULPS: i32 = 16;
 
 impl Feed {
     /// The shader of faces, edges and casters.
-    fn debug_source(self) -> String {
+    fn debug_source(self, depth: DepthConvention) -> String {
         let own = match self {
             Self::Pulled => PULLED,
             Self::Records => RECORDS,
         };
-        [&self.source(), own, COLOR].join("\n")
+        [&self.source(depth), own, COLOR].join("\n")
     }
 }
 
@@ -41,7 +42,7 @@ impl FeedPipelines {
         let layout = feed.layout(factory.device, factory.label);
         let make = |entry_point, faces, lines, depth: Test| {
             factory.make(&Recipe {
-                source: feed.debug_source(),
+                source: feed.debug_source(factory.descriptor.depth),
                 entry_point,
                 buffers: &feed.vertex_buffers(faces),
                 layout: Some(&layout),
@@ -231,8 +232,11 @@ mod tests {
     #[test]
     fn every_shader_is_valid_without_any_capability() {
         let screen = [SCREEN, COLOR].join("\n");
-        let [pulled, records] = [Feed::Pulled, Feed::Records].map(Feed::debug_source);
-        for source in [screen, pulled, records] {
+        let depths = [DepthConvention::InfiniteReverse, DepthConvention::Standard];
+        let feeds = depths
+            .into_iter()
+            .flat_map(|depth| [Feed::Pulled, Feed::Records].map(|feed| feed.debug_source(depth)));
+        for source in feeds.chain([screen]) {
             let module = naga::front::wgsl::parse_str(&source)
                 .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
             Validator::new(ValidationFlags::all(), Capabilities::empty())

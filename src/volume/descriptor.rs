@@ -1,7 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
 use super::method::{Caps, Extrusion, Method};
-use super::targets::{bytes_a_sample, is_drawable};
+use super::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
 use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::mesh::Bounds;
@@ -12,8 +12,14 @@ use crate::{Caster, DepthConvention, HomogeneousLight, View};
 pub struct ShadowVolumeDescriptor<'a> {
     /// Names the renderer's GPU objects, after "shadows volume". Default `None`.
     pub label: Option<&'a str>,
-    /// Format of the depth-stencil attachment: `Depth24PlusStencil8` (the default; every device
-    /// has it) or `Depth32FloatStencil8` (needs the feature of that name).
+    /// Format of the depth-stencil attachment, which is the host's own:
+    /// [`Support::depth_stencil_format`](crate::Support::depth_stencil_format) says which to make it of.
+    ///
+    /// `Depth32FloatStencil8` (the default, and what this crate's figures are of) needs the
+    /// [feature of that name](wgpu::Features::DEPTH32FLOAT_STENCIL8). `Depth24PlusStencil8` is there
+    /// on every device, and its steps are the same size at any depth, where depth itself falls as 1
+    /// over the distance: what is farther than some thousand times the near plane's distance comes
+    /// out speckled. The farther the near plane, the better.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of the pass, 1 (default) or 4. The stencil counts each sample by itself.
     pub sample_count: u32,
@@ -33,6 +39,9 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// eye. What is seen from 10 units away took up to 64 at 100 units from the origin and 1024 at 1000
     /// (`Depth32FloatStencil8`; a host that multiplies `p * (v * (m * x))` or `(p * v * m) * x`). Count
     /// such scenes from a point near the eye ([`View::placed`](crate::View::placed)), or raise this.
+    ///
+    /// Where depth is not 0 at infinity, units of the last place of the depth there are added to those
+    /// of the depth itself: by the near plane of standard depth the latter are far too small.
     pub cap_bias_ulps: u32,
     /// Which faces count, those before the visible point or those behind it. Default
     /// [`Method::Auto`].
@@ -60,7 +69,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
     fn default() -> Self {
         Self {
             label: None,
-            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+            depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
             depth: DepthConvention::default(),
             color_formats: &[],
@@ -106,7 +115,9 @@ impl ShadowVolumeDescriptor<'_> {
         if !matches!(self.sample_count, 1 | 4) {
             return Err(ShadowVolumeError::SampleCount(self.sample_count));
         }
-        check_feature(device, format.required_features(), || format!("{format:?}"))?;
+        if !device.features().contains(format.required_features()) {
+            return Err(ShadowVolumeError::FormatFeature(format));
+        }
         check_depth(device, self.depth)?;
         self.validate_colors(device)
     }
@@ -224,10 +235,14 @@ pub struct VolumeStatistics {
     /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
     /// as [`StartFrom::AwayFacing`] asks; 0 where it is not asked for.
     pub casters_away_facing: u32,
-    /// Casters left out, for any of the next three reasons.
+    /// Casters left out, for any of the next four reasons.
     pub casters_skipped: u32,
     /// Casters left out because their meshes have no triangles.
     pub skipped_empty: u32,
+    /// Casters left out because their transforms leave no area of them that the light sees: those of
+    /// scale 0 on two axes or all, and those flattened to a plane that holds the light. (Flattened to
+    /// any other plane, a caster casts what is left of it.)
+    pub skipped_edge_on: u32,
     /// Casters left out because they are beyond the light's range.
     pub skipped_out_of_range: u32,
     /// Casters left out because nothing they could shadow is in view, or among the receivers.

@@ -10,10 +10,13 @@ use super::renderer::Drawn;
 use super::rule::Counted;
 use super::silhouette::{LIGHT_SIDE, Way};
 use super::{ShadowVolumeDescriptor, StartFrom};
+use crate::DepthConvention;
 use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
 const EXTRUDE: &str = include_str!("../../shaders/volume_extrude.wgsl");
+const AS_IS: &str = include_str!("../../shaders/volume_depth_as_is.wgsl");
+const STEPS: &str = include_str!("../../shaders/volume_depth_steps.wgsl");
 const DRAW: &str = include_str!("../../shaders/volume_draw.wgsl");
 const VERTEX: &str = include_str!("../../shaders/volume_vertex.wgsl");
 
@@ -42,10 +45,14 @@ pub(super) enum Feed {
 
 impl Feed {
     /// The shader of all faces.
-    pub fn source(self) -> String {
+    pub fn source(self, depth: DepthConvention) -> String {
+        let set_back = match depth {
+            DepthConvention::InfiniteReverse => AS_IS,
+            DepthConvention::FiniteReverse | DepthConvention::Standard => STEPS,
+        };
         match self {
-            Self::Pulled => [POSITION, EXTRUDE, DRAW].join("\n"),
-            Self::Records => [POSITION, EXTRUDE, LIGHT_SIDE, VERTEX].join("\n"),
+            Self::Pulled => [POSITION, set_back, EXTRUDE, DRAW].join("\n"),
+            Self::Records => [POSITION, set_back, EXTRUDE, LIGHT_SIDE, VERTEX].join("\n"),
         }
     }
 
@@ -188,7 +195,7 @@ impl DrawPipelines {
             descriptor,
             feed,
             label,
-            module: module(feed.source()),
+            module: module(feed.source(descriptor.depth)),
             counting: (descriptor.counter == Counter::Exact)
                 .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -325,6 +332,11 @@ impl Factory<'_> {
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         });
+        let steps = [("depth_steps", f64::from(self.bias(style)))];
+        let constants = match self.descriptor.depth {
+            DepthConvention::InfiniteReverse => &[][..],
+            DepthConvention::FiniteReverse | DepthConvention::Standard => &steps,
+        };
         self.device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(&label),
@@ -332,7 +344,10 @@ impl Factory<'_> {
                 vertex: wgpu::VertexState {
                     module: &self.module,
                     entry_point: Some(faces.entry_point()),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants,
+                        ..Default::default()
+                    },
                     buffers: &self.feed.vertex_buffers(faces),
                 },
                 primitive: wgpu::PrimitiveState {
@@ -371,16 +386,21 @@ impl Factory<'_> {
         formats.chain(counting.target.clone().map(Some)).collect()
     }
 
-    fn depth_stencil(&self, style: Style, counting: Counting) -> wgpu::DepthStencilState {
-        let depth = self.descriptor.depth;
-        let bias = match style.faces {
+    /// How far faces are set back from the viewer, in units of the last place.
+    fn bias(&self, style: Style) -> i32 {
+        let units = match style.faces {
             Faces::LightCap => i32::try_from(self.descriptor.cap_bias_ulps).unwrap_or(i32::MAX),
             Faces::Sides => SIDE_BIAS_ULPS,
             Faces::DarkCap | Faces::Fan => match style.count {
                 Count::Fail => DARK_CAP_BIAS_ULPS,
                 Count::Pass => 0,
             },
-        } * style.away();
+        };
+        units * style.away()
+    }
+
+    fn depth_stencil(&self, style: Style, counting: Counting) -> wgpu::DepthStencilState {
+        let bias = self.bias(style) * self.descriptor.depth.away();
         wgpu::DepthStencilState {
             format: self.descriptor.depth_stencil_format,
             depth_write_enabled: Some(false),
@@ -388,8 +408,8 @@ impl Factory<'_> {
             depth_compare: Some(counting.depth_compare),
             stencil: counting.stencil,
             bias: wgpu::DepthBiasState {
-                constant: bias * depth.away(),
-                clamp: self.bias_clamp(bias * depth.away()),
+                constant: bias,
+                clamp: self.bias_clamp(bias),
                 ..Default::default()
             },
         }

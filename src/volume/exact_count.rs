@@ -4,6 +4,7 @@ use super::counter::{FEATURE, FORMAT};
 use super::light_pass::{bind, layout};
 use super::mask::{check_buffer, check_readable_samples, check_size, check_target};
 use super::screen::{On, SCREEN, ScreenPipeline};
+use super::targets::DEPTH_STENCIL;
 use crate::error::ScreenPassError;
 use crate::wgsl::{EXACT, EXACT_SAMPLES};
 
@@ -18,7 +19,7 @@ pub struct ExactCountDescriptor<'a> {
     /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
     /// the device's `max_texture_dimension_2d`. Default 1 x 1.
     pub size: [u32; 2],
-    /// Format of the host's depth-stencil buffer. Default `Depth24PlusStencil8`.
+    /// Format of the host's depth-stencil buffer. Default `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Its samples per pixel, 1 (default) or 4; on wgpu's GL back end, whose shaders read no
     /// multisampled texture, 1. Each sample is counted by itself.
@@ -30,7 +31,7 @@ impl Default for ExactCountDescriptor<'_> {
         Self {
             label: None,
             size: [1, 1],
-            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+            depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
         }
     }

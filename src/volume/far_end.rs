@@ -12,12 +12,14 @@
 //! counts, and with a cap in the plane on the whole, which is what z-fail needs. (The depth format
 //! may not tell the cap from a receiver; it is set back, and "behind" is right wherever it is seen.)
 //!
-//! All of it in f64, with room for what a vertex shader's f32 makes of it.
+//! All of it in f64, with room for what a vertex shader's f32 makes of it: of the far points, which may
+//! be much farther from everything than the caster's middle is; of the receivers; and as both are seen by
+//! the eye (see [`displacement`]). A caster without any thickness needs it most.
 
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 use super::ShadowVolumeFrame;
-use super::world_box::{WorldBox, rounding};
+use super::world_box::{WorldBox, displacement, rounding};
 use crate::HomogeneousLight;
 
 /// Where far vertices go: see `far_point` in volume_extrude.wgsl.
@@ -46,6 +48,8 @@ pub(super) struct Ends {
     receivers: Option<[DVec3; 2]>,
     /// Where rays start.
     origins: Vec<DVec4>,
+    /// How far the viewer is from the world's origin.
+    eye: f64,
 }
 
 /// How much farther planes are than they need to be, relative to their distance.
@@ -54,9 +58,11 @@ const ROOM: f64 = 1e-3;
 impl Ends {
     pub fn new(frame: &ShadowVolumeFrame<'_>, origins: Vec<DVec4>) -> Self {
         let range = frame.range.filter(|_| !frame.light.is_directional());
+        let corners = frame.view.near_corners().into_iter();
+        let eye = corners.map(DVec3::length).fold(0.0, f64::max);
         let receivers = frame.receivers.map(|bounds| {
             let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-            let slack = rounding(min.abs().max(max.abs()));
+            let slack = displacement(min.abs().max(max.abs()).length() + eye);
             [min - slack, max + slack]
         });
         Self {
@@ -64,6 +70,7 @@ impl Ends {
             range: range.map(f64::from),
             receivers,
             origins,
+            eye,
         }
     }
 
@@ -98,14 +105,12 @@ impl Ends {
         let axis = (world.centre() - light).normalize_or_zero();
         let from_light = axis.dot(light);
         let (nearest, farthest) = (world.nearest(axis), world.farthest(axis));
-        // Only what is wholly on one side of the light can be cast onto one plane; a thousandth
-        // keeps rounding from moving a vertex to the other side.
-        let one_sided = nearest - from_light > 1e-3 * (farthest - from_light);
-        if !(one_sided && world.excludes(self.light)) {
+        let castable = is_castable(nearest - from_light, world.reach(light));
+        if !(castable && world.excludes(self.light)) {
             return None;
         }
         // Beyond the caster, too, or its far part would be turned inside out.
-        let distance = range.max(farthest - from_light) * (1.0 + ROOM);
+        let distance = self.room(range.max(farthest - from_light), light);
         Some(FarEnd {
             plane: (axis / distance).extend(0.0),
             apex: (light + axis * distance).extend(1.0),
@@ -145,10 +150,10 @@ impl Ends {
         // the normal. Rounding must not change that by more than there is room for.
         let reach = world.reach(light);
         let error = rounding(DVec3::splat(light.abs().max_element() + reach)).x;
-        if !(nearest > 1e-2 * reach && nearest * ROOM > error) {
+        if !(is_castable(nearest, reach) && nearest * ROOM > error) {
             return None;
         }
-        let distance = (place - from_light).max(farthest) * (1.0 + ROOM);
+        let distance = self.room((place - from_light).max(farthest), light);
         let plane = normal / distance;
         let before = |p: &DVec4| plane.dot(p.xyz() - light * p.w) < (1.0 - ROOM) * p.w;
         let toward = world.centre() - light;
@@ -158,6 +163,14 @@ impl Ends {
         })
     }
 
+    /// A distance from the light, and so much more that what is drawn there is not drawn before it.
+    ///
+    /// Far points may be a hundred times as far from the light as the plane they are in (see
+    /// [`is_castable`]); that much of their displacement is a fifth of a thousandth of the distance.
+    fn room(&self, distance: f64, light: DVec3) -> f64 {
+        distance * (1.0 + ROOM) + 2.0 * displacement(light.length() + self.eye)
+    }
+
     /// The same for a directional light.
     fn across_direction(&self, world: &WorldBox, normal: DVec3, place: f64) -> Option<FarEnd> {
         let direction = -self.light.0.xyz().as_dvec3().normalize();
@@ -165,10 +178,11 @@ impl Ends {
         if along < 1e-2 {
             return None;
         }
-        let farthest = world.farthest(normal);
-        let thickness = place.max(farthest) - world.nearest(normal);
-        let error = rounding(world.centre().abs() + DVec3::splat(place.abs() + thickness));
-        let place = place.max(farthest) + ROOM * thickness + error.max_element() / along;
+        let last = place.max(world.farthest(normal));
+        let thickness = last - world.nearest(normal);
+        // The far points, and the caster's own surface, which lies before them.
+        let farthest_point = world.reach(DVec3::ZERO) + thickness / along * (1.0 + ROOM);
+        let place = last + ROOM * thickness + 2.0 * displacement(farthest_point + self.eye);
         let before = |p: &DVec4| normal.dot(p.xyz()) < place * p.w;
         let to_plane = (place - normal.dot(world.centre())) / along;
         self.origins.iter().all(before).then(|| FarEnd {
@@ -176,6 +190,13 @@ impl Ends {
             apex: (world.centre() + direction * to_plane).extend(1.0),
         })
     }
+}
+
+/// Whether all of a caster that reaches so far from the light can be cast onto a plane, to which no part
+/// of it is nearer along the normal than `nearest`. A vertex that is all but level with the light is cast
+/// too far along the plane, and where the light is to a millionth, to the wrong side.
+fn is_castable(nearest: f64, reach: f64) -> bool {
+    nearest > 1e-2 * reach
 }
 
 #[cfg(test)]
@@ -265,6 +286,51 @@ mod tests {
             }
         }
         assert!(found > 15, "{found}");
+    }
+
+    #[test]
+    fn a_flat_caster_in_the_receivers_side_ends_farther_than_it_is_drawn_wrong() {
+        for half in [1.0, 300.0, 1e4, 1e6] {
+            let eye = Vec3::new(0.1 * half, 5.0, 9.0);
+            let direction = DVec3::new(0.3, 1.0, 0.2);
+            let light = HomogeneousLight::directional(direction.as_vec3());
+            let camera = rh::view::look_at_mat4(eye, Vec3::ZERO, Vec3::Y);
+            let projection = rh::proj::directx::perspective_infinite_reverse(0.9, 1.0, 0.1);
+            let view = View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap();
+            let level = Vec3::new(half, 0.0, half);
+            let frame = ShadowVolumeFrame {
+                receivers: Some(Bounds {
+                    min: -level,
+                    max: level,
+                }),
+                ..ShadowVolumeFrame::new(&view, light, &[])
+            };
+            let origins = view.near_corners().map(|corner| corner.extend(1.0));
+            let ends = Ends::new(&frame, origins.to_vec());
+            let world = WorldBox::new(DVec3::ZERO, level.as_dvec3());
+            let end = ends.behind_receivers(&world, ends.infinite(&world));
+            assert_eq!(end.plane.xyz(), DVec3::NEG_Y);
+            // What a matrix makes of a corner and of the point behind it, rounded at every step.
+            let rows = [0, 1, 3].map(|row| view.clip_from_world().row(row));
+            let below = end.plane.w;
+            let run = below / direction.y;
+            for corner in [Vec3::ZERO, level, -level, level * Vec3::new(1.0, 0.0, -1.0)] {
+                let behind = (corner.as_dvec3() - direction * run).as_vec3();
+                for point in [corner, behind] {
+                    let moved = rows.map(|row| {
+                        let clip = row.x * point.x + row.y * point.y + row.z * point.z + row.w;
+                        let exact = row.as_dvec4().dot(point.as_dvec3().extend(1.0));
+                        (f64::from(clip) - exact) / row.xyz().as_dvec3().length()
+                    });
+                    // Half of the way from one to the other is each one's own.
+                    assert!(
+                        DVec3::from(moved).length() < 0.5 * below,
+                        "{half}: {moved:?}"
+                    );
+                }
+            }
+            assert!(below < 1e-5 * (half as f64 + 20.0), "{half}: {below}");
+        }
     }
 
     #[test]

@@ -115,7 +115,10 @@ fn of_caster(slot: &Slot, scratch: &mut CpuVolume) -> u64 {
     let seen = Seen {
         mesh,
         volume: scratch,
-        light: light.extend(f64::from(w)),
+        light: match f64::from(w) {
+            0.0 => light.extend(0.0),
+            w => (light / w).extend(1.0),
+        },
     };
     let found = seen.layers(slot.mesh.bounds());
     found.min(caps)

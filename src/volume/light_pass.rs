@@ -2,7 +2,7 @@
 
 use super::mask::{check_readable_samples, check_target};
 use super::screen::{On, SCREEN, ScreenPipeline};
-use super::targets::is_drawable;
+use super::targets::{DEPTH_STENCIL, is_drawable};
 use crate::error::ScreenPassError;
 
 const JOIN: &str = include_str!("../../shaders/volume_join.wgsl");
@@ -16,7 +16,7 @@ pub struct LightJoinDescriptor<'a> {
     /// Format of the target: one that blends. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
-    /// `Depth24PlusStencil8`.
+    /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of target, depth-stencil buffer and sources: 1 (default) or 4; on wgpu's GL
     /// back end, whose shaders read no multisampled texture, 1.
@@ -28,7 +28,7 @@ impl Default for LightJoinDescriptor<'_> {
         Self {
             label: None,
             color_format: wgpu::TextureFormat::Rgba8Unorm,
-            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+            depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
         }
     }

@@ -1,6 +1,7 @@
 //! A mask of what each light reaches, for any later pass to sample.
 
 use super::screen::{On, SCREEN, ScreenPipeline};
+use super::targets::DEPTH_STENCIL;
 use crate::error::ScreenPassError;
 use crate::gl;
 
@@ -18,7 +19,7 @@ pub struct ShadowMaskDescriptor<'a> {
     /// `max_texture_array_layers`.
     pub lights: u32,
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
-    /// `Depth24PlusStencil8`.
+    /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Its samples per pixel, 1 (default) or 4. With 4, the mask holds the share that is lit.
     pub sample_count: u32,
@@ -30,7 +31,7 @@ impl Default for ShadowMaskDescriptor<'_> {
             label: None,
             size: [1, 1],
             lights: 1,
-            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
+            depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
         }
     }

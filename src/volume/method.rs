@@ -124,6 +124,7 @@ pub(super) enum DarkCap {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Skip {
     Empty,
+    EdgeOn,
     OutOfRange,
     OutOfView,
 }

@@ -12,7 +12,9 @@ pub(super) struct BatchParams {
     pub position_stride: u32,
     pub position_offset: u32,
     pub general: u32,
-    pub padding: [u32; 2],
+    /// See `settled` in `volume_light_side.wgsl`.
+    pub zero: u32,
+    pub padding: u32,
 }
 
 /// `Instance` in `volume_batch.wgsl`.
@@ -44,6 +46,11 @@ pub(super) struct CasterParams {
     pub object_light: [f32; 4],
     pub object_light_rest: [f32; 3],
     pub both_sides: u32,
+    pub anchor: [f32; 3],
+    /// See `settled` in `volume_light_side.wgsl`.
+    pub zero: u32,
+    pub anchor_from_light: [f32; 3],
+    pub depth_step: f32,
 }
 
 /// The indirect arguments of one instance, before anything is counted.
@@ -88,28 +95,36 @@ mod tests {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
 
     use super::*;
+    use crate::DepthConvention;
     use crate::volume::draw::Feed;
     use crate::volume::limits::WORKGROUP;
     use crate::volume::silhouette;
     use crate::wgsl_layout::assert_layout;
+
+    const CONVENTIONS: [DepthConvention; 3] = [
+        DepthConvention::InfiniteReverse,
+        DepthConvention::FiniteReverse,
+        DepthConvention::Standard,
+    ];
 
     fn parse(source: &str) -> naga::Module {
         naga::front::wgsl::parse_str(source)
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)))
     }
 
-    fn sources() -> [String; 4] {
+    fn sources(depth: DepthConvention) -> [String; 4] {
         [
             silhouette::facing_source(),
             silhouette::edges_source(),
-            Feed::Pulled.source(),
-            Feed::Records.source(),
+            Feed::Pulled.source(depth),
+            Feed::Records.source(depth),
         ]
     }
 
     #[test]
     fn every_shader_is_valid_without_any_capability() {
-        for source in sources() {
+        let every = CONVENTIONS.into_iter().flat_map(sources);
+        for source in every {
             Validator::new(ValidationFlags::all(), Capabilities::empty())
                 .validate(&parse(&source))
                 .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
@@ -118,7 +133,7 @@ mod tests {
 
     #[test]
     fn rust_and_wgsl_agree_on_every_offset() {
-        let [facing, edges, draw, vertex] = sources();
+        let [facing, edges, draw, vertex] = sources(DepthConvention::Standard);
         for source in [facing, edges] {
             assert_layout!(
                 source,
@@ -130,6 +145,7 @@ mod tests {
                 position_stride,
                 position_offset,
                 general,
+                zero,
                 padding
             );
             assert_layout!(
@@ -161,7 +177,11 @@ mod tests {
                 side_vertices,
                 object_light,
                 object_light_rest,
-                both_sides
+                both_sides,
+                anchor,
+                zero,
+                anchor_from_light,
+                depth_step
             );
         }
     }

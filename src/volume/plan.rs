@@ -209,6 +209,10 @@ impl Plan {
             object_light: subject.light.light,
             object_light_rest: subject.light.rest,
             both_sides: subject.counted as u32,
+            anchor: subject.light.origin.anchor,
+            zero: 0,
+            anchor_from_light: subject.light.origin.from_light,
+            depth_step: rule::depth_step(frame.view),
         });
         self.slot_of.push(number);
         self.draw(subject, form, frame, [number, place]);
@@ -301,6 +305,7 @@ fn batch_params(mesh: &CasterMesh, first_instance: u32) -> BatchParams {
         position_stride,
         position_offset,
         general: u32::from(mesh.kind() == MeshKind::General),
-        padding: [0; 2],
+        zero: 0,
+        padding: 0,
     }
 }

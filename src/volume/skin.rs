@@ -23,7 +23,6 @@ pub(super) fn settle(
     form: &mut Form,
     (bounds, map): (Bounds, &DAffine3),
     light: HomogeneousLight,
-    object_light: DVec3,
     world: &WorldBox,
 ) {
     if light.is_directional() || !form.far.is_infinite() || form.dark_cap == DarkCap::None {
@@ -36,14 +35,15 @@ pub(super) fn settle(
     if form.dark_cap == DarkCap::Fan && nearest > CLEAR * farthest {
         return;
     }
-    if let Some(inward) = inward(bounds, map, object_light) {
+    if let Some(inward) = inward(bounds, map, light.0.truncate().as_dvec3()) {
         form.dark_cap = DarkCap::Fan;
         form.far.apex = inward.extend(0.0);
     }
 }
 
-/// The direction, in world space and of length 1, across the side of a mesh's box that is farthest
-/// from a point outside of it; `None` inside. The point is in the mesh's space.
+/// The direction, in world space and of length 1, across the side of a mesh's turned box that is
+/// farthest from a point outside of it; `None` inside. All of it in world space, so that the box may be
+/// flat.
 fn inward(bounds: Bounds, map: &DAffine3, point: DVec3) -> Option<DVec3> {
     // Normals go over to the world by the cofactors, of which the sign is that of the mirror.
     let m = map.matrix3;
@@ -53,15 +53,13 @@ fn inward(bounds: Bounds, map: &DAffine3, point: DVec3) -> Option<DVec3> {
         m.z_axis.cross(m.x_axis),
         m.x_axis.cross(m.y_axis),
     ];
-    let volume = m.determinant().abs();
-    let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-    let sides = (0..3).flat_map(|axis| {
-        let normal = normals[axis] * mirror;
-        // A length along the axis is so much from plane to plane in the world.
-        let unit = volume / normal.length();
+    let [from_min, from_max] =
+        [bounds.min, bounds.max].map(|corner| point - map.transform_point3(corner.as_dvec3()));
+    let sides = normals.into_iter().flat_map(|normal| {
+        let inward = (normal * mirror).normalize_or_zero();
         [
-            ((min - point)[axis] * unit, normal.normalize()),
-            ((point - max)[axis] * unit, -normal.normalize()),
+            (-inward.dot(from_min), inward),
+            (inward.dot(from_max), -inward),
         ]
     });
     sides

@@ -13,6 +13,9 @@ pub enum CasterState {
     ZFail,
     /// Left out: its mesh has no triangles.
     Empty,
+    /// Left out: its transform leaves no area of it that the light sees. It is flattened to a line or a
+    /// point, or to a plane that holds the light.
+    EdgeOn,
     /// Left out: it is beyond the light's range.
     OutOfRange,
     /// Left out: nothing that it could shadow is in view.
@@ -32,6 +35,7 @@ impl From<Skip> for CasterState {
     fn from(skip: Skip) -> Self {
         match skip {
             Skip::Empty => Self::Empty,
+            Skip::EdgeOn => Self::EdgeOn,
             Skip::OutOfRange => Self::OutOfRange,
             Skip::OutOfView => Self::OutOfView,
         }
@@ -53,6 +57,7 @@ impl Tally {
             CasterState::ZPass => &mut statistics.casters_z_pass,
             CasterState::ZFail => &mut statistics.casters_z_fail,
             CasterState::Empty => &mut statistics.skipped_empty,
+            CasterState::EdgeOn => &mut statistics.skipped_edge_on,
             CasterState::OutOfRange => &mut statistics.skipped_out_of_range,
             CasterState::OutOfView => &mut statistics.skipped_out_of_view,
         } += 1;

@@ -135,16 +135,20 @@ fn subject(
     tally: &mut Tally,
 ) -> Result<Option<Subject>, ShadowVolumeError> {
     let map = caster.transform();
-    let light = ObjectLight::new(frame.light, &map, index)?;
     let world = WorldBox::of(caster);
     let empty = (caster.mesh.triangle_count() == 0).then_some(Skip::Empty);
     let skip = empty.or_else(|| rules.skips(&world));
+    let light = match skip {
+        None | Some(Skip::OutOfView) => ObjectLight::new(frame.light, &map, caster.mesh.bounds()),
+        Some(Skip::Empty | Skip::EdgeOn | Skip::OutOfRange) => None,
+    };
+    let skip = skip.or(light.is_none().then_some(Skip::EdgeOn));
     if let Some(skip) = skip {
         tally.note(skip.into());
-        if !(skip == Skip::OutOfView && means.keep) {
-            return Ok(None);
-        }
     }
+    let Some(light) = light.filter(|_| skip.is_none() || means.keep) else {
+        return Ok(None);
+    };
     let way = means
         .ways
         .of(&caster.mesh)
@@ -153,7 +157,7 @@ fn subject(
         let mut form = rules.form(&world);
         if means.options.caps == Caps::AsNeeded {
             let own = (caster.mesh.bounds(), &map);
-            skin::settle(&mut form, own, frame.light, light.exact(), &world);
+            skin::settle(&mut form, own, frame.light, &world);
         }
         form
     });

@@ -1,4 +1,7 @@
-//! What colour formats a pass can have.
+//! What formats a pass can have.
+
+/// Of depth-stencil buffers, where a descriptor names no other.
+pub(super) const DEPTH_STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
 
 /// Whether pictures of this format can be drawn into with so many samples a pixel, and are `also` what
 /// is asked for. A device that goes by its adapter's own formats does not say which they are; there,

@@ -89,6 +89,16 @@ impl WorldBox {
     }
 }
 
+/// More than the roundings of vertex shaders move a vertex from its place in the picture, if its distance
+/// from the world's origin and the eye's add up to `distances`: in world units, across whatever surface.
+///
+/// With u = 2^-24: each of three world coordinates is a sum of four products and wrong by 4 u of the
+/// vertex's distance; and each of three rows of the clip matrix (x, y and w; depth follows w) by 4 u of
+/// the two distances, in units of the row's length. sqrt(3) (4 u + 4 u) is 13.9 u.
+pub(super) fn displacement(distances: f64) -> f64 {
+    distances * (8.0 * f64::from(f32::EPSILON))
+}
+
 /// More than a vertex shader's roundings can move a coordinate whose terms have this magnitude.
 pub(super) fn rounding(magnitude: DVec3) -> DVec3 {
     magnitude * (4.0 * f64::from(f32::EPSILON))

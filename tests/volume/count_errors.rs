@@ -5,6 +5,7 @@ use shadows::{
     Counter, ExactCount, ExactCountDescriptor, ShadowVolumeDescriptor, ShadowVolumeRenderer, wgpu,
 };
 
+use crate::errors::FLOAT;
 use crate::passes::view_of;
 
 #[test]
@@ -12,7 +13,7 @@ fn exact_counts_that_do_not_fit_are_refused() {
     let feature = wgpu::Features::FLOAT32_BLENDABLE;
     let device = |required_features| {
         wgpu::Device::noop(&wgpu::DeviceDescriptor {
-            required_features,
+            required_features: required_features | FLOAT,
             ..Default::default()
         })
     };
@@ -81,7 +82,7 @@ fn exact_counts_that_do_not_fit_are_refused() {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Depth24PlusStencil8,
+            format: ok.depth_stencil_format,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });

@@ -6,7 +6,7 @@ use shadows::{
     VolumeDebug, VolumeDebugDescriptor, wgpu,
 };
 
-use crate::errors::{LIGHT, bare, cubes, noop, two_devices, view};
+use crate::errors::{FLOAT, LIGHT, bare, cubes, noop, two_devices, view};
 
 fn new(device: &wgpu::Device, descriptor: VolumeDebugDescriptor<'_>) -> Result<(), Error> {
     VolumeDebug::new(device, &descriptor).map(|_| ())
@@ -52,7 +52,7 @@ fn features_and_limits_are_asked_for() {
         max_dynamic_uniform_buffers_per_pipeline_layout: 1,
         ..wgpu::Limits::defaults()
     };
-    let (device, _) = noop(wgpu::Features::empty(), limits);
+    let (device, _) = noop(FLOAT, limits);
     let low = ShadowVolumeError::Limit {
         name: "max_dynamic_uniform_buffers_per_pipeline_layout",
         needed: 2,
@@ -95,7 +95,7 @@ fn a_frame_that_is_not_the_renderers_is_refused() {
 #[test]
 fn another_depth_convention_is_refused() {
     let clip = wgpu::Features::DEPTH_CLIP_CONTROL;
-    let (device, _) = noop(clip, wgpu::Limits::defaults());
+    let (device, _) = noop(FLOAT | clip, wgpu::Limits::defaults());
     let mut debug = VolumeDebug::new(&device, &Default::default()).unwrap();
     let depth = DepthConvention::Standard;
     let descriptor = ShadowVolumeDescriptor {

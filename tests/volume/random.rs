@@ -85,9 +85,10 @@ pub fn scene(seed: u64, gpu: &Gpu) -> Stage {
     stage.depth = depths[random.below(depths.len())];
     let float = wgpu::TextureFormat::Depth32FloatStencil8;
     let has_float = gpu.device.features().contains(float.required_features());
-    if has_float && random.below(2) == 0 {
-        stage.format = float;
-    }
+    stage.format = match has_float && random.below(2) == 0 {
+        true => float,
+        false => wgpu::TextureFormat::Depth24PlusStencil8,
+    };
     // Four samples cost five reference pictures.
     stage.samples = if random.below(8) == 0 { 4 } else { 1 };
     stage.side = SIDE;

@@ -5,6 +5,7 @@ use shadows::{
     LightJoin, LightJoinDescriptor, ShadowMask, ShadowMaskDescriptor, ShadowVolumeRenderer, wgpu,
 };
 
+use crate::errors::bare;
 use crate::host::gpu::Gpu;
 use crate::passes::{HostPipelines, attach, begin, clear, view_of};
 use crate::pictures::{lamp, mixed, sun};
@@ -190,6 +191,10 @@ fn ambient_and_direct_light_are_joined_where_the_light_reaches() {
             sample_count: samples,
             ..Default::default()
         };
+        if samples > 1 && gpu.info.backend == wgpu::Backend::Gl {
+            LightJoin::new(&gpu.device, &descriptor).unwrap_err();
+            continue;
+        }
         let join = LightJoin::new(&gpu.device, &descriptor).unwrap();
         let [ambient, direct] =
             [40.0, 160.0].map(|value| join.bind(&filled(&gpu, value, samples)).unwrap());
@@ -234,7 +239,7 @@ fn ambient_and_direct_light_are_joined_where_the_light_reaches() {
 
 #[test]
 fn masks_and_joins_that_do_not_fit_are_refused() {
-    let (device, _queue) = wgpu::Device::noop(&Default::default());
+    let (device, _queue) = bare();
     let ok = ShadowMaskDescriptor {
         size: [64, 32],
         ..Default::default()
@@ -258,17 +263,17 @@ fn masks_and_joins_that_do_not_fit_are_refused() {
             ..
         }
     ));
-    for format in [
-        wgpu::TextureFormat::Depth32Float,
-        wgpu::TextureFormat::Depth32FloatStencil8,
-    ] {
-        let depth_stencil_format = format;
-        let descriptor = ShadowMaskDescriptor {
-            depth_stencil_format,
-            ..ok
-        };
-        assert_eq!(refused(descriptor), Error::Format(format));
-    }
+    let format = wgpu::TextureFormat::Depth32Float;
+    let descriptor = ShadowMaskDescriptor {
+        depth_stencil_format: format,
+        ..ok
+    };
+    assert_eq!(refused(descriptor), Error::Format(format));
+    let (without_floats, _queue) = wgpu::Device::noop(&Default::default());
+    assert_eq!(
+        ShadowMask::new(&without_floats, &ok).err(),
+        Some(Error::Format(ok.depth_stencil_format))
+    );
     let descriptor = ShadowMaskDescriptor {
         sample_count: 2,
         ..ok
@@ -288,7 +293,7 @@ fn masks_and_joins_that_do_not_fit_are_refused() {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Depth24PlusStencil8,
+            format: ok.depth_stencil_format,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });

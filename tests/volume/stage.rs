@@ -111,7 +111,7 @@ impl Stage {
             field_of_view: 0.9,
             near: 0.1,
             depth: DepthConvention::InfiniteReverse,
-            format: wgpu::TextureFormat::Depth24PlusStencil8,
+            format: ShadowVolumeDescriptor::default().depth_stencil_format,
             samples: 1,
             cap_bias_ulps: ShadowVolumeDescriptor::default().cap_bias_ulps,
             arithmetic: Arithmetic::Ours,

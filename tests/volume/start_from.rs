@@ -61,12 +61,18 @@ fn compare(seen: &[bool], picture: &[u8], other: &[u8]) -> (usize, usize) {
 fn a_convex_caster_has_no_shadow_on_itself_and_the_same_on_others() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut stages = Vec::new();
-    for light in [lamp(), sun()] {
-        stages.push(alone(shapes::sphere(6), light));
+    for format in [
+        wgpu::TextureFormat::Depth24PlusStencil8,
+        wgpu::TextureFormat::Depth32FloatStencil8,
+    ] {
+        let in_format = |stage| Stage { format, ..stage };
+        for light in [lamp(), sun()] {
+            stages.push(in_format(alone(shapes::sphere(6), light)));
+        }
+        stages.push(in_format(alone(shapes::cube(), lamp())));
     }
-    stages.push(alone(shapes::cube(), lamp()));
     for (place, stage) in stages.iter_mut().enumerate() {
-        let seen = casters_seen(&gpu, stage);
+        let (seen, inner) = (casters_seen(&gpu, stage), inner_pixels(&gpu, stage));
         for (method, silhouettes) in METHODS.into_iter().flat_map(|m| WAYS.map(|way| (m, way))) {
             stage.savings.method = method;
             stage.savings.silhouettes = silhouettes;
@@ -74,7 +80,14 @@ fn a_convex_caster_has_no_shadow_on_itself_and_the_same_on_others() {
             let from_away = away(stage).draw(&gpu);
             let what = format!("{place}: {:?}, {method:?}, {silhouettes:?}", stage.light);
             let (own, elsewhere) = compare(&seen, &from_away, &facing);
-            assert_eq!(own, 0, "{what}");
+            // Floats set sides off by less: on its outline, where the rasteriser decides what is seen,
+            // one pixel of a box was found to show a side before it.
+            let outline = match stage.format {
+                wgpu::TextureFormat::Depth24PlusStencil8 => 0,
+                _ => 1,
+            };
+            let (inside, _) = compare(&inner, &from_away, &facing);
+            assert!(inside == 0 && own <= outline, "{what}: {inside}, {own}");
             // Up to two pixels of 65,536 were found to differ, on the edges of shadows, the same
             // whatever the way and the method: sides are set off by two units of depth to one side
             // or the other. Inside, none may.

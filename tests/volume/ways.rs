@@ -296,6 +296,7 @@ fn on_webgl2(silhouettes: Silhouettes) -> Result<Option<String>, ShadowVolumeErr
         &device,
         &ShadowVolumeDescriptor {
             silhouettes,
+            depth_stencil_format: wgpu::TextureFormat::Depth24PlusStencil8,
             ..Default::default()
         },
     )?;

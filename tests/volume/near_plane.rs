@@ -1,0 +1,113 @@
+//! A near plane that cuts a caster. The host's surfaces are clipped there; volumes, where depth has a
+//! far plane, are not, and what both have in common rounds otherwise.
+
+use shadows::glam::Vec3;
+use shadows::glam::camera::rh::{proj::directx as proj, view};
+use shadows::{DepthConvention, Method, View, wgpu};
+
+use crate::choices::depths;
+use crate::host::gpu::Gpu;
+use crate::host::random::Random;
+use crate::pictures::{at, lamp, mixed, sun};
+use crate::shapes;
+use crate::stage::{Body, Savings, Stage, WAYS};
+use crate::truth::Errors;
+
+/// A camera somewhere in front of the scene, its near plane in the middle of it or a little before.
+fn stage(random: &mut Random, turn: usize, depth: DepthConvention) -> Stage {
+    let eye = Vec3::new(1.0, 5.0, 9.0) + random.point(2.0);
+    let target = Vec3::new(0.0, 0.5, 0.0);
+    let near = eye.distance(target) * random.within(0.75, 1.0);
+    let far = near * [1e3, 1e5][turn / 2 % 2];
+    let projection = match depth {
+        DepthConvention::InfiniteReverse => proj::perspective_infinite_reverse(0.9, 1.0, near),
+        DepthConvention::FiniteReverse => proj::perspective(0.9, 1.0, far, near),
+        DepthConvention::Standard => proj::perspective(0.9, 1.0, near, far),
+    };
+    let camera = view::look_at_mat4(eye, target, Vec3::Y);
+    let mut stage = Stage {
+        depth,
+        placed_view: View::new(projection * camera, depth).ok(),
+        ..mixed([lamp(), sun()][turn % 2])
+    };
+    let sphere = Body::caster(shapes::sphere(20), at(-1.5, 1.5, 1.5));
+    stage.bodies.push(sphere);
+    stage
+}
+
+/// Of `count` such cameras, the same for every convention.
+fn stages(count: usize, depth: DepthConvention) -> impl Iterator<Item = Stage> {
+    let mut random = Random(5);
+    (0..count).map(move |turn| stage(&mut random, turn, depth))
+}
+
+fn errors(gpu: &Gpu, stage: &Stage, method: Method, what: &str) -> Errors {
+    let savings = Savings {
+        method,
+        ..stage.savings
+    };
+    let stage = Stage {
+        savings,
+        ..stage.clone()
+    };
+    let found = stage.truth().errors(&stage.draw(gpu));
+    assert!(
+        found.interior > 10_000 && found.shadowed > 300,
+        "{what}: {found:?}"
+    );
+    found
+}
+
+#[test]
+fn the_near_plane_may_cut_a_caster_in_every_convention_and_format() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for format in [
+        wgpu::TextureFormat::Depth24PlusStencil8,
+        wgpu::TextureFormat::Depth32FloatStencil8,
+    ] {
+        for depth in depths(&gpu) {
+            for (turn, stage) in stages(4, depth).enumerate() {
+                let stage = Stage { format, ..stage };
+                for method in [Method::Auto, Method::ZFail] {
+                    let what = format!("{turn}, {format:?}, {depth:?}, {method:?}");
+                    let found = errors(&gpu, &stage, method, &what);
+                    assert_eq!(found.wrong, 0, "{what}: {found:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn so_it_may_whichever_way_silhouettes_are_found() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for silhouettes in WAYS {
+        for mut stage in stages(2, DepthConvention::Standard) {
+            if !depths(&gpu).contains(&stage.depth) {
+                return;
+            }
+            stage.savings.silhouettes = silhouettes;
+            let what = format!("{silhouettes:?}");
+            let found = errors(&gpu, &stage, Method::ZFail, &what);
+            assert_eq!(found.wrong, 0, "{what}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn caps_that_are_set_back_by_a_unit_of_their_own_depth_are_not_enough() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    if !depths(&gpu).contains(&DepthConvention::Standard) {
+        return;
+    }
+    let wrong: usize = stages(4, DepthConvention::Standard)
+        .map(|stage| {
+            let stage = Stage {
+                cap_bias_ulps: 1,
+                ..stage
+            };
+            errors(&gpu, &stage, Method::ZFail, "one unit").wrong
+        })
+        .sum();
+    assert!(wrong > 20, "{wrong}");
+}
