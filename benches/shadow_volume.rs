@@ -21,7 +21,7 @@
 //! `shadow_volume/extraction.rs` says.
 //!
 //! Then four thousand casters: `ratio distinct_meshes_4000_vs_one_mesh` and what else
-//! `shadow_volume/distinct.rs` says. `--distinct` measures nothing else.
+//! `shadow_volume/distinct.rs` says. `--extraction` and `--distinct` measure nothing but these.
 //!
 //! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
@@ -210,8 +210,15 @@ fn main() -> anyhow::Result<()> {
         eprintln!("skipped: no adapter");
         return Ok(());
     };
-    if std::env::args().any(|argument| argument == "--distinct") {
+    let asked = |name: &str| std::env::args().any(|argument| argument == name);
+    let (only_distinct, only_extraction) = (asked("--distinct"), asked("--extraction"));
+    if only_distinct {
         distinct::run(&gpu, rounds.min(7));
+    }
+    if only_extraction {
+        extraction::run(&gpu, rounds);
+    }
+    if only_distinct || only_extraction {
         return Ok(());
     }
     let studio = Studio::new(gpu)?;

@@ -31,12 +31,12 @@ pub struct PointLight {
     /// the range: with infinite reverse-Z in floats a small value costs no precision (Upchurch and
     /// Desbrun, "Tightening the Precision of Perspective Rendering", 2012). In fixed point it would,
     /// and the map takes the square root of the format's step, 1/256 of the range for
-    /// `Depth16Unorm`, 1/4096 for `Depth24Plus` (on GL 1/2900 for floats, which lose their digits near
-    /// 0 there, see [`Support`](crate::Support), and 1/2400 for `Depth24Plus`): a step at the range is then as wide as the near plane is far from the light.
+    /// `Depth16Unorm`, 1/4096 for `Depth24Plus`: a step at the range is then as wide as the
+    /// near plane is far from the light.
     /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) has 2^-24 in every format.
     ///
     /// Casters nearer than this are pulled onto that plane where the device has
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), and so cast on all that is beyond it;
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL, and so cast on all that is beyond it;
     /// elsewhere they cast nothing. What receives before the plane is lit.
     ///
     /// [`CubeShadowMap`]: crate::CubeShadowMap

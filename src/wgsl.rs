@@ -41,6 +41,12 @@ pub(crate) const CUBE_CASTER: &str = concat!(
     include_str!("../shaders/cube_caster_face.wgsl"),
 );
 
+/// The same on wgpu's GL back end.
+pub(crate) const CUBE_CASTER_GL: &str = concat!(
+    include_str!("../shaders/cube_caster.wgsl"),
+    include_str!("../shaders/cube_caster_gl.wgsl"),
+);
+
 /// Depth of casters on several faces of a cube map at once.
 pub(crate) const CUBE_CASTER_VIEWS: &str = concat!(
     include_str!("../shaders/cube_caster.wgsl"),

@@ -252,6 +252,7 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
             &points,
             |module| {
                 module
+                .replace(test, border)
                 .replace("(texel + 0.5) / size;", "clamp((texel + 0.5) / size, vec2f(0.01), vec2f(0.99));")
                 .replace("return true;", "return corner_inside(size);")
                 .replace("fn shadows_flat_gathers", "fn corner_inside(size: f32) -> bool { return size < 0.0; }\nfn shadows_flat_gathers")

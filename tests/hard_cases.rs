@@ -30,7 +30,7 @@ use std::path::Path;
 
 use shadows::reference::{Class, Interior, ReferenceImage};
 
-use crate::hard::cases::{self, Case, mesh};
+use crate::hard::cases::{self, Case, Course, mesh};
 use crate::hard::expect::{Expect, expected, is_software};
 use crate::hard::input::t_junction;
 use crate::hard::judge::{Frame, judge};
@@ -353,4 +353,35 @@ fn flat_maps_are_tried_under_spots() {
     });
     let names: Vec<&str> = spots.map(|case| case.name).collect();
     assert_eq!(names.len(), 11, "{names:?}");
+}
+
+/// What went before changes no bit: not casters that came and went, nor a second view behind.
+#[test]
+fn frames_around_it_leave_a_picture_as_it_is_alone() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let techniques = techniques().unwrap();
+    for case in cases::all().filter(|case| case.course != Course::Fresh) {
+        for situation in (case.situations)(&mut Random(0)) {
+            let scene = situation.scene.clone();
+            let stage = Stage::with_look(&gpu, scene, SIZE, situation.look).unwrap();
+            let applies = |technique: &&Technique| trial::applies(&gpu, technique, &situation);
+            for technique in techniques.iter().filter(applies) {
+                // A sun's map lies where its casters were, as long as it holds them.
+                let may_lie_elsewhere = matches!(technique.config, Config::Flat { .. });
+                if case.course == Course::ComeAndGo && may_lie_elsewhere {
+                    continue;
+                }
+                let shadow = || Shadow::new(&gpu, &stage.renderer, technique.clone()).unwrap();
+                let course = |course: Course| course.picture(&gpu, &stage, &mut shadow()).unwrap();
+                let alone = course(Course::Fresh).visibility;
+                let what = format!("{}, {}, {}", case.name, situation.what, technique.name);
+                assert!(course(case.course).visibility == alone, "{what}");
+                // A caster that stayed away would be missed.
+                let mut inputs = stage.inputs.clone();
+                inputs.casters.remove(0);
+                let less = stage.picture(&gpu, &mut shadow(), &inputs).unwrap();
+                assert!(less.visibility != alone, "{what}");
+            }
+        }
+    }
 }

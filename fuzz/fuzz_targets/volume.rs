@@ -163,7 +163,9 @@ fn draw(renderer: &mut ShadowVolumeRenderer, [width, height]: [u32; 2], exact: b
                 ..Default::default()
             };
             let count = ExactCount::new(&device().0, &descriptor).expect("it fits");
-            renderer.render(&mut count.begin(encoder, &view).expect("it fits")).expect("it is encoded");
+            renderer
+                .render(&mut count.begin(encoder, &view).expect("it fits"))
+                .expect("it is encoded");
             return count.encode(encoder, &view).expect("it fits");
         }
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

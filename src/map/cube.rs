@@ -16,7 +16,6 @@ use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
 use super::scene::Scene;
 use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
-use super::step::depth_step;
 use super::still_layer::StillLayer;
 use super::texture::Textures;
 use super::transfers::Transfers;
@@ -78,7 +77,6 @@ pub struct CubeShadowMap {
     pub(super) format: wgpu::TextureFormat,
     pub(super) encoding: DepthEncoding,
     pub(super) near_plane: NearPlane,
-    pub(super) depth_step: f32,
     pub(super) allocation: Allocation,
     pub(super) cache: bool,
     pub(super) budget: Option<u32>,
@@ -143,10 +141,8 @@ impl CubeShadowMap {
                 bind_group_layouts: &[Some(&layout)],
                 immediate_size: 0,
             }),
-            shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(&label),
-                source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CASTER.into()),
-            }),
+            shader: resources::caster_shader(device, &label),
+            depth_written: resources::writes_depth(device),
             format,
             encoding,
             slope_scale: bias.slope_scale,
@@ -171,8 +167,7 @@ impl CubeShadowMap {
             array: cube_array,
             format,
             encoding,
-            near_plane: NearPlane::new(device, format, encoding),
-            depth_step: depth_step(device, format, encoding),
+            near_plane: NearPlane::new(format, encoding),
             allocation: descriptor.allocation,
             cache: descriptor.cache,
             budget: descriptor.max_faces_per_frame,

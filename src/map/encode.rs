@@ -98,7 +98,9 @@ impl CubeShadowMap {
     /// Begins a pass that clears one face of a light, for a host that draws its own geometry
     /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
     /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding), and
-    /// unclipped depth where the device has it, so that what is nearer than the near plane casts.
+    /// unclipped depth where the device has it, so that what is nearer than the near plane casts. On
+    /// wgpu's GL back end, let the fragment shader write clip z times its position's w as `frag_depth`:
+    /// the rasteriser's own depth has too few digits there (see [`Support`](crate::Support)).
     /// `None` if the light has no texels (see [`Allocation::AtOnce`](crate::Allocation::AtOnce)) or
     /// the last frame had no such light.
     ///

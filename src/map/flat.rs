@@ -13,7 +13,6 @@ use super::flat_frame::{FlatFrame, LightBox};
 use super::near::NearPlane;
 use super::resources::{self, FaceUniform, PipelineKey, PipelineKind};
 use super::scene::Scene;
-use super::step::depth_step;
 use super::texture;
 use super::transfers::Transfers;
 use crate::error::ShadowMapError;
@@ -61,7 +60,6 @@ pub struct ShadowMap {
     view: wgpu::TextureView,
     pub(super) kind: PipelineKind,
     pub(super) near_plane: NearPlane,
-    pub(super) depth_step: f32,
     pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     pub(super) face: wgpu::Buffer,
     face_group: wgpu::BindGroup,
@@ -111,10 +109,8 @@ impl ShadowMap {
                 bind_group_layouts: &[Some(&layout)],
                 immediate_size: 0,
             }),
-            shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(&label),
-                source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CASTER.into()),
-            }),
+            shader: resources::caster_shader(device, &label),
+            depth_written: resources::writes_depth(device),
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
@@ -130,8 +126,7 @@ impl ShadowMap {
                 label: Some(&label),
                 ..Default::default()
             }),
-            near_plane: NearPlane::new(device, kind.format, kind.encoding),
-            depth_step: depth_step(device, kind.format, kind.encoding),
+            near_plane: NearPlane::new(kind.format, kind.encoding),
             texture,
             kind,
             pipelines: HashMap::new(),
@@ -198,7 +193,8 @@ impl ShadowMap {
 
     /// Begins a pass that clears the map, for a host that draws its own geometry (skinned,
     /// alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format, one sample,
-    /// depth compare `Greater`.
+    /// depth compare `Greater`. For spots on wgpu's GL back end see
+    /// [`begin_face`](crate::CubeShadowMap::begin_face).
     ///
     /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew is cleared, so
     /// pass such a host's other casters through its own draws too. The casters of

@@ -26,7 +26,7 @@ pub struct ShadowMapDescriptor<'a> {
     /// [`CasterSides::Nearest`].
     pub sides: CasterSides,
     /// Whether casters before the near plane are pulled onto it, on devices with
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL). Default true. On others a
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On others a
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
     /// than its [`near`](SpotLight::near).
     pub unclipped_depth: bool,
@@ -213,7 +213,12 @@ impl FlatLightUniform {
     };
 
     /// `frame` is `None` where nothing casts.
-    pub(super) fn new(frame: Option<&FlatFrame>, bias: &Bias, size: u32, quantum: f32) -> Self {
+    pub(super) fn new(
+        frame: Option<&FlatFrame>,
+        bias: &Bias,
+        size: u32,
+        format: wgpu::TextureFormat,
+    ) -> Self {
         let Some(frame) = frame else {
             return Self {
                 quantum: -1.0,
@@ -237,7 +242,7 @@ impl FlatLightUniform {
                 false => bias.constant * texel / frame.range,
             },
             perspective: f32::from(u8::from(frame.perspective)),
-            quantum,
+            quantum: quantum(format).unwrap_or(0.0),
         }
     }
 }

@@ -194,8 +194,8 @@ impl ShadowMap {
     }
 
     fn tell_receivers(&mut self) {
-        let (frame, step) = (self.frame.as_ref(), self.depth_step);
-        let light = FlatLightUniform::new(frame, &self.bias, self.size, step);
+        let (frame, format) = (self.frame.as_ref(), self.texture.format());
+        let light = FlatLightUniform::new(frame, &self.bias, self.size, format);
         if self.written_light.replace(light) != Some(light) {
             self.transfers
                 .push(&self.light, 0, bytemuck::bytes_of(&light));

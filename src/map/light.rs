@@ -1,5 +1,6 @@
 //! What receivers are told of a light.
 
+use super::descriptor::quantum;
 use crate::{Bias, PointLight};
 
 /// Where a light's depths are.
@@ -35,7 +36,7 @@ impl LightUniform {
         depths: Depths,
         size: u32,
         bias: &Bias,
-        quantum: f32,
+        format: wgpu::TextureFormat,
     ) -> Self {
         let texel = 2.0 / size as f32;
         Self {
@@ -45,7 +46,7 @@ impl LightUniform {
             size: size as f32,
             normal_offset: bias.normal_offset * texel,
             depth_scale: 1.0 + bias.constant * texel,
-            quantum,
+            quantum: quantum(format).unwrap_or(0.0),
             cube: match depths {
                 Depths::Cube(index) => index,
                 Depths::NoCaster => -1,

@@ -24,7 +24,6 @@ mod scene;
 mod schedule;
 mod slot;
 mod statistics;
-mod step;
 mod still;
 mod still_layer;
 mod texture;

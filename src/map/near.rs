@@ -1,7 +1,6 @@
 //! Where the shadow map of a light with a position begins, unless the host says where.
 
-use super::descriptor::DepthEncoding;
-use super::step::depth_step;
+use super::descriptor::{DepthEncoding, quantum};
 use crate::{PointLight, SpotLight};
 
 /// A light's near plane for one kind of texels, as a share of the light's range.
@@ -19,15 +18,11 @@ impl NearPlane {
     /// keep all their digits down to 2^-126.
     const OF_FLOATS: f32 = f32::EPSILON * 0.5;
 
-    pub fn new(
-        device: &wgpu::Device,
-        format: wgpu::TextureFormat,
-        encoding: DepthEncoding,
-    ) -> Self {
+    pub fn new(format: wgpu::TextureFormat, encoding: DepthEncoding) -> Self {
         Self::of_step(match encoding {
             // Written by the fragment shader: the near plane only clips.
             DepthEncoding::LinearDistance => 0.0,
-            DepthEncoding::MajorAxis => depth_step(device, format, encoding),
+            DepthEncoding::MajorAxis => quantum(format).unwrap_or(0.0),
         })
     }
 
@@ -58,7 +53,6 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::map::descriptor::quantum;
 
     const FORMATS: [wgpu::TextureFormat; 3] = [
         wgpu::TextureFormat::Depth32Float,

@@ -4,6 +4,7 @@ use std::num::NonZeroU32;
 
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
+use crate::gl;
 
 /// The rows of a caster's map to positions relative to the light.
 pub(super) type Instance = [[f32; 4]; 3];
@@ -123,8 +124,10 @@ pub(super) struct PipelineKind {
     pub format: wgpu::TextureFormat,
     pub encoding: DepthEncoding,
     pub slope_scale: f32,
-    /// Whether casters before the near plane are pulled onto it (`DEPTH_CLIP_CONTROL`).
+    /// Whether casters before the near plane are pulled onto it.
     pub unclipped_depth: bool,
+    /// Whether fragments write the depth, in every encoding.
+    pub depth_written: bool,
     /// Constants of the vertex shader.
     pub constants: &'static [(&'static str, f64)],
 }
@@ -134,7 +137,25 @@ pub(super) struct PipelineKind {
 /// on a cube face, too, nothing is drawn that does not lie in the face's own pyramid.
 pub(super) fn can_pull_casters(device: &wgpu::Device) -> bool {
     let features = device.features();
-    features.contains(wgpu::Features::DEPTH_CLIP_CONTROL)
+    features.contains(wgpu::Features::DEPTH_CLIP_CONTROL) || writes_depth(device)
+}
+
+/// Whether fragments write the depth, because vertices cannot: see `cube_caster_gl.wgsl`. What fragments
+/// write is never clipped.
+pub(super) fn writes_depth(device: &wgpu::Device) -> bool {
+    gl::is_gl(device)
+}
+
+/// Draws casters on one face a pass.
+pub(super) fn caster_shader(device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
+    let source = match writes_depth(device) {
+        false => crate::wgsl::CUBE_CASTER,
+        true => crate::wgsl::CUBE_CASTER_GL,
+    };
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    })
 }
 
 /// `views`: the faces that are drawn at once, by a shader that knows which it is on.
@@ -145,10 +166,15 @@ pub(super) fn pipeline(
     key: PipelineKey,
     views: Option<NonZeroU32>,
 ) -> wgpu::RenderPipeline {
-    let (vertex, fragment) = match kind.encoding {
-        DepthEncoding::MajorAxis => ("vertex", None),
-        DepthEncoding::LinearDistance => ("vertex_distance", Some("fragment_distance")),
+    let (vertex, fragment) = match (kind.encoding, kind.depth_written) {
+        (DepthEncoding::MajorAxis, false) => ("vertex", None),
+        (DepthEncoding::MajorAxis, true) => ("vertex", Some("fragment_depth")),
+        (DepthEncoding::LinearDistance, _) => ("vertex_distance", Some("fragment_distance")),
     };
+    let written = [
+        ("slope_scale", f64::from(kind.slope_scale)),
+        ("pulled", f64::from(u8::from(kind.unclipped_depth))),
+    ];
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(&kind.layout),
@@ -176,7 +202,7 @@ pub(super) fn pipeline(
         },
         primitive: wgpu::PrimitiveState {
             cull_mode: key.cull,
-            unclipped_depth: kind.unclipped_depth,
+            unclipped_depth: kind.unclipped_depth && !kind.depth_written,
             ..Default::default()
         },
         depth_stencil: Some(wgpu::DepthStencilState {
@@ -194,7 +220,10 @@ pub(super) fn pipeline(
         fragment: fragment.map(|entry_point| wgpu::FragmentState {
             module: &kind.shader,
             entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: if kind.depth_written { &written } else { &[] },
+                ..Default::default()
+            },
             targets: &[],
         }),
         multiview_mask: views,

@@ -71,7 +71,8 @@ pub struct ShadowVolumeRenderer {
     keep: bool,
     options: Options,
     counter: Counter,
-    /// Whether `encode` was called since the last `prepare`.
+    /// Whether there was a `prepare`, and whether `encode` was called since the last.
+    prepared: bool,
     encoded: bool,
 }
 
@@ -123,6 +124,7 @@ impl ShadowVolumeRenderer {
             options: Options::of(descriptor),
             counter: descriptor.counter,
             keep: descriptor.keep_between_frames,
+            prepared: false,
             encoded: false,
             label,
         })
@@ -188,7 +190,7 @@ impl ShadowVolumeRenderer {
             ..plan.statistics
         };
         self.plan = plan;
-        self.encoded = false;
+        (self.prepared, self.encoded) = (true, false);
         self.bind();
         Ok(())
     }
@@ -202,7 +204,9 @@ impl ShadowVolumeRenderer {
     /// position buffer says so with [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision)
     /// before `prepare`.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        if std::mem::replace(&mut self.encoded, true) || self.plan.draws.is_empty() {
+        let first = self.prepared && !self.encoded;
+        self.encoded = self.prepared;
+        if !first || self.plan.draws.is_empty() {
             return;
         }
         self.submissions.watch(encoder);

@@ -381,6 +381,8 @@ fn a_forgotten_encode_and_a_dropped_encoder_are_told_and_mended() {
         let nothing = vec![0; right.len()];
         let not_encoded = (Err(VolumeRenderError::NotEncoded), nothing.clone());
         assert!(render(&renderer) == not_encoded, "{way:?}: never prepared");
+        theatre.gpu.run(|encoder| renderer.encode(encoder));
+        assert!(render(&renderer) == not_encoded, "{way:?}: nor now");
         theatre.prepare(&mut renderer, &frame);
         assert!(render(&renderer) == not_encoded, "{way:?}");
 

@@ -191,6 +191,10 @@ fn ambient_and_direct_light_are_joined_where_the_light_reaches() {
             sample_count: samples,
             ..Default::default()
         };
+        if samples > 1 && gpu.info.backend == wgpu::Backend::Gl {
+            LightJoin::new(&gpu.device, &descriptor).unwrap_err();
+            continue;
+        }
         let join = LightJoin::new(&gpu.device, &descriptor).unwrap();
         let [ambient, direct] =
             [40.0, 160.0].map(|value| join.bind(&filled(&gpu, value, samples)).unwrap());
