@@ -42,7 +42,8 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 pub struct Support {
     /// Cube array textures: the maps of several point lights in one binding.
     pub cube_arrays: bool,
-    /// Depth clip control: shadow volumes under projections with a finite far plane.
+    /// Depth clip control: shadow volumes under projections with a finite far plane, and casters in
+    /// maps that are nearer to their light than its near plane.
     pub depth_clip_control: bool,
     /// `Depth32FloatStencil8`: stencil beside float depth.
     pub depth32float_stencil8: bool,
