@@ -72,6 +72,8 @@ const THIN: &str = "what no texel's centre sees casts nothing";
 const POSITIONS: &str = "f32 positions are rounded by more than texels and pixels there: at 1e5 and 1e6 what \
                          is seen from its edge is off by more than the bias in ulps";
 const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels";
+const TWENTY_FOUR_BITS: &str =
+    "steps of 2^-24, where depth is near / distance: 0.7 m at 500 m from a near plane of 2 cm";
 
 /// All of them.
 pub const ALL: &[Known] = &[
@@ -156,6 +158,18 @@ pub const ALL: &[Known] = &[
         "flat-disk",
         RIM,
         [0.012, 0.0, 0.82],
+    ),
+    known(
+        "Near plane through a caster",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.035, 0.01, 0.39],
+    ),
+    known(
+        "24-bit depth-stencil",
+        "volume*",
+        TWENTY_FOUR_BITS,
+        [0.165, 0.0, 0.79],
     ),
     known(
         "Thin caster",
