@@ -69,6 +69,9 @@ const FACING: &str = "nearer than 1e-5 of a triangle's size f32 does not tell th
                       plane; the CPU way decides facing in f64";
 const THIN: &str = "what no texel's centre sees casts nothing";
 
+const TWENTY_FOUR_BITS: &str =
+    "steps of 2^-24, where depth is near / distance: 0.7 m at 500 m from a near plane of 2 cm";
+
 /// All of them.
 pub const ALL: &[Known] = &[
     known(
@@ -152,6 +155,18 @@ pub const ALL: &[Known] = &[
         "flat-disk",
         RIM,
         [0.012, 0.0, 0.82],
+    ),
+    known(
+        "Near plane through a caster",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.035, 0.01, 0.39],
+    ),
+    known(
+        "24-bit depth-stencil",
+        "volume*",
+        TWENTY_FOUR_BITS,
+        [0.165, 0.0, 0.79],
     ),
     known(
         "Thin caster",

@@ -1,6 +1,8 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
 mod camera;
+mod depth;
+mod flat;
 mod frames;
 mod light;
 pub mod mesh;
@@ -56,4 +58,6 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(place::CASES)
         .chain(views::CASES)
         .chain(frames::CASES)
+        .chain(flat::CASES)
+        .chain(depth::CASES)
 }
