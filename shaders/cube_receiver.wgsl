@@ -15,6 +15,9 @@ struct ShadowsCubeLight {
     quantum: f32,
     // Which cube of the array; -1: no caster in range, -2: not drawn yet.
     cube: i32,
+    // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
+    // positions".
+    rounding: f32,
 }
 
 // One face of the cube, seen from a receiver on it: directions are
@@ -82,13 +85,16 @@ fn shadows_cube_face(direction: vec3f, size: f32) -> ShadowsCubeFace {
     return face;
 }
 
-// `normal` is the geometric one, of any length and either sign; it is turned toward the light.
+// `normal` is the geometric one, of any length and either sign; it is turned toward the light. `nearer`
+// is the share of its distance at which the receiver is taken to be: 1 where the normal is known (see
+// pcf_derivatives.wgsl).
 fn shadows_cube_receiver(
     light: ShadowsCubeLight,
     position: vec3f,
     normal: vec3f,
+    nearer: vec2f,
 ) -> ShadowsCubeReceiver {
-    let from_light = position - light.position;
+    let from_light = nearer.x * (position - light.position);
     let distance = length(from_light);
     var receiver: ShadowsCubeReceiver;
     if distance > light.range || light.cube < 0 {
@@ -106,7 +112,10 @@ fn shadows_cube_receiver(
     let height = dot(n, from_light);
     let sine = length(cross(n, from_light)) / distance;
     let major = dot(face.forward, from_light);
-    let plane_distance = height + light.normal_offset * major * sine;
+    // As far as rounding may have moved the receiver, where that is more than the bias in texels.
+    let rounding = light.rounding * (abs(position) + abs(from_light));
+    let offset = max(light.normal_offset * major * sine, dot(abs(n), rounding));
+    let plane_distance = height + offset;
     // The light within the bias of the receiver's plane: nothing is between them. Nor is there at the
     // light itself, or where there is no plane: there the numbers above are not numbers, which no
     // comparison may be trusted to say.
@@ -120,7 +129,8 @@ fn shadows_cube_receiver(
     receiver.ray = from_light / distance;
     receiver.gradient = light.near * light.depth_scale / plane_distance * n;
     receiver.plane = receiver.gradient * axes;
-    receiver.own = light.near * light.depth_scale / major;
+    let own_distance = max(major - dot(abs(face.forward), rounding), 0.03125 * major);
+    receiver.own = light.near * light.depth_scale / own_distance;
     receiver.bound = 32.0 * receiver.own;
     receiver.horizon = 0.0;
     receiver.width = 2.0 * major / light.size;

@@ -22,6 +22,9 @@ struct ShadowsFlatLight {
     perspective: f32,
     // One step of the map's format; negative where nothing is in the map: all is lit.
     quantum: f32,
+    // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
+    // positions".
+    rounding: f32,
 }
 
 // Depth is near / d (spot) or 1 - d / range (directional), d along the frame's forward axis. Of a
@@ -52,14 +55,18 @@ struct ShadowsFlatReceiver {
     known: f32,
 }
 
-// `normal` is the geometric one, of any length and either sign; it is turned toward the light.
+// `normal` is the geometric one, of any length and either sign; it is turned toward the light. `nearer`
+// says how much nearer to the light the receiver is taken to be: (1, 0) where the normal is known (see
+// pcf_derivatives.wgsl).
 fn shadows_flat_receiver(
     light: ShadowsFlatLight,
     position: vec3f,
     normal: vec3f,
+    nearer: vec2f,
 ) -> ShadowsFlatReceiver {
     let axes = mat3x3f(light.forward, light.right, light.down);
-    let local = (position - light.position) * axes;
+    let from_light = position - light.position;
+    let local = nearer.x * (from_light * axes) - vec3f(nearer.y, 0.0, 0.0);
     let spot = light.perspective > 0.5;
     let distance = length(local);
     var receiver: ShadowsFlatReceiver;
@@ -83,12 +90,16 @@ fn shadows_flat_receiver(
     let uv = local.yz * light.scale / away;
     receiver.texel = (uv * 0.5 + 0.5) * light.size;
     receiver.ray = select(vec3f(1.0, 0.0, 0.0), local / distance, spot);
-    var n = normalize(normal) * axes;
+    let unit = normalize(normal);
+    var n = unit * axes;
     let toward_light = -sign(dot(n, receiver.ray));
     n *= select(toward_light, 1.0, toward_light == 0.0);
     receiver.normal = n;
     let sine = length(cross(n, receiver.ray));
-    let plane_distance = dot(n, local) + light.normal_offset * receiver.width * sine;
+    // As far as rounding may have moved the receiver, where that is more than the bias in texels.
+    let rounding = light.rounding * (abs(position) + abs(from_light));
+    let offset = max(light.normal_offset * receiver.width * sine, dot(abs(unit), rounding));
+    let plane_distance = dot(n, local) + offset;
     let across = n.yz / light.scale;
     // A spot within the bias of the receiver's plane: nothing is between them. The plane seen from its
     // edge by a directional light: nothing of it is hidden. Nor where there is no plane.
@@ -105,7 +116,8 @@ fn shadows_flat_receiver(
     receiver.plane.x += light.quantum;
     // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
     let own = dot(receiver.plane, vec3f(1.0, uv));
-    receiver.own = select(own, near / local.x + light.quantum, spot);
+    let own_distance = max(local.x - dot(abs(light.forward), rounding), 0.03125 * local.x);
+    receiver.own = select(own, near / own_distance + light.quantum, spot);
     let nearest = max(0.0, own + 32.0 / (light.scale * light.range));
     receiver.bound = select(nearest, 32.0 * near / local.x + light.quantum, spot);
     receiver.horizon = select(-3e38, light.quantum, spot);

@@ -155,6 +155,14 @@
 //! wrong), `docs/adding.md` (this crate in an engine, step by step) and `docs/numerics.md` (why it is
 //! right).
 //!
+//! # What a version may add
+//!
+//! Errors, statistics and choices (enums of a descriptor) are `#[non_exhaustive]`: variants and fields
+//! come without a breaking release. Descriptors and frames are made with `..Default::default()` or from
+//! their `new`, so that a new field breaks no code; one that takes such a struct apart without `..`
+//! asks to be told of it. Lights, [`Bias`], [`mesh::Bounds`] and the parameters of kernels are what they
+//! are, and so are [`CubeFace`], [`mesh::MeshKind`] and [`DepthConvention`], which hosts match on.
+//!
 //! # Features
 //!
 //! - `reference` (off): exact visibility in f64 for measuring error. Not for frames. It needs Rust 1.89;

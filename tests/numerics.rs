@@ -4,9 +4,9 @@
 #[allow(dead_code)]
 mod random;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Mat3, Quat, Vec3};
 use random::Random;
-use shadows::glam;
+use shadows::{Bias, glam};
 
 const ROUNDS: u32 = 100_000;
 
@@ -91,4 +91,99 @@ fn reverse_depth_keeps_its_relative_steps_and_standard_depth_does_not() {
     }
     // A direction, w = 0, is at exactly 0, and behind everything.
     assert_eq!(near / f32::INFINITY, 0.0);
+}
+
+/// The unit in which positions are rounded: half of the largest ulp, as a part of a coordinate.
+const HALF_ULP: f64 = 1.0 / 16_777_216.0;
+
+/// A triangle as a host draws it: true corners, and what its vertex shader makes of them in f32.
+struct Drawn {
+    truth: [DVec3; 3],
+    world: [Vec3; 3],
+    /// Pixels, and distance along the camera's axis.
+    screen: [[f32; 3]; 3],
+    light: Vec3,
+}
+
+/// Somewhere far away, turned, before a camera nearby.
+fn drawn(random: &mut Random) -> Option<Drawn> {
+    let turn = Quat::from_axis_angle(
+        random.point(1.0).normalize_or(Vec3::X),
+        random.within(0.0, 6.0),
+    );
+    let linear = Mat3::from_quat(turn) * random.within(0.5, 2.0);
+    let far = 10.0_f32.powf(random.within(2.0, 6.0));
+    let place = random.point(1.0) * far;
+    let corners = [(); 3].map(|()| random.point(4.0));
+    let truth = corners.map(|p| linear.as_dmat3() * p.as_dvec3() + place.as_dvec3());
+    // One product after another, as a matrix times a vector is.
+    let world =
+        corners.map(|p| linear.x_axis * p.x + linear.y_axis * p.y + linear.z_axis * p.z + place);
+    let screen = truth.map(|p| {
+        let eye = p - place.as_dvec3() + DVec3::new(0.0, 0.0, 12.0);
+        let at = eye.truncate() * 700.0 / eye.z;
+        [640.0 + at.x as f32, 360.0 + at.y as f32, eye.z as f32]
+    });
+    // A triangle seen from its edge is all edges.
+    let [a, b, c] = screen.map(|[x, y, _]| DVec2::new(x.into(), y.into()));
+    let area = (b - a).perp_dot(c - a).abs();
+    let longest = (b - a).length().max((c - a).length()).max((c - b).length());
+    let inside = screen
+        .iter()
+        .all(|s| s[0] > 0.0 && s[0] < 1280.0 && s[1] > 0.0 && s[1] < 720.0);
+    let normal = (truth[1] - truth[0])
+        .cross(truth[2] - truth[0])
+        .normalize_or_zero();
+    (inside && area > 0.2 * longest * longest && normal != DVec3::ZERO).then_some(Drawn {
+        truth,
+        world,
+        screen,
+        light: place + Vec3::new(5.0, 9.0, 4.0),
+    })
+}
+
+/// A value at a pixel as textbooks have it, in f32: value / w over 1 / w, each a sum over the corners
+/// (Heckbert and Moreton, "Interpolation for Polygon Texture Mapping and Shading", 1991).
+fn interpolated(screen: &[[f32; 3]; 3], values: [f32; 3], weights: [f32; 3]) -> f32 {
+    let [a, b, c] = [0, 1, 2].map(|i| weights[i] * (1.0 / screen[i][2]));
+    (a * values[0] + b * values[1] + c * values[2]) * (1.0 / (a + b + c))
+}
+
+/// How far a receiver's position is off its plane, in [`HALF_ULP`]s of what its coordinates come to
+/// along the normal: the bound that receivers add is so much of `position_ulps`.
+fn off_plane(random: &mut Random) -> Option<f64> {
+    let Drawn {
+        truth,
+        world,
+        screen,
+        light,
+    } = drawn(random)?;
+    let normal = (truth[1] - truth[0]).cross(truth[2] - truth[0]).normalize();
+    let weights = [(); 3].map(|()| random.within(0.05, 1.0));
+    let sum: f32 = weights.iter().sum();
+    let weights = weights.map(|weight| weight / sum);
+    let axis = |axis: usize| interpolated(&screen, world.map(|p| p[axis]), weights);
+    let position = Vec3::new(axis(0), axis(1), axis(2)).as_dvec3();
+    let off = normal.dot(position - truth[0]).abs();
+    let from_light = position - light.as_dvec3();
+    let coordinates = position.abs() + from_light.abs();
+    Some(off / (HALF_ULP * normal.abs().dot(coordinates)))
+}
+
+#[test]
+fn receivers_are_off_their_planes_by_no_more_than_the_bias_in_ulps() {
+    let mut random = Random(4);
+    let mut off: Vec<f64> = Vec::new();
+    while off.len() < ROUNDS as usize {
+        off.extend(off_plane(&mut random));
+    }
+    off.sort_by(f64::total_cmp);
+    let [median, most, worst] =
+        [0.5, 0.999, 1.0].map(|part| off[((off.len() - 1) as f64 * part) as usize]);
+    println!("receivers off their planes, in halves of an ulp: {median:.2}, {most:.2}, {worst:.2}");
+    // An ulp, as `position_ulps` counts, is two halves.
+    let bound = 2.0 * f64::from(Bias::default().position_ulps);
+    assert!(worst < bound, "{worst}");
+    // The broken twin: a quarter of it. (Rasterisers that are less exact than this take half.)
+    assert!(worst > 0.25 * bound, "{worst}");
 }

@@ -121,11 +121,13 @@ fn fourfold() -> Bias {
         normal_offset,
         constant,
         slope_scale,
+        position_ulps,
     } = Bias::default();
     Bias {
         normal_offset: 4.0 * normal_offset,
         constant: 4.0 * constant,
         slope_scale,
+        position_ulps,
     }
 }
 

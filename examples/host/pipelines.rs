@@ -16,6 +16,8 @@ pub struct Look {
     pub premultiplied: bool,
     /// Without perspective; the scene's camera then gives no more than place and direction.
     pub orthographic: Option<Orthographic>,
+    /// Of the depth-stencil buffer; `None` for the best that the device has.
+    pub depth_stencil: Option<wgpu::TextureFormat>,
 }
 
 /// What an orthographic camera shows, in the world's unit of length: counted from the camera, to the
@@ -38,6 +40,7 @@ impl Default for Look {
             samples: 1,
             premultiplied: false,
             orthographic: None,
+            depth_stencil: None,
         }
     }
 }

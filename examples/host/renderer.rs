@@ -71,7 +71,8 @@ impl Renderer {
         scene_gpu: &SceneGpu,
         look: Look,
     ) -> Result<Self> {
-        let depth_stencil_format = depth_stencil_format(gpu);
+        let best = gpu.support.depth_stencil_format();
+        let depth_stencil_format = look.depth_stencil.unwrap_or(best);
         let targets = Targets::new(gpu, size, depth_stencil_format, look.samples)?;
         let frame = frame_buffer(gpu, scene, size, look);
         let host_layout = host_layout(&gpu.device);
@@ -325,18 +326,6 @@ pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     match look.orthographic {
         Some(seen) => seen.projection(look.depth) * scene.camera.from_world(),
         None => scene.camera.clip_from_world_as(aspect, look.depth),
-    }
-}
-
-fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
-    if gpu
-        .device
-        .features()
-        .contains(wgpu::Features::DEPTH32FLOAT_STENCIL8)
-    {
-        wgpu::TextureFormat::Depth32FloatStencil8
-    } else {
-        wgpu::TextureFormat::Depth24PlusStencil8
     }
 }
 

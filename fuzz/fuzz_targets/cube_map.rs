@@ -60,7 +60,7 @@ impl Settings {
             bias: Bias {
                 normal_offset: self.bias[0].0,
                 constant: self.bias[1].0,
-                slope_scale: 0.0,
+                ..Bias::default()
             },
             lights: 4 - u32::from(self.lights % 5),
             cube_array: self.cube_array,

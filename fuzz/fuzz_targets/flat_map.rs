@@ -40,6 +40,7 @@ impl Settings {
                 normal_offset,
                 constant,
                 slope_scale,
+                ..Bias::default()
             },
             sides: map::sides(self.sides),
             unclipped_depth: self.unclipped_depth,

@@ -10,6 +10,9 @@ use crate::error::BiasError;
 /// bend from one triangle of a concave surface to the next. The first two fields are in texels: one texel is
 /// `2 d / size` wide at a distance `d` along the major axis. A scene at another scale needs no
 /// other numbers.
+///
+/// Far from the origin positions in f32 are coarser than texels. There the fourth field counts, which is
+/// in units in the last place of the receiver's own coordinates: docs/numerics.md derives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bias {
     /// Distance along the geometric normal toward the light, in texels at the receiver, scaled by
@@ -24,6 +27,13 @@ pub struct Bias {
     /// plane, so casters need none. For hosts that sample the map with a comparison of their own.
     /// At least 0.
     pub slope_scale: f32,
+    /// How far rounding may have moved a receiver along each axis, in ulps of that coordinate
+    /// (2^-23 of it). Counts only where that is farther than `normal_offset` moves it. Default 4: what a
+    /// host's transform, the interpolation of world positions and a caster's own rounding come to. At
+    /// least 0. Light gets in under a caster as far: a wall at x = 1e6 lights up for 0.5 units in front
+    /// of what touches it, and one at x = 1e3 for 0.0005. Counted from a nearer origin
+    /// ([`Caster::placed`](crate::Caster::placed)) it is nothing.
+    pub position_ulps: f32,
 }
 
 impl Bias {
@@ -32,7 +42,13 @@ impl Bias {
         normal_offset: 0.0,
         constant: 0.0,
         slope_scale: 0.0,
+        position_ulps: 0.0,
     };
+
+    /// `position_ulps` as a part of a coordinate.
+    pub(super) fn rounding(&self) -> f32 {
+        self.position_ulps * f32::EPSILON
+    }
 
     /// Checks that every field is finite and at least 0.
     ///
@@ -43,6 +59,7 @@ impl Bias {
             ("normal_offset", self.normal_offset),
             ("constant", self.constant),
             ("slope_scale", self.slope_scale),
+            ("position_ulps", self.position_ulps),
         ] {
             if !(value.is_finite() && value >= 0.0) {
                 return Err(BiasError { field, value });
@@ -58,6 +75,7 @@ impl Default for Bias {
             normal_offset: 0.1,
             constant: 0.05,
             slope_scale: 0.0,
+            position_ulps: 4.0,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
-/// A face of a cube map, in the order of its array layers.
+/// A face of a cube map, in the order of its array layers. Exhaustive: there are six.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum CubeFace {

@@ -193,6 +193,8 @@ pub(crate) struct FlatLightUniform {
     pub perspective: f32,
     /// Negative where nothing casts.
     pub quantum: f32,
+    pub rounding: f32,
+    padding: [f32; 3],
 }
 
 impl FlatLightUniform {
@@ -210,6 +212,8 @@ impl FlatLightUniform {
         depth_bias: 0.0,
         perspective: 1.0,
         quantum: 0.0,
+        rounding: 0.0,
+        padding: [0.0; 3],
     };
 
     /// `frame` is `None` where nothing casts.
@@ -243,6 +247,8 @@ impl FlatLightUniform {
             },
             perspective: f32::from(u8::from(frame.perspective)),
             quantum: quantum(format).unwrap_or(0.0),
+            rounding: bias.rounding(),
+            padding: [0.0; 3],
         }
     }
 }
@@ -270,7 +276,8 @@ mod tests {
             normal_offset,
             depth_bias,
             perspective,
-            quantum
+            quantum,
+            rounding
         );
     }
 }

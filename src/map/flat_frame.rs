@@ -186,7 +186,10 @@ pub(super) fn fit(fit: &Fit<'_>) -> Option<(FlatFrame, f64)> {
     // Texels on either side: one for the snap and the tap's own texel, and what kernels reach. No more
     // than half of the map, see `validate_reach`.
     let share = 2.0 * (f64::from(reach_texels) + 1.0) / f64::from(fit.size);
-    let need = extent.max_element().max(least_extent(&across, fit.size)) / (1.0 - share);
+    // The frame's origin is rounded, too.
+    let rounding = rounding(&across).max(rounding(&casters));
+    let need = extent.max_element().max(least_extent(&across, fit.size)) + 2.0 * rounding;
+    let need = need / (1.0 - share);
     let step = (need.log2() * 4.0).ceil() / 4.0;
     let width = match fit.last_width {
         Some(last) if last >= need && last <= (step + 0.26).exp2() => last,
@@ -197,7 +200,7 @@ pub(super) fn fit(fit: &Fit<'_>) -> Option<(FlatFrame, f64)> {
     let centre: DVec2 = (middle / texel).round() * texel;
     // Casters so far before every receiver that no tap takes a receiver's plane for as near are pulled
     // onto the near plane where the device can: there they are before every plane still.
-    let margin = 2.0 * texel;
+    let margin = (2.0 * texel).max(rounding);
     let near = match fit.unclipped_depth {
         true => casters
             .min
@@ -223,9 +226,14 @@ pub(super) fn fit(fit: &Fit<'_>) -> Option<(FlatFrame, f64)> {
 /// The least that a map can be wide: what `f32` tells apart where it lies, and so much at the origin
 /// that one over a texel is finite.
 fn least_extent(covered: &LightBox, size: u32) -> f64 {
-    let farthest = covered.min.abs().max(covered.max.abs()).max_element();
     let least = f64::from(f32::MIN_POSITIVE) * f64::from(size);
-    (farthest * f64::from(f32::EPSILON)).max(least)
+    rounding(covered).max(least)
+}
+
+/// At least as far as rounding to `f32` moves what is in a box.
+fn rounding(covered: &LightBox) -> f64 {
+    let farthest = covered.min.abs().max(covered.max.abs()).max_element();
+    farthest * f64::from(f32::EPSILON)
 }
 
 /// Corners of what a view shows: in perspective up to a distance from the eye along its axis.

@@ -26,7 +26,8 @@ pub(crate) struct LightUniform {
     pub depth_scale: f32,
     pub quantum: f32,
     pub cube: i32,
-    padding: [f32; 2],
+    pub rounding: f32,
+    padding: f32,
 }
 
 impl LightUniform {
@@ -52,7 +53,8 @@ impl LightUniform {
                 Depths::NoCaster => -1,
                 Depths::NotYet => -2,
             },
-            padding: [0.0; 2],
+            rounding: bias.rounding(),
+            padding: 0.0,
         }
     }
 }
@@ -80,7 +82,8 @@ mod tests {
             normal_offset,
             depth_scale,
             quantum,
-            cube
+            cube,
+            rounding
         );
     }
 }

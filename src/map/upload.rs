@@ -92,10 +92,8 @@ impl CubeShadowMap {
         if std::mem::replace(&mut self.lights_revision, revision) == revision {
             return;
         }
-        for old in [Some(&self.lights.uniforms), self.lights.all.as_ref()] {
-            if let Some(old) = old {
-                queue.write_buffer(old, 0, &vec![0; old.size() as usize]);
-            }
+        for old in std::iter::once(&self.lights.uniforms).chain(&self.lights.all) {
+            queue.write_buffer(old, 0, &vec![0; old.size() as usize]);
         }
         self.lights = resources::lights(device, &self.label, self.slots.len() as u64, self.array);
         self.written_lights.fill(None);

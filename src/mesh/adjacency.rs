@@ -8,6 +8,7 @@ use super::{Topology, input, raw};
 use crate::error::MeshError;
 
 /// Which rule casts an exact shadow from a mesh at least cost; decided once, when it is built.
+/// Exhaustive: what is not closed is general.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeshKind {
     /// Every edge has exactly two triangles, which run through it in opposite directions.

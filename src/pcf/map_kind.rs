@@ -75,6 +75,7 @@ pub(super) struct MapWgsl {
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
+    pub slope: &'static str,
 }
 
 impl MapWgsl {
@@ -101,6 +102,7 @@ impl MapWgsl {
                 false => include_str!("../../shaders/flat_four_fetches.wgsl"),
             },
             tap: include_str!("../../shaders/flat_tap.wgsl"),
+            slope: include_str!("../../shaders/flat_slope.wgsl"),
         }
     }
 
@@ -131,6 +133,7 @@ impl MapWgsl {
             texel: include_str!("../../shaders/cube_texel.wgsl"),
             four: include_str!("../../shaders/cube_four.wgsl"),
             tap: include_str!("../../shaders/cube_tap.wgsl"),
+            slope: include_str!("../../shaders/cube_slope.wgsl"),
         }
     }
 

@@ -72,6 +72,10 @@ impl PcfDescriptor<'_> {
 /// GDC 2006, but exact for each texel rather than a gradient for the kernel). The plane is the
 /// geometric one, from the screen derivatives of the world position or from a flat normal of the
 /// host's; a smooth shading normal would tilt it and bring acne back.
+///
+/// Far from the origin, where a pixel is hardly wider than an ulp of the position, derivatives say nothing of
+/// the normal; the plane's slope is then read from the map. And [`Bias::position_ulps`](crate::Bias)
+/// says how far rounding moves a receiver: within that of what casts it is lit.
 #[derive(Debug)]
 pub struct PcfSampler {
     kernel: Kernel,
@@ -179,7 +183,7 @@ impl PcfSampler {
 
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering),
-    /// 2 the light (uniform buffer of 48 bytes, for flat maps 80; with `many_lights` a read-only
+    /// 2 the light (uniform buffer of 48 bytes, for flat maps 96; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
     /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {

@@ -11,6 +11,7 @@ const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
 const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
 const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
 const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
+const DERIVATIVES: &str = include_str!("../../shaders/pcf_derivatives.wgsl");
 const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
 
 /// Name of the textbook's function.
@@ -60,7 +61,7 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     };
     let weights = weights.map(|weights| weights.wgsl());
     let entry = entry(kernel);
-    let text = [own.receiver, own.depth, own.fetch]
+    let text = [own.receiver, own.depth, own.fetch, DERIVATIVES, own.slope]
         .into_iter()
         .chain(map.iter().copied())
         .chain(weights.as_deref())
@@ -94,12 +95,55 @@ fn {function}(
     position: vec3f,
     normal: vec3f{pixel_parameter}
 ) -> f32 {{
-    let receiver = shadows_cube_receiver(light, position, normal);
+    let nearer = vec2f(1.0, 0.0);
+    return {function}_nearer(
+        map, map_sampler, light{arguments}, position, normal, nearer{pixel}
+    );
+}}
+
+fn {function}_nearer(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    light: ShadowsCubeLight,{parameters}
+    position: vec3f,
+    normal: vec3f,
+    nearer: vec2f{pixel_parameter}
+) -> f32 {{
+    let receiver = shadows_cube_receiver(light, position, normal, nearer);
     if receiver.known >= 0.0 {{
         return receiver.known;
     }}
     return shadows_cube_filter(map, map_sampler, receiver, light.size{arguments}{pixel});
 }}
+"
+    )
+}
+
+/// What follows the derivatives of the position: the call of the kernel that `light` is given to.
+fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
+    let Some(kernel) = kernel else {
+        return format!("    return shadows_visibility_flat({index}position, cross(x, y));\n");
+    };
+    let (disk, pixel) = match kernel.uses_pixel() {
+        false => ("", ""),
+        true => (", shadows_kernel, shadows_offsets", ", pixel"),
+    };
+    // As far as a tap's texel may be from the receiver: in texels, and in the world.
+    let reach = match kernel {
+        Kernel::Hard => "vec2f(0.71, 0.0)",
+        _ if kernel.uses_pixel() => {
+            "vec2f(shadows_kernel.radius_texels + 0.71, shadows_kernel.radius_world)"
+        }
+        _ => "vec2f(1.42 * f32(shadows_cube_pairs), 0.0)",
+    };
+    let function = kernel.function();
+    format!(
+        "    let derived = shadows_cube_derived(
+        shadows_map, shadows_map_sampler, {light}, position, x, y, {reach}
+    );
+    return {function}_nearer(
+        shadows_map, shadows_map_sampler, {light}{disk}, position, derived.normal, derived.nearer{pixel}
+    );
 "
     )
 }
@@ -130,6 +174,7 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
             ", shadows_kernel, shadows_offsets",
         ),
     };
+    let derived = derived(kernel, &format!("shadows_light{element}"), light);
     own.adapt_module(&format!(
         "
 @group({group}) @binding(0) var shadows_map: texture_cube<f32>;
@@ -143,9 +188,9 @@ fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> 
 }}
 
 fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
-    let normal = cross(dpdx(position), dpdy(position));
-    return shadows_visibility_flat({light}position, normal{pixel});
-}}
+    let x = dpdx(position);
+    let y = dpdy(position);
+{derived}}}
 "
     ))
 }

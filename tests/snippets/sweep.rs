@@ -52,7 +52,7 @@ Config::Cube { map, sampler }
 ("cube-textbook 512", {
 let map = CubeShadowMapDescriptor {
     size: 512,
-    bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0 },
+    bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0, position_ulps: 0.0 },
     encoding: DepthEncoding::LinearDistance,
     cull_casters: false,
     sides: CasterSides::Both,
@@ -80,7 +80,7 @@ Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, fourfold bias", {
 let map = CubeShadowMapDescriptor {
-    bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0 },
+    bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0, position_ulps: 4.0 },
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();

@@ -2,9 +2,9 @@
 
 use shadows::{Counter, ShadowVolumeDescriptor, Silhouettes, wgpu};
 
-use super::SIXTEEN_BITS;
 use super::cases::Case;
 use super::limits::{self, Limit};
+use super::{FINE, SIXTEEN_BITS};
 use crate::host::gpu::Gpu;
 use crate::technique::{Config, Technique};
 
@@ -41,6 +41,9 @@ impl Expect {
 pub fn expected(case: &Case, technique: &Technique, software: bool) -> Expect {
     let usual = match &technique.config {
         _ if technique.name == SIXTEEN_BITS && !case.sixteen_bits => return Expect::Nothing,
+        _ if FINE.iter().any(|fine| fine.1 == technique.name) && !case.fine => {
+            return Expect::Nothing;
+        }
         Config::Cube { .. } | Config::Flat { .. } => case.maps,
         Config::Volume(volume) => match (case.volumes, volume.counter) {
             (Expect::Wraps, Counter::Exact) => Expect::Exact,

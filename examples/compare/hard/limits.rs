@@ -69,6 +69,12 @@ const FACING: &str = "nearer than 1e-5 of a triangle's size f32 does not tell th
                       plane; the CPU way decides facing in f64";
 const THIN: &str = "what no texel's centre sees casts nothing";
 
+const POSITIONS: &str = "f32 positions are rounded by more than texels and pixels there: at 1e5 and 1e6 what \
+                         is seen from its edge is off by more than the bias in ulps";
+const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels";
+const TWENTY_FOUR_BITS: &str =
+    "steps of 2^-24, where depth is near / distance: 0.7 m at 500 m from a near plane of 2 cm";
+
 /// All of them.
 pub const ALL: &[Known] = &[
     known(
@@ -154,6 +160,18 @@ pub const ALL: &[Known] = &[
         [0.012, 0.0, 0.82],
     ),
     known(
+        "Near plane through a caster",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.035, 0.01, 0.39],
+    ),
+    known(
+        "24-bit depth-stencil",
+        "volume*",
+        TWENTY_FOUR_BITS,
+        [0.165, 0.0, 0.79],
+    ),
+    known(
         "Thin caster",
         "cube-textbook",
         TEXTBOOK,
@@ -170,6 +188,30 @@ pub const ALL: &[Known] = &[
         "cube-textbook",
         TEXTBOOK,
         [0.01, 0.032, 0.28],
+    ),
+    known(
+        "Far from the origin, plain f32",
+        "cube-textbook",
+        TEXTBOOK,
+        [0.01, 0.01, 0.85],
+    ),
+    known(
+        "Far from the origin, plain f32",
+        "cube-*",
+        POSITIONS,
+        [0.003, 0.0015, 0.34],
+    ),
+    known(
+        "Far from the origin, plain f32",
+        "flat-*",
+        POSITIONS,
+        [0.0015, 0.009, 0.25],
+    ),
+    known(
+        "Far from the origin, plain f32",
+        "volume*",
+        VERTICES,
+        [0.003, 0.0015, 0.065],
     ),
     known("*", "cube-textbook", TEXTBOOK, [0.01, 0.01, 0.57]),
     known("Grazing light", "cube-*", GRAZING, [0.0, 0.0, 15.0]),

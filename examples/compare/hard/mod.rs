@@ -54,6 +54,11 @@ const NAMES: [&str; 14] = [
 ];
 /// With a map of 16 bits; only where that is what is tried.
 const SIXTEEN_BITS: &str = "cube-2x2-16-bit";
+/// With finer maps, so many texels along a side; only where that is what is tried.
+const FINE: [(&str, &str, u32); 2] = [
+    ("cube-2x2", "cube-2x2-2048", 2048),
+    ("flat-2x2", "flat-2x2-4096", 4096),
+];
 
 /// Tries every case in so many rounds, writes the table, and says how many should have passed and
 /// did not.
@@ -135,6 +140,12 @@ pub fn techniques() -> Result<Vec<Technique>> {
                 map: CubeShadowMapDescriptor { format, ..map },
                 sampler,
             },
+        });
+    }
+    for (name, fine, side) in FINE {
+        all.push(Technique {
+            name: fine.into(),
+            ..at(name, side)?
         });
     }
     Ok(all)

@@ -16,6 +16,9 @@ pub struct Situation {
     pub look: Look,
     /// Everything is this far away, placed in f64; the host draws it relative to the camera.
     pub offset: DVec3,
+    /// How far f32 positions let the edges of shadows be from where they are, in the world: so much
+    /// farther from an edge is a map's interior.
+    pub leak: f32,
     /// Whether it is made for 8-bit counts to wrap.
     pub wraps: bool,
     /// Whether no shadow falls on what is seen: then a map's resolution is no excuse either.
@@ -84,6 +87,7 @@ impl Situation {
             scene,
             look: Look::default(),
             offset: DVec3::ZERO,
+            leak: 0.0,
             wraps: false,
             no_shadow_in_view: false,
         }
@@ -138,6 +142,34 @@ impl Situation {
             casts,
             albedo: if casts { [0.8, 0.5, 0.3] } else { [0.6; 3] },
         });
+    }
+
+    /// Everything moved, as a host has it that knows f32 only: vertices in world space, rounded, and
+    /// light and camera by as much. What is there is then exactly what casts and what is seen.
+    pub fn moved(mut self, offset: DVec3) -> Self {
+        let round = |point: DVec3| (point + offset).as_vec3();
+        let scene = &mut self.scene;
+        let mut meshes = Vec::new();
+        for object in &mut scene.objects {
+            let mut mesh = scene.meshes[object.mesh].clone();
+            for position in &mut mesh.positions {
+                *position = round(object.world_point(*position)).to_array();
+            }
+            for normal in &mut mesh.normals {
+                let turned = object.transform.transform_vector3((*normal).into());
+                *normal = turned.normalize_or(Vec3::Y).to_array();
+            }
+            object.mesh = meshes.len();
+            object.transform = Affine3A::IDENTITY;
+            meshes.push(mesh);
+        }
+        scene.meshes = meshes;
+        if scene.light.w != 0.0 {
+            scene.light = round(scene.light.truncate().as_dvec3()).extend(1.0);
+        }
+        scene.camera.eye = round(scene.camera.eye.as_dvec3());
+        scene.camera.target = round(scene.camera.target.as_dvec3());
+        self
     }
 
     /// All lengths times a factor.

@@ -141,10 +141,42 @@ impl Situation {
             visibility,
             interior: match self.no_shadow_in_view {
                 true => Interior::Screen,
-                false => shadow.interior(),
+                false => self.beside_leak(shadow.interior()),
             },
             may_wrap: shadow.may_wrap(),
             reach: self.reach(technique),
+        }
+    }
+
+    /// An interior that is as far from edges as f32 positions let them be from where they are.
+    fn beside_leak(&self, interior: Interior) -> Interior {
+        let light = &self.scene.light;
+        // No receiver is nearer to a lamp than this part of its distance from the middle.
+        let away = match light.w == 0.0 {
+            true => 1.0,
+            false => 0.4 * light.truncate().distance(self.scene.camera.target),
+        };
+        match interior {
+            Interior::Map {
+                face_size,
+                kernel_radius,
+            } => Interior::Map {
+                face_size,
+                kernel_radius: kernel_radius + self.leak * face_size as f32 / (2.0 * away),
+            },
+            Interior::FlatMap {
+                clip_from_world,
+                size,
+                kernel_radius,
+            } => {
+                let across = clip_from_world.row(0).truncate().length() / away;
+                Interior::FlatMap {
+                    clip_from_world,
+                    size,
+                    kernel_radius: kernel_radius + 0.5 * self.leak * across * size as f32,
+                }
+            }
+            other => other,
         }
     }
 

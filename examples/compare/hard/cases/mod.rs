@@ -1,6 +1,8 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
 mod camera;
+mod depth;
+mod flat;
 mod frames;
 mod light;
 pub mod mesh;
@@ -27,6 +29,8 @@ pub struct Case {
     pub maps: Expect,
     /// Whether maps of 16 bits are tried, too.
     pub sixteen_bits: bool,
+    /// Whether maps of 4096 texels are tried, too.
+    pub fine: bool,
     /// Whether cube maps are asked if their seams are worse than their faces.
     pub seams: bool,
     /// What a technique has been through before.
@@ -42,6 +46,7 @@ impl Case {
         volumes: Expect::Exact,
         maps: Expect::Exact,
         sixteen_bits: false,
+        fine: false,
         seams: false,
         course: Course::Fresh,
     };
@@ -56,4 +61,6 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(place::CASES)
         .chain(views::CASES)
         .chain(frames::CASES)
+        .chain(flat::CASES)
+        .chain(depth::CASES)
 }
