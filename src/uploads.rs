@@ -2,7 +2,8 @@
 //!
 //! `Queue::write_buffer` comes before everything that is submitted with it: of two frames in one
 //! submission, the second would overwrite what the first reads. A recorded copy comes where it was
-//! recorded.
+//! recorded, and not at all where `encode` is forgotten or its encoder dropped: what receivers are told
+//! of a light changes with its texels, and only with them.
 
 use wgpu::util::StagingBelt;
 
@@ -23,8 +24,10 @@ pub(crate) struct Copy {
 #[derive(Debug)]
 pub(crate) struct Uploads {
     belt: StagingBelt,
-    /// The device's largest buffer.
+    /// The device's largest buffer, down to a size that can be mapped.
     limit: u64,
+    /// Where what is written waits.
+    written: Stream,
     /// What a buffer held that was made anew: copied before everything else.
     moved: Vec<Copy>,
     copies: Vec<Copy>,
@@ -35,38 +38,47 @@ pub(crate) struct Uploads {
 impl Uploads {
     pub fn new(device: &wgpu::Device) -> Self {
         let limit = device.limits().max_buffer_size;
+        let limit = limit - limit % wgpu::COPY_BUFFER_ALIGNMENT;
         Self {
             belt: StagingBelt::new(device.clone(), CHUNK.min(limit)),
             limit,
+            written: Stream::default(),
             moved: Vec::new(),
             copies: Vec::new(),
             waits: false,
         }
     }
 
+    /// Bytes that the next [`record`](Self::record) copies, not counting what buffers held before they
+    /// grew.
+    pub fn bytes(&self) -> u64 {
+        self.copies.iter().map(|copy| copy.size).sum()
+    }
+
     /// Forgets what was written and never recorded; what buffers held before they grew is not
     /// forgotten.
     pub fn clear(&mut self) {
         self.copies.clear();
+        self.written = Stream::default();
         if std::mem::take(&mut self.waits) {
             self.belt.finish();
             self.belt.recall();
         }
     }
 
-    /// Writes into a buffer. Offset and length are multiples of 4.
+    /// Writes into a buffer, no more than one may hold. Offset and length are multiples of 4.
     pub fn write(&mut self, to: &wgpu::Buffer, to_offset: u64, bytes: &[u8]) {
-        let mut stream = Stream::default();
-        let from = self.stage(&mut stream, bytes.len() as u64, |mut place| {
-            place.copy_from_slice(bytes);
-        });
-        if let Some((from, from_offset)) = from {
+        let size = bytes.len() as u64;
+        let mut stream = std::mem::take(&mut self.written);
+        let staged = self.stage(&mut stream, size, |mut place| place.copy_from_slice(bytes));
+        self.written = stream;
+        if let Some((from, from_offset)) = staged {
             self.copy(Copy {
                 from,
                 from_offset,
                 to: to.clone(),
                 to_offset,
-                size: bytes.len() as u64,
+                size,
             });
         }
     }
@@ -80,35 +92,34 @@ impl Uploads {
         write: impl FnOnce(wgpu::WriteOnly<'_, [u8]>),
     ) -> Option<(wgpu::Buffer, u64)> {
         let wanted = wgpu::BufferSize::new(size)?;
-        if stream
-            .block
-            .as_ref()
-            .is_none_or(|block| block.left() < size)
-        {
-            stream.block = self.block(wanted);
+        let full = |block: &Block| block.end - block.next < size;
+        if stream.block.as_ref().is_none_or(full) {
+            stream.block = Some(self.block(wanted)?);
         }
         let block = stream.block.as_mut()?;
-        let place = block.used as usize..(block.used + size) as usize;
-        write(block.view.slice(place));
-        let offset = block.offset + block.used;
-        block.used += size;
-        Some((block.buffer.clone(), offset))
+        let place = block.next..block.next + size;
+        // Views begin at multiples of 8. None outlives its piece: a buffer that is viewed cannot be
+        // unmapped, nor may its device go.
+        let lead = place.start % wgpu::MAP_ALIGNMENT;
+        let slice = block.buffer.slice(place.start - lead..place.end);
+        // Fails only where the device is lost or out of memory, which it says itself.
+        let mut view = slice.get_mapped_range_mut().ok()?;
+        write(view.slice(lead as usize..));
+        block.next = place.end;
+        Some((block.buffer.clone(), place.start))
     }
 
     fn block(&mut self, size: wgpu::BufferSize) -> Option<Block> {
         // Few sizes, so that a buffer that comes back fits again.
         let room = size.get().checked_next_power_of_two()?.max(CHUNK);
-        let size = room.min(self.limit).max(size.get());
+        let size = wgpu::BufferSize::new(room.min(self.limit).max(size.get()))?;
         let alignment = wgpu::BufferSize::new(wgpu::COPY_BUFFER_ALIGNMENT)?;
         self.waits = true;
-        let slice = self.belt.allocate(wgpu::BufferSize::new(size)?, alignment);
+        let slice = self.belt.allocate(size, alignment);
         Some(Block {
-            // Fails only where the device is lost or out of memory, which it says itself.
-            view: slice.get_mapped_range_mut().ok()?,
             buffer: slice.buffer().clone(),
-            offset: slice.offset(),
-            used: 0,
-            size,
+            next: slice.offset(),
+            end: slice.offset() + size.get(),
         })
     }
 
@@ -132,9 +143,14 @@ impl Uploads {
         }
     }
 
-    /// Records the copies, once.
-    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder) {
+    /// Records the copies, once. False if there are none.
+    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder) -> bool {
+        if self.moved.is_empty() && self.copies.is_empty() {
+            return false;
+        }
+        // Unmapped now, as what is submitted must not be mapped; if the encoder is dropped, so are they.
         self.belt.finish_and_recall_on_submit(encoder);
+        self.written = Stream::default();
         self.waits = false;
         for copy in self.moved.drain(..).chain(self.copies.drain(..)) {
             let Copy {
@@ -146,25 +162,20 @@ impl Uploads {
             } = copy;
             encoder.copy_buffer_to_buffer(&from, from_offset, &to, to_offset, size);
         }
+        true
     }
 }
 
-/// Pieces that are staged one after another. Must be dropped before they are recorded.
-#[derive(Default)]
+/// Pieces that are staged one after another, until they are recorded or cleared.
+#[derive(Debug, Default)]
 pub(crate) struct Stream {
     block: Option<Block>,
 }
 
+/// Part of a staging buffer, and how far it is filled.
+#[derive(Debug)]
 struct Block {
-    view: wgpu::BufferViewMut,
     buffer: wgpu::Buffer,
-    offset: u64,
-    used: u64,
-    size: u64,
-}
-
-impl Block {
-    fn left(&self) -> u64 {
-        self.size - self.used
-    }
+    next: u64,
+    end: u64,
 }
