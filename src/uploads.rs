@@ -179,3 +179,108 @@ struct Block {
     next: u64,
     end: u64,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{CHUNK, Uploads};
+
+    fn device(max_buffer_size: u64) -> (wgpu::Device, wgpu::Queue) {
+        wgpu::Device::noop(&wgpu::DeviceDescriptor {
+            required_limits: wgpu::Limits {
+                max_buffer_size,
+                ..wgpu::Limits::defaults()
+            },
+            ..Default::default()
+        })
+    }
+
+    fn buffer(device: &wgpu::Device, words: usize) -> wgpu::Buffer {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: 4 * words as u64,
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        })
+    }
+
+    fn read(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Vec<u32> {
+        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+        device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        let words = bytemuck::pod_collect_to_vec(&buffer.get_mapped_range(..).unwrap());
+        buffer.unmap();
+        words
+    }
+
+    #[test]
+    fn what_is_written_arrives_once_in_few_staging_buffers() {
+        // The largest buffer cannot be mapped.
+        let (device, queue) = device(4 * 40 + 2);
+        let to = buffer(&device, 40);
+        let words: Vec<u32> = (1..=40).collect();
+        let mut uploads = Uploads::new(&device);
+        let submit = |uploads: &mut Uploads| {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            let any = uploads.record(&mut encoder);
+            queue.submit([encoder.finish()]);
+            any
+        };
+        assert!(!submit(&mut uploads), "nothing yet");
+        // Pieces of 3, some of which begin between two places that can be mapped.
+        let zeros = [0; 40];
+        for all in [&zeros[..], &words] {
+            for (piece, at) in all.chunks(3).zip((0..).step_by(12)) {
+                uploads.write(&to, at, bytemuck::cast_slice(piece));
+            }
+        }
+        uploads.write(&to, 0, &[]);
+        assert_eq!(uploads.bytes(), 320);
+        let mut staging: Vec<_> = uploads.copies.iter().map(|copy| &copy.from).collect();
+        staging.dedup();
+        assert_eq!(staging.len(), 2, "28 pieces");
+        assert!(submit(&mut uploads));
+        assert_eq!(read(&device, &to), words);
+        assert!(!submit(&mut uploads), "once");
+
+        uploads.write(&to, 0, bytemuck::bytes_of(&99_u32));
+        uploads.clear();
+        assert_eq!(uploads.bytes(), 0);
+        assert!(!submit(&mut uploads));
+        assert_eq!(read(&device, &to), words, "what is cleared does not arrive");
+        uploads.write(&to, 4, bytemuck::bytes_of(&98_u32));
+        let mut dropped = device.create_command_encoder(&Default::default());
+        assert!(uploads.record(&mut dropped));
+        drop(dropped);
+        assert_eq!(read(&device, &to), words, "nor what is dropped");
+        uploads.write(&to, 0, bytemuck::bytes_of(&97_u32));
+        assert!(submit(&mut uploads));
+        assert_eq!(read(&device, &to)[..3], [97, 2, 3]);
+    }
+
+    #[test]
+    fn staging_buffers_come_back() {
+        let (device, queue) = device(1 << 20);
+        let to = buffer(&device, 8);
+        let mut uploads = Uploads::new(&device);
+        let mut seen: Vec<wgpu::Buffer> = Vec::new();
+        for frame in 0..20_u32 {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            for word in 0..8 {
+                uploads.write(&to, 4 * word, bytemuck::bytes_of(&frame));
+            }
+            for copy in &uploads.copies {
+                assert_eq!(copy.from.size(), CHUNK);
+                if !seen.contains(&copy.from) {
+                    seen.push(copy.from.clone());
+                }
+            }
+            // Every third is forgotten.
+            if frame % 3 == 0 {
+                uploads.clear();
+            }
+            uploads.record(&mut encoder);
+            queue.submit([encoder.finish()]);
+            device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        }
+        assert_eq!(seen.len(), 1);
+    }
+}
