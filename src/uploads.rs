@@ -26,8 +26,8 @@ pub(crate) struct Uploads {
     belt: StagingBelt,
     /// The device's largest buffer, down to a size that can be mapped.
     limit: u64,
-    /// Where what is written waits.
-    written: Stream,
+    /// Where what is written next waits.
+    written: Option<Room>,
     /// What a buffer held that was made anew: copied before everything else.
     moved: Vec<Copy>,
     copies: Vec<Copy>,
@@ -42,7 +42,7 @@ impl Uploads {
         Self {
             belt: StagingBelt::new(device.clone(), CHUNK.min(limit)),
             limit,
-            written: Stream::default(),
+            written: None,
             moved: Vec::new(),
             copies: Vec::new(),
             waits: false,
@@ -59,7 +59,7 @@ impl Uploads {
     /// forgotten.
     pub fn clear(&mut self) {
         self.copies.clear();
-        self.written = Stream::default();
+        self.written = None;
         if std::mem::take(&mut self.waits) {
             self.belt.finish();
             self.belt.recall();
@@ -69,18 +69,32 @@ impl Uploads {
     /// Writes into a buffer, no more than one may hold. Offset and length are multiples of 4.
     pub fn write(&mut self, to: &wgpu::Buffer, to_offset: u64, bytes: &[u8]) {
         let size = bytes.len() as u64;
-        let mut stream = std::mem::take(&mut self.written);
-        let staged = self.stage(&mut stream, size, |mut place| place.copy_from_slice(bytes));
-        self.written = stream;
-        if let Some((from, from_offset)) = staged {
-            self.copy(Copy {
-                from,
-                from_offset,
-                to: to.clone(),
-                to_offset,
-                size,
-            });
+        if size == 0 {
+            return;
         }
+        if self.written.as_ref().is_none_or(|room| room.left() < size) {
+            self.written = self.room(size);
+        }
+        let Some(room) = &mut self.written else {
+            return;
+        };
+        let place = room.take(size);
+        // Views begin at multiples of 8.
+        let lead = place.start % wgpu::MAP_ALIGNMENT;
+        let slice = room.buffer.slice(place.start - lead..place.end);
+        let from = room.buffer.clone();
+        // Fails only where the device is lost or out of memory, which it says itself.
+        let Ok(mut view) = slice.get_mapped_range_mut() else {
+            return;
+        };
+        view.slice(lead as usize..).copy_from_slice(bytes);
+        self.copy(Copy {
+            from,
+            from_offset: place.start,
+            to: to.clone(),
+            to_offset,
+            size,
+        });
     }
 
     /// Has bytes written that wait for a copy, those of one stream one after another as far as
@@ -91,32 +105,33 @@ impl Uploads {
         size: u64,
         write: impl FnOnce(wgpu::WriteOnly<'_, [u8]>),
     ) -> Option<(wgpu::Buffer, u64)> {
-        let wanted = wgpu::BufferSize::new(size)?;
-        let full = |block: &Block| block.end - block.next < size;
+        if size == 0 {
+            return None;
+        }
+        let full = |block: &Block| block.room.left() < size;
         if stream.block.as_ref().is_none_or(full) {
-            stream.block = Some(self.block(wanted)?);
+            let room = self.room(size)?;
+            stream.block = Some(Block {
+                view: room.buffer.get_mapped_range_mut(room.next..room.end).ok()?,
+                start: room.next,
+                room,
+            });
         }
         let block = stream.block.as_mut()?;
-        let place = block.next..block.next + size;
-        // Views begin at multiples of 8. None outlives its piece: a buffer that is viewed cannot be
-        // unmapped, nor may its device go.
-        let lead = place.start % wgpu::MAP_ALIGNMENT;
-        let slice = block.buffer.slice(place.start - lead..place.end);
-        // Fails only where the device is lost or out of memory, which it says itself.
-        let mut view = slice.get_mapped_range_mut().ok()?;
-        write(view.slice(lead as usize..));
-        block.next = place.end;
-        Some((block.buffer.clone(), place.start))
+        let place = block.room.take(size);
+        let [from, to] = [place.start, place.end].map(|at| (at - block.start) as usize);
+        write(block.view.slice(from..to));
+        Some((block.room.buffer.clone(), place.start))
     }
 
-    fn block(&mut self, size: wgpu::BufferSize) -> Option<Block> {
+    fn room(&mut self, size: u64) -> Option<Room> {
         // Few sizes, so that a buffer that comes back fits again.
-        let room = size.get().checked_next_power_of_two()?.max(CHUNK);
-        let size = wgpu::BufferSize::new(room.min(self.limit).max(size.get()))?;
-        let alignment = wgpu::BufferSize::new(wgpu::COPY_BUFFER_ALIGNMENT)?;
+        let room = size.checked_next_power_of_two()?.max(CHUNK);
+        let size = wgpu::BufferSize::new(room.min(self.limit).max(size))?;
+        let alignment = wgpu::BufferSize::new(wgpu::MAP_ALIGNMENT)?;
         self.waits = true;
         let slice = self.belt.allocate(size, alignment);
-        Some(Block {
+        Some(Room {
             buffer: slice.buffer().clone(),
             next: slice.offset(),
             end: slice.offset() + size.get(),
@@ -150,7 +165,7 @@ impl Uploads {
         }
         // Unmapped now, as what is submitted must not be mapped; if the encoder is dropped, so are they.
         self.belt.finish_and_recall_on_submit(encoder);
-        self.written = Stream::default();
+        self.written = None;
         self.waits = false;
         for copy in self.moved.drain(..).chain(self.copies.drain(..)) {
             let Copy {
@@ -166,18 +181,38 @@ impl Uploads {
     }
 }
 
-/// Pieces that are staged one after another, until they are recorded or cleared.
-#[derive(Debug, Default)]
+/// Pieces that are staged one after another, through one view, which must be dropped before they are
+/// recorded or cleared: what is viewed cannot be unmapped.
+#[derive(Default)]
 pub(crate) struct Stream {
     block: Option<Block>,
 }
 
-/// Part of a staging buffer, and how far it is filled.
-#[derive(Debug)]
 struct Block {
+    view: wgpu::BufferViewMut,
+    /// Where the view begins.
+    start: u64,
+    room: Room,
+}
+
+/// Part of a staging buffer that is not yet filled.
+#[derive(Debug)]
+struct Room {
     buffer: wgpu::Buffer,
     next: u64,
     end: u64,
+}
+
+impl Room {
+    fn left(&self) -> u64 {
+        self.end - self.next
+    }
+
+    fn take(&mut self, size: u64) -> std::ops::Range<u64> {
+        let start = self.next;
+        self.next += size;
+        start..self.next
+    }
 }
 
 #[cfg(test)]
