@@ -96,6 +96,7 @@ fn shadows_cube_lit(
             break if i >= end;
         }
     }
-    // Exactly 0 or 1 where all taps agree, though a GPU's quotient of equal numbers need not be 1.
-    return saturate(1.0 - (f32(end) - lit) * (1.000004 / f32(end)));
+    // Exactly 0 or 1 where all taps agree, though a GPU's quotient of equal numbers need not be 1:
+    // stretched around one half by more than that, and cut off.
+    return saturate(1.0 + 0x1p-17 - (f32(end) - lit) * ((1.0 + 0x1p-16) / f32(end)));
 }

@@ -75,7 +75,7 @@ fn shadows_cube_filter(
         let texel = first - 1.0 + vec2f(f32(x), f32(y));
         shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, receiver, size, texel));
     }
-    // Exactly 0 or 1 where all texels agree, however a GPU rounds the products and their sum: the factor
-    // is one over the sum of all weights and as much more as that sum may be too small.
-    return saturate(1.0 - shadow * shadows_cube_per_weight);
+    // Exactly 0 or 1 where all texels agree, however a GPU rounds the products and their sum: stretched
+    // around one half by more than that, and cut off. One half stays one half.
+    return saturate(1.0 + 0x1p-17 - shadow * shadows_cube_per_weight);
 }

@@ -1,6 +1,6 @@
 //! Lighting shaders: a Lambert shader whose light is shadowed in one way or another.
 
-use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
 
 use crate::peers::PEERS;
 use crate::pipeline::Case;
@@ -61,6 +61,7 @@ struct Way {
     encoding: DepthEncoding,
     many_lights: bool,
     border: bool,
+    gather: Gather,
 }
 
 const CUBE: Way = Way {
@@ -69,6 +70,7 @@ const CUBE: Way = Way {
     encoding: DepthEncoding::MajorAxis,
     many_lights: false,
     border: false,
+    gather: Gather::Always,
 };
 
 const FLAT: Way = Way {
@@ -77,7 +79,7 @@ const FLAT: Way = Way {
     ..CUBE
 };
 
-const WAYS: [Way; 5] = [
+const WAYS: [Way; 7] = [
     CUBE,
     Way {
         name: "cube-linear",
@@ -89,7 +91,18 @@ const WAYS: [Way; 5] = [
         many_lights: true,
         ..CUBE
     },
+    // Where gathers are not there, or wrong.
+    Way {
+        name: "cube-fetches",
+        gather: Gather::Never,
+        ..CUBE
+    },
     FLAT,
+    Way {
+        name: "flat-fetches",
+        gather: Gather::Never,
+        ..FLAT
+    },
     // What a device with the feature for it takes.
     Way {
         name: "flat-border",
@@ -105,6 +118,7 @@ fn name(kernel: Kernel) -> &'static str {
 /// The loops of a kernel's code: a square's is for the edges of the map alone.
 fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
     let linear = way.encoding == DepthEncoding::LinearDistance;
+    let fetches = way.map == MapKind::Cube && way.gather == Gather::Never;
     match kernel {
         Kernel::Hard => Vec::new(),
         // Nearly everywhere the first taps agree.
@@ -112,7 +126,7 @@ fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
         Kernel::Vogel(disk) => vec![disk.taps / 2],
         Kernel::ContactHardening(contact) => vec![contact.search_taps, contact.taps / 2],
         // What is too long for the compiler to unroll, a row of gathers at a time.
-        Kernel::Weighted5 if linear => vec![3, 0],
+        Kernel::Weighted5 if linear || fetches => vec![3, 0],
         Kernel::Weighted7 => vec![4, 0],
         _ => vec![0],
     }
@@ -133,6 +147,7 @@ fn sampler(way: &Way, kernel: Kernel) -> PcfSampler {
         map: way.map,
         encoding: way.encoding,
         many_lights: way.many_lights,
+        gather: way.gather,
         ..Default::default()
     };
     PcfSampler::new(&device, &queue, &descriptor).expect("every kernel reads every map")

@@ -19,9 +19,22 @@ struct Model { @location(1) a: vec4f, @location(2) b: vec4f, @location(3) c: vec
 ";
 
 const FACE: &str = shaders!("cube_caster", "cube_caster_face");
-const PULLED: &str = shaders!("position", "volume_extrude", "volume_draw");
+const PULLED: &str = shaders!(
+    "position",
+    "volume_depth_as_is",
+    "volume_extrude",
+    "volume_draw"
+);
+/// For the depth conventions that round far depths apart.
+const PULLED_STEPS: &str = shaders!(
+    "position",
+    "volume_depth_steps",
+    "volume_extrude",
+    "volume_draw"
+);
 const RECORDS: &str = shaders!(
     "position",
+    "volume_depth_as_is",
     "volume_extrude",
     "volume_light_side",
     "volume_vertex"
@@ -84,6 +97,13 @@ pub fn all() -> Vec<Case> {
         ),
     ];
     for (name, entry) in VOLUME {
+        cases.push(case(
+            format!("volume-pulled-steps/{name}"),
+            PULLED_STEPS,
+            &[entry],
+            none,
+            vec![],
+        ));
         cases.push(case(
             format!("volume-pulled/{name}"),
             PULLED,

@@ -324,7 +324,7 @@ impl Orthographic {
 pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     let aspect = size[0] as f32 / size[1] as f32;
     match look.orthographic {
-        Some(seen) => seen.projection(look.depth) * scene.camera.from_world(),
+        Some(seen) => seen.projection(look.depth) * scene.camera.eye_from_world(),
         None => scene.camera.clip_from_world_as(aspect, look.depth),
     }
 }

@@ -71,11 +71,11 @@ impl Weights {
         along * along
     }
 
-    /// One over the sum of all weights, and as much more as that sum may come out too small: two weights
-    /// that are rounded twice, their product, and 64 sums, half an ulp each.
+    /// One over the sum of all weights, stretched: see the end of `pcf_square.wgsl`. The sum may come out
+    /// too small or too large by 69 halves of an ulp: two weights that are rounded twice, their product, and
+    /// 64 sums. 2^-17, half of the stretch, is 128 of them.
     fn per_weight(&self) -> f32 {
-        const ROUNDINGS: f32 = 5.0 + 64.0;
-        (1.0 + ROUNDINGS * 0.5 * f32::EPSILON) / self.total()
+        (1.0 + (-16.0_f32).exp2()) / self.total()
     }
 }
 
@@ -94,6 +94,20 @@ mod tests {
         ] {
             let slope: f32 = weights.first_s.iter().chain(&weights.second_s).sum();
             assert_eq!(slope, 0.0, "{weights:?}");
+        }
+    }
+
+    #[test]
+    fn half_of_the_texels_are_one_half_and_all_of_them_are_all() {
+        for weights in [Weights::BILINEAR, Weights::FOUR_TAPS, Weights::WEIGHTED_3] {
+            let seen = |shadow: f32| {
+                let stretch = 1.0 + (-17.0_f32).exp2();
+                (stretch - shadow * weights.per_weight()).clamp(0.0, 1.0)
+            };
+            assert_eq!(seen(0.5 * weights.total()), 0.5);
+            assert_eq!(seen(0.0), 1.0);
+            let least = 1.0 - 69.0 * 0.5 * f32::EPSILON;
+            assert_eq!(seen(least * weights.total()), 0.0);
         }
     }
 }

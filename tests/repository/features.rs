@@ -55,10 +55,9 @@ fn silent(manifest: &str, kind: &str, folder: &str) -> Vec<String> {
         let main = path.join("main.rs");
         let file = if main.is_file() { main } else { path };
         // `repository` is not in the package.
-        if file.is_file() && name != "repository" && needs_reference(&file) {
-            if !asks_for_reference(manifest, kind, &name) {
-                silent.push(name);
-            }
+        let needs = file.is_file() && name != "repository" && needs_reference(&file);
+        if needs && !asks_for_reference(manifest, kind, &name) {
+            silent.push(name);
         }
     }
     silent.sort();

@@ -113,11 +113,11 @@ impl Camera {
             DepthConvention::FiniteReverse => directx::perspective(fovy, aspect, far, near),
             DepthConvention::Standard => directx::perspective(fovy, aspect, near, far),
         };
-        projection * self.from_world()
+        projection * self.eye_from_world()
     }
 
     /// What the camera sees from world space: to the right, up and behind it.
-    pub fn from_world(&self) -> Mat4 {
+    pub fn eye_from_world(&self) -> Mat4 {
         look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 }
