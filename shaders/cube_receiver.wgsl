@@ -94,13 +94,16 @@ fn shadows_cube_receiver(
     normal: vec3f,
     nearer: vec2f,
 ) -> ShadowsCubeReceiver {
-    let from_light = nearer.x * (position - light.position);
-    let distance = length(from_light);
+    // Whether the light reaches it is a matter of where the receiver is, not of where it is taken to be.
+    let own_ray = position - light.position;
+    let reach = length(own_ray);
     var receiver: ShadowsCubeReceiver;
-    if distance > light.range || light.cube < 0 {
-        receiver.known = select(0.0, 1.0, distance <= light.range && light.cube == -1);
+    if reach > light.range || light.cube < 0 {
+        receiver.known = select(0.0, 1.0, reach <= light.range && light.cube == -1);
         return receiver;
     }
+    let from_light = nearer.x * own_ray;
+    let distance = nearer.x * reach;
     receiver.cube = light.cube;
     receiver.quantum = light.quantum;
     receiver.range_over_near = light.range / light.near;

@@ -66,13 +66,16 @@ fn shadows_flat_receiver(
 ) -> ShadowsFlatReceiver {
     let axes = mat3x3f(light.forward, light.right, light.down);
     let from_light = position - light.position;
-    let local = nearer.x * (from_light * axes) - vec3f(nearer.y, 0.0, 0.0);
+    let own_local = from_light * axes;
+    let local = nearer.x * own_local - vec3f(nearer.y, 0.0, 0.0);
     let spot = light.perspective > 0.5;
-    let distance = length(local);
+    // Whether the light reaches it is a matter of where the receiver is, not of where it is taken to be.
+    let reach = length(own_local);
+    let distance = nearer.x * reach;
     var receiver: ShadowsFlatReceiver;
     // Nothing here branches on the light alone, not even as && does: Mesa's lavapipe compiles a shader
     // anew at each draw for what a uniform buffer says, if that decides a branch.
-    if spot & (distance > light.range) {
+    if spot & (reach > light.range) {
         receiver.known = 0.0;
         return receiver;
     }

@@ -26,26 +26,29 @@ fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
 
 // The slopes of the map around a texel, for a receiver that says which map. Along each axis the lesser
 // of two counts: the other may reach over the edge of what the texel shows. `steepest`, with
-// twice the slope itself, bounds how much they are taken to differ.
+// twice the slope itself, bounds how much they are taken to differ. `taps` is 5, or 0 where nothing is
+// asked: drivers that run both sides of a branch run a loop once at least.
 fn shadows_cube_slopes(
     map: texture_cube<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
-    doubtful: bool,
+    taps: i32,
     steepest: f32,
 ) -> ShadowsCubeSlopes {
-    let middle = max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
-    var stored: array<f32, 5>;
-    // A loop rather than a branch: drivers that run both sides of a branch leave a loop.
-    let end = select(0, 5, doubtful);
-    for (var i = 0; i < end; i++) {
+    let texel = max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
+    // There, and to the left, to the right, above and below.
+    var middle = 0.0;
+    var around = vec4f(0.0);
+    for (var i = 0; i < taps; i++) {
         let side = select(1.0, -1.0, (i & 1) == 1);
         let along = select(select(vec2f(0.0), vec2f(1.0, 0.0), i > 0), vec2f(0.0, 1.0), i > 2);
-        stored[i] = shadows_cube_stored_at(map, map_sampler, receiver, size, middle + side * along);
+        let stored = shadows_cube_stored_at(map, map_sampler, receiver, size, texel + side * along);
+        middle = select(middle, stored, i == 0);
+        around = select(around, vec4f(stored), vec4i(1, 2, 3, 4) == vec4i(i));
     }
-    let before = stored[0] - vec2f(stored[1], stored[3]);
-    let behind = vec2f(stored[2], stored[4]) - stored[0];
+    let before = middle - around.xz;
+    let behind = around.yw - middle;
     let slope = select(before, behind, abs(behind) < abs(before));
     let bend = min(abs(behind - before), steepest + 2.0 * abs(slope));
     return ShadowsCubeSlopes(slope, bend.x + bend.y);

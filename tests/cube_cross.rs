@@ -6,10 +6,12 @@ mod cubes;
 #[path = "../examples/host/mod.rs"]
 mod host;
 
+use common::noop;
 use common::shapes::{Random, cuboid};
 use cubes::{faces, fresh};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
+use shadows::error::CubeShadowMapError;
 use shadows::{
     Caster, CubeCross, CubeCrossDescriptor, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
     PointLight, glam, wgpu,
@@ -108,5 +110,39 @@ fn the_cross_shows_every_texel_in_its_place() {
         };
         assert_eq!(differ(cells), 0, "{encoding:?}");
         assert!(differ(swapped) > 100, "the broken twin: +X and -X swapped");
+    }
+}
+
+#[test]
+fn a_cross_of_another_encoding_or_of_no_light_is_refused() {
+    let (device, _) = noop();
+    let both = [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance];
+    for (map_encoding, lights) in [(both[0], 1), (both[1], 3)] {
+        let descriptor = CubeShadowMapDescriptor {
+            size: SIZE,
+            encoding: map_encoding,
+            lights: lights as u32,
+            ..Default::default()
+        };
+        let map = CubeShadowMap::new(&device, &descriptor).unwrap();
+        for encoding in both {
+            let descriptor = CubeCrossDescriptor {
+                encoding,
+                ..Default::default()
+            };
+            let cross = CubeCross::new(&device, &descriptor);
+            let group = |light| cross.bind_group(&device, &map, light).map(drop);
+            if encoding != map_encoding {
+                let (map, cross) = (map_encoding, encoding);
+                let expected = CubeShadowMapError::Encoding { map, cross };
+                assert_eq!(group(0), Err(expected));
+                continue;
+            }
+            for light in [lights, usize::MAX] {
+                let expected = CubeShadowMapError::NoSuchLight { light, lights };
+                assert_eq!(group(light), Err(expected));
+            }
+            assert_eq!(group(lights - 1), Ok(()), "the last one is there");
+        }
     }
 }

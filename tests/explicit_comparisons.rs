@@ -116,6 +116,7 @@ fn receivers() -> Vec<String> {
 /// Files of `shaders/` that are one shader together.
 const OTHERS: &[&[&str]] = &[
     &["cube_caster", "cube_caster_face"],
+    &["cube_caster", "cube_caster_gl"],
     &["cube_caster", "cube_caster_views"],
     &["cube_cross"],
     &["volume_mask"],

@@ -352,7 +352,7 @@ fn flat_maps_are_tried_under_spots() {
         kinds.any(|kind| kind == LightKind::Spot)
     });
     let names: Vec<&str> = spots.map(|case| case.name).collect();
-    assert_eq!(names.len(), 14, "{names:?}");
+    assert_eq!(names.len(), 15, "{names:?}");
 }
 
 /// What went before changes no bit: not casters that came and went, nor a second view behind.

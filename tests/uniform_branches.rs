@@ -256,7 +256,7 @@ fn receivers_of_maps_have_none() {
         let wgsl = sampler.wgsl_module(0) + &host(&descriptor);
         assert_none(&format!("{descriptor:?}"), &wgsl);
         if descriptor.map == MapKind::Flat {
-            let from = "if spot & (distance > light.range) {";
+            let from = "if spot & (reach > light.range) {";
             assert_found(&wgsl, from, "if spot {", "light.perspective > 0.5");
         }
     }
@@ -264,7 +264,12 @@ fn receivers_of_maps_have_none() {
 
 #[test]
 fn volumes_have_none() {
-    let pulled = joined(&["position", "volume_extrude", "volume_draw"]);
+    let pulled = joined(&[
+        "position",
+        "volume_depth_as_is",
+        "volume_extrude",
+        "volume_draw",
+    ]);
     assert_none("pulled", &pulled);
     let condition = "caster.light.w == 0.0";
     let selected = format!("return select(from_point, -caster.light.xyz, {condition});");
@@ -277,24 +282,44 @@ fn volumes_have_none() {
 
 /// All but the shaders of a `PcfSampler`, as the library joins them.
 const VOLUMES: &[&[&str]] = &[
-    &["position", "volume_extrude", "volume_draw"],
     &[
         "position",
+        "volume_depth_as_is",
+        "volume_extrude",
+        "volume_draw",
+    ],
+    &[
+        "position",
+        "volume_depth_steps",
+        "volume_extrude",
+        "volume_draw",
+    ],
+    &[
+        "position",
+        "volume_depth_as_is",
         "volume_extrude",
         "volume_light_side",
         "volume_vertex",
     ],
     &["volume_batch", "volume_light_side", "volume_facing"],
     &["volume_batch", "volume_edges"],
-    &["position", "volume_extrude", "volume_draw", "volume_debug"],
     &[
         "position",
+        "volume_depth_as_is",
+        "volume_extrude",
+        "volume_draw",
+        "volume_debug",
+    ],
+    &[
+        "position",
+        "volume_depth_as_is",
         "volume_extrude",
         "volume_draw",
         "volume_debug_pulled",
     ],
     &[
         "position",
+        "volume_depth_as_is",
         "volume_extrude",
         "volume_light_side",
         "volume_vertex",
@@ -311,6 +336,7 @@ const VOLUMES: &[&[&str]] = &[
     &["volume_count"],
     &["volume_mask"],
     &["cube_caster", "cube_caster_face"],
+    &["cube_caster", "cube_caster_gl"],
     &["cube_caster", "cube_caster_views"],
     &["cube_cross"],
 ];

@@ -18,9 +18,9 @@ use super::slot::Slot;
 use super::statistics::{Clock, CubeStatistics};
 use super::still_layer::StillLayer;
 use super::texture::Textures;
-use super::transfers::Transfers;
 use crate::error::CubeShadowMapError;
 use crate::submissions::Submissions;
+use crate::uploads::Uploads;
 use crate::{Bias, PointLight, Radius};
 
 /// Omnidirectional depth maps for point lights: six faces each, drawn only where a caster is, and
@@ -102,10 +102,10 @@ pub struct CubeShadowMap {
     /// The layers of what stands still, by slot and face, and the fewest triangles worth one.
     pub(super) still: Vec<[Option<StillLayer>; 6]>,
     pub(super) still_least: Option<u64>,
-    // What the uniforms hold once the transfers are encoded, by light and by slot.
+    // What the uniforms hold once the uploads are recorded, by light and by slot.
     pub(super) written_lights: Vec<Option<LightUniform>>,
     pub(super) written_faces: Vec<Option<[f32; 2]>>,
-    pub(super) transfers: Transfers,
+    pub(super) uploads: Uploads,
     pub(super) submissions: Submissions,
     pub(super) statistics: CubeStatistics,
     pub(super) reordered: u64,
@@ -179,7 +179,7 @@ impl CubeShadowMap {
             lights: resources::lights(device, &label, slots as u64, cube_array),
             lights_revision: textures_revision,
             instances: resources::instances(device, &label, 1),
-            transfers: Transfers::new(device, &label),
+            uploads: Uploads::new(device),
             submissions: Submissions::default(),
             label,
             scene: Scene::new(descriptor.sides),
@@ -226,17 +226,16 @@ impl CubeShadowMap {
         self.reserve(device, &plans)?;
         let not_encoded = self.is_pending();
         if not_encoded {
-            self.forget_transfers();
+            self.forget_uploads();
         }
         self.follow(&plans);
         self.record_draws(device, &plans, frame);
         self.write_lights(frame.lights);
-        self.transfers.stage(device);
 
         let mut statistics = self.tally(&plans);
         self.count_draws(&mut statistics, &plans);
         statistics.bytes = self.bytes();
-        statistics.uploaded = self.transfers.size();
+        statistics.uploaded = self.uploads.bytes();
         statistics.not_encoded = not_encoded;
         statistics.encoder_dropped = encoder_dropped;
         statistics.prepare = clock.elapsed();
@@ -246,7 +245,7 @@ impl CubeShadowMap {
 
     /// Whether an `encode` would record anything.
     fn is_pending(&self) -> bool {
-        self.transfers.size() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
+        self.uploads.bytes() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
     }
 
     /// The matrix of a face for a light of the last [`prepare`](Self::prepare), world space to clip

@@ -15,7 +15,7 @@ impl CubeShadowMap {
     /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
     /// ([`CubeStatistics::encoder_dropped`](crate::CubeStatistics)).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let mut recorded = self.transfers.encode(encoder);
+        let mut recorded = self.uploads.record(encoder);
         for view in self.textures.to_be_cleared() {
             drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(&self.label),
@@ -59,7 +59,7 @@ impl CubeShadowMap {
     pub fn invalidate(&mut self) {
         self.slots.iter_mut().for_each(Slot::doubt_texels);
         self.textures.doubt();
-        self.forget_transfers();
+        self.forget_uploads();
     }
 
     /// Draws one face in a pass of its own, over what stands still on it.
@@ -115,7 +115,7 @@ impl CubeShadowMap {
     ) -> Option<wgpu::RenderPass<'encoder>> {
         let &index = self.order.get(light)?;
         // A host that calls this instead of `encode` tells receivers of the light through it.
-        if self.transfers.encode(encoder) {
+        if self.uploads.record(encoder) {
             self.submissions.watch(encoder);
         }
         let pass = self.begin_pass(encoder, index, face, self.clear())?;

@@ -14,9 +14,9 @@ use super::near::NearPlane;
 use super::resources::{self, FaceUniform, PipelineKey, PipelineKind};
 use super::scene::Scene;
 use super::texture;
-use super::transfers::Transfers;
 use crate::error::ShadowMapError;
 use crate::submissions::Submissions;
+use crate::uploads::Uploads;
 use crate::{Bias, DirectionalLight, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
@@ -78,10 +78,10 @@ pub struct ShadowMap {
     /// Whether the next encode draws, and what.
     pub(super) pending: bool,
     pub(super) draws: Vec<Draw>,
-    // What the uniforms hold once the transfers are encoded.
+    // What the uniforms hold once the uploads are recorded.
     pub(super) written_light: Option<FlatLightUniform>,
     pub(super) written_face: Option<FaceUniform>,
-    pub(super) transfers: Transfers,
+    pub(super) uploads: Uploads,
     pub(super) submissions: Submissions,
     pub(super) statistics: ShadowMapStatistics,
 }
@@ -149,7 +149,7 @@ impl ShadowMap {
             draws: Vec::new(),
             written_light: None,
             written_face: None,
-            transfers: Transfers::new(device, &label),
+            uploads: Uploads::new(device),
             submissions: Submissions::default(),
             statistics: ShadowMapStatistics::default(),
             label,
@@ -164,7 +164,7 @@ impl ShadowMap {
     /// be submitted: if its encoder is dropped, the `prepare` after that draws the map again
     /// ([`ShadowMapStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let copied = self.transfers.encode(encoder);
+        let copied = self.uploads.record(encoder);
         if copied || self.pending {
             self.submissions.watch(encoder);
         }
@@ -188,7 +188,7 @@ impl ShadowMap {
     pub fn invalidate(&mut self) {
         self.pending = false;
         self.texels = Texels::Unknown;
-        self.forget_transfers();
+        self.forget_uploads();
     }
 
     /// Begins a pass that clears the map, for a host that draws its own geometry (skinned,
@@ -203,7 +203,7 @@ impl ShadowMap {
         &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
-        if self.transfers.encode(encoder) {
+        if self.uploads.record(encoder) {
             self.submissions.watch(encoder);
         }
         self.pending = false;

@@ -46,9 +46,9 @@ impl ShadowMap {
         if encoder_dropped {
             self.invalidate();
         }
-        let not_encoded = self.pending || self.transfers.size() > 0;
+        let not_encoded = self.pending || self.uploads.bytes() > 0;
         if not_encoded {
-            self.forget_transfers();
+            self.forget_uploads();
         }
         let texels = self.wanted.on_texels();
         let kept = texels == self.texels && (self.cache || texels == Texels::Clear);
@@ -58,7 +58,6 @@ impl ShadowMap {
             self.gather(device, frame.casters);
         }
         self.tell_receivers();
-        self.transfers.stage(device);
         self.statistics = ShadowMapStatistics {
             not_encoded,
             encoder_dropped,
@@ -171,7 +170,7 @@ impl ShadowMap {
             self.instances = resources::instances(device, &self.label, rows.len() as u64);
         }
         let bytes = bytemuck::cast_slice(&rows);
-        self.transfers.push(&self.instances, 0, bytes);
+        self.uploads.write(&self.instances, 0, bytes);
         for draw in &self.draws {
             let key = draw.key();
             self.pipelines
@@ -188,8 +187,7 @@ impl ShadowMap {
             padding: [0.0; 3],
         };
         if self.written_face.replace(face) != Some(face) {
-            self.transfers
-                .push(&self.face, 0, bytemuck::bytes_of(&face));
+            self.uploads.write(&self.face, 0, bytemuck::bytes_of(&face));
         }
     }
 
@@ -197,14 +195,14 @@ impl ShadowMap {
         let (frame, format) = (self.frame.as_ref(), self.texture.format());
         let light = FlatLightUniform::new(frame, &self.bias, self.size, format);
         if self.written_light.replace(light) != Some(light) {
-            self.transfers
-                .push(&self.light, 0, bytemuck::bytes_of(&light));
+            self.uploads
+                .write(&self.light, 0, bytemuck::bytes_of(&light));
         }
     }
 
     /// Forgets what was to be written, and what has been.
-    pub(super) fn forget_transfers(&mut self) {
-        self.transfers.clear();
+    pub(super) fn forget_uploads(&mut self) {
+        self.uploads.clear();
         self.written_light = None;
         self.written_face = None;
     }
@@ -223,7 +221,7 @@ impl ShadowMap {
                 + self.instances.size()
                 + self.face.size()
                 + self.light.size(),
-            uploaded: self.transfers.size(),
+            uploaded: self.uploads.bytes(),
             ..Default::default()
         }
     }

@@ -27,7 +27,6 @@ mod statistics;
 mod still;
 mod still_layer;
 mod texture;
-mod transfers;
 mod upload;
 mod visible;
 

@@ -32,7 +32,8 @@ pub struct CubeStatistics {
     pub draws: u32,
     /// Triangles in those draws.
     pub triangles: u64,
-    /// GPU memory held: textures and buffers.
+    /// GPU memory held: textures and buffers, without the staging buffers in which `uploaded` waits:
+    /// these are kept, of powers of two from 64 KB on, as many as frames wait for the GPU.
     pub bytes: u64,
     /// Bytes that `encode` copies to the GPU: none where nothing has changed.
     pub uploaded: u64,

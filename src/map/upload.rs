@@ -74,12 +74,12 @@ impl CubeShadowMap {
         }
         self.make_joint_pipelines(device, plans);
         let bytes = bytemuck::cast_slice(&self.draws.instances);
-        self.transfers.push(&self.instances, 0, bytes);
+        self.uploads.write(&self.instances, 0, bytes);
     }
 
     /// Forgets what was to be written, and what has been.
-    pub(super) fn forget_transfers(&mut self) {
-        self.transfers.clear();
+    pub(super) fn forget_uploads(&mut self) {
+        self.uploads.clear();
         self.written_lights.fill(None);
         self.written_faces.fill(None);
     }
@@ -114,7 +114,7 @@ impl CubeShadowMap {
             };
             let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
             let bytes = bytemuck::bytes_of(&uniform);
-            self.transfers.push(&self.face_uniforms, offset, bytes);
+            self.uploads.write(&self.face_uniforms, offset, bytes);
         }
     }
 
@@ -145,9 +145,9 @@ impl CubeShadowMap {
             self.written_lights[place] = Some(uniform);
             let bytes = bytemuck::bytes_of(&uniform);
             let (at, at_all) = (place as u64 * UNIFORM_STRIDE, (place * bytes.len()) as u64);
-            self.transfers.push(&self.lights.uniforms, at, bytes);
+            self.uploads.write(&self.lights.uniforms, at, bytes);
             if let Some(all) = &self.lights.all {
-                self.transfers.push(all, at_all, bytes);
+                self.uploads.write(all, at_all, bytes);
             }
         }
     }

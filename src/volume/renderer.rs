@@ -144,8 +144,9 @@ impl ShadowVolumeRenderer {
     /// GPU memory, kept between frames and grown as needed, what it held being copied: where compute
     /// shaders find the silhouettes about 28 bytes a triangle and volume, where the CPU does what
     /// they come to, about 6 bytes a triangle; and 720 a caster. Up to twice that, because buffers
-    /// grow to powers of two. Besides, what `encode` uploads waits in buffers that the CPU writes to:
-    /// about as much as is uploaded, for each frame that the GPU has not finished.
+    /// grow to powers of two. Besides, what `encode` uploads waits in staging buffers. These are kept, of
+    /// powers of two from 64 KB on: about twice the most that was uploaded, for each frame that the GPU
+    /// has not finished.
     ///
     /// `queue` is not written to: what is uploaded is recorded.
     ///

@@ -1,9 +1,10 @@
 //! Wavefront OBJ: groups as meshes, polygons as triangles. Materials and texture coordinates are ignored;
 //! what makes no faces is left out and told.
 //!
-//! Read here, as no crate that was tried (tobj 4, obj 0.10, wavefront_obj 11) takes files as they are: a
-//! polyline becomes a face, a normal out of range a panic, `usemtl` without a name the end, a concave
-//! polygon a fan across its own edge; and none says on which line it stopped.
+//! Read here, as neither tobj 4 nor obj 0.10, which were tried, takes files as they are. tobj makes a face of a
+//! polyline and a fan across its own edge of a concave polygon, ends at `usemtl` without a name, overflows
+//! at a normal too far back, and does not say on which line it stopped. obj hands on polygons whole, and
+//! indices of vertices that are not there.
 
 use std::collections::{BTreeMap, HashMap};
 
