@@ -166,9 +166,11 @@ impl Ends {
     /// A distance from the light, and so much more that what is drawn there is not drawn before it.
     ///
     /// Far points may be a hundred times as far from the light as the plane they are in (see
-    /// [`is_castable`]); that much of their displacement is a fifth of a thousandth of the distance.
+    /// [`is_castable`]). Their displacement is a fifth of [`ROOM`], which leaves the rest for the light's
+    /// and the eye's, unless those are far from the world's origin.
     fn room(&self, distance: f64, light: DVec3) -> f64 {
-        distance * (1.0 + ROOM) + 2.0 * displacement(light.length() + self.eye)
+        let drawn = 2.0 * displacement(100.0 * distance + light.length() + self.eye);
+        (distance * (1.0 + ROOM)).max(distance + drawn)
     }
 
     /// The same for a directional light.
@@ -330,6 +332,25 @@ mod tests {
                 }
             }
             assert!(below < 1e-5 * (half as f64 + 20.0), "{half}: {below}");
+        }
+    }
+
+    #[test]
+    fn ends_are_a_thousandth_farther_than_receivers_or_as_far_as_these_are_drawn_wrong() {
+        let far = Vec3::new(3e5, -2e5, 1e5);
+        for (origin, far_away) in [(Vec3::ZERO, false), (far, true)] {
+            let light = origin + Vec3::new(0.5, 4.0, 1.0);
+            let eye = origin + Vec3::new(-4.5, 6.0, 13.5);
+            let ends = ends(HomogeneousLight::point(light), eye);
+            for distance in [0.5, 4.5, 200.0] {
+                let room = ends.room(distance, light.as_dvec3()) - distance;
+                // A far point that is seen from its side, and the receiver before it.
+                let away = f64::from(light.length() + eye.length());
+                let moved = 2.0 * displacement(99.0 * distance + away);
+                assert!(room > moved, "{room}, {moved}");
+                let more = room > 1.000_001 * ROOM * distance;
+                assert_eq!(more, far_away, "{distance}: {room}");
+            }
         }
     }
 
