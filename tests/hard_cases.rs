@@ -49,6 +49,10 @@ use crate::technique::{Config, Technique};
 
 const SIZE: [u32; 2] = [80, 60];
 
+/// The positions that are drawn are rounded by more than any technique may be off: few pixels are wrong,
+/// but for each technique some.
+const NOWHERE_EXACT: &str = "Far from the origin, plain f32";
+
 #[test]
 fn one_round_passes() {
     let Some(gpu) = Gpu::for_test() else { return };
@@ -58,7 +62,15 @@ fn one_round_passes() {
     for case in cases::all() {
         let row = table.lines().find(|line| line.contains(case.name)).unwrap();
         let cells = row.split('|').map(str::trim);
-        assert!(cells.filter(|cell| *cell == "0").count() > 2, "{row}");
+        if NOWHERE_EXACT == case.name {
+            let shares = cells.filter_map(|cell| cell.strip_suffix(" %")?.parse::<f64>().ok());
+            assert!(
+                shares.clone().count() > 10 && shares.fold(0.0, f64::max) < 0.1,
+                "{row}"
+            );
+        } else {
+            assert!(cells.filter(|cell| *cell == "0").count() > 2, "{row}");
+        }
     }
     let asked = format!("--hard-cases --rounds 1 --out {}`", dir.display());
     assert!(table.contains(&asked), "{asked}");
