@@ -62,10 +62,10 @@ fn one_round_passes() {
     for case in cases::all() {
         let row = table.lines().find(|line| line.contains(case.name)).unwrap();
         let cells = row.split('|').map(str::trim);
-        if NOWHERE_EXACT == case.name {
+        if NOWHERE_EXACT.contains(&case.name) {
             let shares = cells.filter_map(|cell| cell.strip_suffix(" %")?.parse::<f64>().ok());
             assert!(
-                shares.clone().count() > 10 && shares.fold(0.0, f64::max) < 0.1,
+                shares.clone().count() > 5 && shares.fold(0.0, f64::max) < 0.4,
                 "{row}"
             );
         } else {
