@@ -38,7 +38,7 @@ const SIZE: [u32; 2] = [1280, 720];
 /// Nine single texels around the receiver's own.
 const LOOP: &str = "
 fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
-    let receiver = shadows_cube_receiver(shadows_light, world, normal);
+    let receiver = shadows_cube_receiver(shadows_light, world, normal, vec2f(1.0, 0.0));
     if receiver.known >= 0.0 {
         return receiver.known;
     }
