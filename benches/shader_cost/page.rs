@@ -29,7 +29,7 @@ const RECEIVERS: &str = "## Receivers
 
 Over a Lambert shader with one light that has no shadow. *Normal given*: the host passes its geometric
 normal, which saves the derivatives. `peer` rows do what other engines' shaders do, in WGSL of our own;
-their error is in [speed against error](speed-vs-error.md).
+what they get wrong is not measured.
 
 | | VALU | normal given | texture | VGPRs | waves |
 |---|--:|--:|--:|--:|--:|
