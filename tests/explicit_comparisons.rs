@@ -117,7 +117,6 @@ fn receivers() -> Vec<String> {
 const OTHERS: &[&[&str]] = &[
     &["cube_caster", "cube_caster_face"],
     &["cube_caster", "cube_caster_gl"],
-    &["cube_caster", "cube_caster_views"],
     &["cube_cross"],
     &["volume_mask"],
     &["volume_exact"],

@@ -337,7 +337,6 @@ const VOLUMES: &[&[&str]] = &[
     &["volume_mask"],
     &["cube_caster", "cube_caster_face"],
     &["cube_caster", "cube_caster_gl"],
-    &["cube_caster", "cube_caster_views"],
     &["cube_cross"],
 ];
 
