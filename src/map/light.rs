@@ -27,7 +27,7 @@ pub(crate) struct LightUniform {
     pub quantum: f32,
     pub cube: i32,
     pub rounding: f32,
-    padding: f32,
+    pub centre: f32,
 }
 
 impl LightUniform {
@@ -54,7 +54,7 @@ impl LightUniform {
                 Depths::NotYet => -2,
             },
             rounding: bias.rounding(),
-            padding: 0.0,
+            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
         }
     }
 }
@@ -66,11 +66,7 @@ mod tests {
 
     #[test]
     fn the_light_lies_in_memory_as_wgsl_has_it() {
-        let text = concat!(
-            include_str!("../../shaders/cube_receiver.wgsl"),
-            include_str!("../../shaders/cube_fetch.wgsl"),
-            include_str!("../../shaders/cube_major.wgsl")
-        );
+        let text = include_str!("../../shaders/cube_light.wgsl");
         assert_layout!(
             text,
             "ShadowsCubeLight",
@@ -83,7 +79,8 @@ mod tests {
             depth_scale,
             quantum,
             cube,
-            rounding
+            rounding,
+            centre
         );
     }
 }

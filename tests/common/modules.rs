@@ -9,7 +9,6 @@ pub const JOINED: &[&[&str]] = &[
     &["volume_exact_samples"],
     FACE,
     &["cube_caster", "cube_caster_gl"],
-    &["cube_caster", "cube_caster_views"],
     &["cube_cross"],
     PULLED,
     PULLED_STEPS,
