@@ -121,10 +121,7 @@ fn to_glsl(ready: &Ready<'_>) -> Result<String, String> {
             is_webgl: false,
         },
         // One number each, as wgpu-hal gives them: the groups of GL are one.
-        binding_map: bindings(ready.module)
-            .zip(0..)
-            .map(|(binding, slot)| (binding, slot))
-            .collect(),
+        binding_map: bindings(ready.module).zip(0..).collect(),
         ..Default::default()
     };
     let pipeline = glsl::PipelineOptions {

@@ -136,7 +136,7 @@ fn texts() -> Vec<PathBuf> {
 
 /// What is a shader of its own in a text: string literals and fenced blocks with an entry point.
 pub fn shaders(text: &str) -> Vec<String> {
-    let text: Vec<&str> = text.lines().map(|line| bare(line)).collect();
+    let text: Vec<&str> = text.lines().map(bare).collect();
     let text = text.join("\n");
     let mut found = Vec::new();
     let mut at = 0;
