@@ -17,4 +17,6 @@ struct ShadowsCubeLight {
     // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
     // positions".
     rounding: f32,
+    // World width of a texel at distance 1 along the major axis.
+    texel: f32,
 }

@@ -71,12 +71,15 @@ pub(super) struct MapWgsl {
     pub light: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
+    pub edge: &'static str,
     pub fetch: &'static str,
     pub gather: &'static str,
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
     pub slope: &'static str,
+    pub compare: &'static str,
+    pub hardware: &'static str,
 }
 
 impl MapWgsl {
@@ -92,7 +95,8 @@ impl MapWgsl {
             reads,
             light: include_str!("../../shaders/flat_light.wgsl"),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
-            depth: match reads.border {
+            depth: "",
+            edge: match reads.border {
                 false => include_str!("../../shaders/flat_edge_test.wgsl"),
                 true => include_str!("../../shaders/flat_edge_border.wgsl"),
             },
@@ -105,6 +109,8 @@ impl MapWgsl {
             },
             tap: include_str!("../../shaders/flat_tap.wgsl"),
             slope: include_str!("../../shaders/flat_slope.wgsl"),
+            compare: "",
+            hardware: include_str!("../../shaders/flat_hardware.wgsl"),
         }
     }
 
@@ -131,12 +137,18 @@ impl MapWgsl {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
                 DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
             },
+            edge: "",
             fetch,
             gather,
             texel: include_str!("../../shaders/cube_texel.wgsl"),
             four: include_str!("../../shaders/cube_four.wgsl"),
             tap: include_str!("../../shaders/cube_tap.wgsl"),
             slope: include_str!("../../shaders/cube_slope.wgsl"),
+            compare: match reads.many_lights {
+                false => include_str!("../../shaders/cube_compare.wgsl"),
+                true => include_str!("../../shaders/cube_array_compare.wgsl"),
+            },
+            hardware: include_str!("../../shaders/cube_hardware.wgsl"),
         }
     }
 
@@ -150,9 +162,13 @@ impl MapWgsl {
     pub fn adapt(&self, wgsl: &str) -> String {
         match (self.reads.map, self.reads.many_lights) {
             (MapKind::Cube, false) => wgsl.to_owned(),
-            (MapKind::Cube, true) => wgsl.replace("texture_cube<f32>", "texture_cube_array<f32>"),
+            (MapKind::Cube, true) => wgsl
+                .replace("texture_cube<f32>", "texture_cube_array<f32>")
+                .replace("texture_depth_cube,", "texture_depth_cube_array,")
+                .replace("texture_depth_cube;", "texture_depth_cube_array;"),
             (MapKind::Flat, _) => wgsl
                 .replace("texture_cube<f32>", "texture_2d<f32>")
+                .replace("texture_depth_cube", "texture_depth_2d")
                 .replace("ShadowsCube", "ShadowsFlat")
                 .replace("shadows_cube_", "shadows_flat_"),
         }
