@@ -20,15 +20,16 @@ fn shadows_cube_hardware(
     let n = abs(normal);
     let a = abs(from_light);
     let major = max(a.x, max(a.y, a.z));
+    let texel = 2.0 / light.size;
     // The axes that are the major one within a texel, and of those the one that the plane is least steep
     // along is left out.
-    let out = select(vec3f(3e38), n, a >= vec3f(major - light.texel * major));
+    let out = select(vec3f(3e38), n, a >= vec3f(major - texel * major));
     let steepness = n.x + n.y + n.z - min(out.x, min(out.y, out.z)) + 1.5 * doubt;
     // The plane's distance, less what rounding may move the receiver or turn the plane.
     let rounding = light.rounding * dot(n, abs(position)) + 1.74 * doubt * major;
     let facing = max(abs(dot(normal, from_light)) - rounding, 1e-37);
     // The bias along the normal is one more share of a texel.
-    let slope = (light.texel + light.normal_offset) * ((steepness + 1e-30) / facing);
+    let slope = (texel + light.normal_offset) * ((steepness + 1e-30) / facing);
     let near = light.near * light.depth_scale;
     let own = near / major;
     // No nearer than a thirty-second of the receiver's distance, as for all kernels.

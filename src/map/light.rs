@@ -27,7 +27,7 @@ pub(crate) struct LightUniform {
     pub quantum: f32,
     pub cube: i32,
     pub rounding: f32,
-    pub texel: f32,
+    pub centre: f32,
 }
 
 impl LightUniform {
@@ -54,7 +54,7 @@ impl LightUniform {
                 Depths::NotYet => -2,
             },
             rounding: bias.rounding(),
-            texel,
+            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
         }
     }
 }
@@ -80,7 +80,7 @@ mod tests {
             quantum,
             cube,
             rounding,
-            texel
+            centre
         );
     }
 }

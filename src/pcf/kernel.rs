@@ -65,7 +65,7 @@ pub enum Kernel {
     /// 7x7 texels, weighted, from sixteen taps of 2x2 (Castano 2013).
     Weighted7,
     /// One bilinear comparison by the sampler (`textureSampleCompareLevel`): [`Bilinear`](Self::Bilinear)
-    /// at a third of its instructions (`docs/shader-cost.md`), for the tightest budgets. All four texels
+    /// at half of its instructions (`docs/shader-cost.md`), for the tightest budgets. All four texels
     /// are compared with one depth: that which the receiver's plane has at the nearest of them to the light
     /// (on a cube a bound of that, for no more than a texel along both axes). So no plane shadows itself at
     /// any angle, and nothing is darker than with `Bilinear`; but what touches a surface
