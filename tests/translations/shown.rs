@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use shadows::wgsl;
+use shadows::{Kernel, wgsl};
 
 use crate::Module;
 use crate::pcf::{WAYS, made};
@@ -35,7 +35,7 @@ fn host() -> Vec<Module> {
     let shared = [wgsl::POSITION.to_owned(), file("host.wgsl")].concat();
     let way = &WAYS[0];
     let (device, queue) = way.device();
-    let sampler = made(&device, &queue, &way.descriptor(way.kernels()[0]));
+    let sampler = made(&device, &queue, &way.descriptor(Kernel::ALL[0]));
     let asks = "fn host_visibility(world: vec3f, pixel: vec2f) -> f32 { return shadows_visibility(world); }";
     vec![
         Module::new("host", shared.clone()),
@@ -95,7 +95,7 @@ fn asked(shader: &str) -> String {
     let of = |(name, sign, group): (&str, &str, u32)| {
         let way = WAYS.iter().find(|way| way.name == name).unwrap();
         let (device, queue) = way.device();
-        let sampler = made(&device, &queue, &way.descriptor(way.kernels()[0]));
+        let sampler = made(&device, &queue, &way.descriptor(Kernel::ALL[0]));
         match shader.contains(sign) {
             true => sampler.wgsl_module(group),
             false => String::new(),
