@@ -1,24 +1,5 @@
-// What every kernel on a cube map needs: the light, the texel frame of the face that a receiver
+// What kernels on a cube map need besides the light: the texel frame of the face that a receiver
 // falls on, and the depth of the receiver's plane in the direction of any texel.
-
-struct ShadowsCubeLight {
-    // World space.
-    position: vec3f,
-    near: f32,
-    range: f32,
-    // Texels along a face.
-    size: f32,
-    // Biases; a texel at distance 1 along the major axis is 2 / size wide.
-    normal_offset: f32,
-    depth_scale: f32,
-    // One step of the map's format.
-    quantum: f32,
-    // Which cube of the array; -1: no caster in range, -2: not drawn yet.
-    cube: i32,
-    // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
-    // positions".
-    rounding: f32,
-}
 
 // One face of the cube, seen from a receiver on it: directions are
 // forward + u * right + v * down with u and v in -1 .. 1, and `texel` is where the receiver is,

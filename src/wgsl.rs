@@ -47,11 +47,5 @@ pub(crate) const CUBE_CASTER_GL: &str = concat!(
     include_str!("../shaders/cube_caster_gl.wgsl"),
 );
 
-/// Depth of casters on several faces of a cube map at once.
-pub(crate) const CUBE_CASTER_VIEWS: &str = concat!(
-    include_str!("../shaders/cube_caster.wgsl"),
-    include_str!("../shaders/cube_caster_views.wgsl"),
-);
-
 /// A cube map unfolded as a cross.
 pub(crate) const CUBE_CROSS: &str = include_str!("../shaders/cube_cross.wgsl");

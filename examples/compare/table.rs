@@ -1,8 +1,8 @@
 //! The techniques that have a name. A new one is one more row.
 
 use shadows::{
-    ContactHardening, Counter, CubeShadowMapDescriptor, FacePasses, Kernel, MapKind, Method,
-    PcfDescriptor, RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
+    ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
+    RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
 use crate::technique::{Config, Technique};
@@ -64,7 +64,6 @@ pub static ROWS: &[Row] = &[
     row("cube-pcss", |side| cube(side, contact())),
     usual("cube-1024", |_| cube(1024, Kernel::default())),
     usual("cube-cached", cube_cached),
-    row("cube-multiview", cube_multiview),
     usual("cube-textbook", cube_textbook),
     usual("flat-hard", |side| flat(side, Kernel::Hard)),
     usual("flat-2x2", |side| flat(side, Kernel::Bilinear)),
@@ -120,19 +119,6 @@ fn cube_cached(side: u32) -> Config {
     Config::Cube {
         map: CubeShadowMapDescriptor {
             size: side,
-            ..Default::default()
-        },
-        sampler: PcfDescriptor::default(),
-    }
-}
-
-/// All faces of a frame in one pass, on devices that have multiview.
-fn cube_multiview(side: u32) -> Config {
-    Config::Cube {
-        map: CubeShadowMapDescriptor {
-            size: side,
-            cache: false,
-            passes: FacePasses::Multiview,
             ..Default::default()
         },
         sampler: PcfDescriptor::default(),

@@ -8,7 +8,6 @@ use super::assign::assign;
 use super::descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
 use super::draws::DrawLists;
 use super::face::CubeFace;
-use super::joint::Joint;
 use super::light::LightUniform;
 use super::near::NearPlane;
 use super::plan::SlotPlan;
@@ -85,8 +84,6 @@ pub struct CubeShadowMap {
     pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
     pub(super) face_uniforms: wgpu::Buffer,
     pub(super) face_group: wgpu::BindGroup,
-    /// For a map that draws several faces in one pass.
-    pub(super) joint: Option<Joint>,
     pub(super) lights: resources::Lights,
     /// The [`texture_revision`](Self::texture_revision) for which those buffers are.
     pub(super) lights_revision: u64,
@@ -147,12 +144,7 @@ impl CubeShadowMap {
             encoding,
             slope_scale: bias.slope_scale,
             unclipped_depth: resources::can_pull_casters(device),
-            constants: &[],
         };
-        let joint = descriptor
-            .passes
-            .joint()
-            .then(|| Joint::new(device, &label, &face_uniforms, &kind));
         let mut textures = Textures::new(device, &label, size, format, slots, cube_array);
         if descriptor.allocation == Allocation::AtOnce {
             for slot in 0..slots {
@@ -189,8 +181,7 @@ impl CubeShadowMap {
                 .collect(),
             order: Vec::new(),
             plans: Vec::new(),
-            draws: DrawLists::new(slots, joint.as_ref()),
-            joint,
+            draws: DrawLists::new(slots),
             still: (0..slots).map(|_| Default::default()).collect(),
             still_least: descriptor.still_least(device),
             written_lights: vec![None; slots],
@@ -233,7 +224,7 @@ impl CubeShadowMap {
         self.write_lights(frame.lights);
 
         let mut statistics = self.tally(&plans);
-        self.count_draws(&mut statistics, &plans);
+        self.draws.count(&mut statistics);
         statistics.bytes = self.bytes();
         statistics.uploaded = self.uploads.bytes();
         statistics.not_encoded = not_encoded;

@@ -1,6 +1,5 @@
 //! How a cube map is made, and what it is told each frame.
 
-use super::joint::FacePasses;
 use super::resources::UNIFORM_STRIDE;
 use super::still_layer::StillLayers;
 use crate::error::CubeShadowMapError;
@@ -126,11 +125,9 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order, the longest wait and
     /// what the budget does not count.
     pub max_faces_per_frame: Option<u32>,
-    /// Whether a light's faces are drawn in a pass each or together. Default [`FacePasses::Auto`].
-    pub passes: FacePasses,
     /// Whether casters that stand still are kept in a second layer under those that move. Default
-    /// [`StillLayers::Auto`]. Without `cache`, and with [`FacePasses::Multiview`], there are none, and
-    /// [`StillLayers::AtLeast`] is refused.
+    /// [`StillLayers::Auto`]. Without `cache` there are none, and [`StillLayers::AtLeast`] is
+    /// refused.
     pub still_layers: StillLayers,
 }
 
@@ -177,10 +174,8 @@ impl CubeShadowMapDescriptor<'_> {
         if self.max_faces_per_frame == Some(0) {
             return Err(CubeShadowMapError::Budget);
         }
-        self.passes.validate(device)?;
         self.still_layers.validate(&device.adapter_info())?;
-        let layers = self.cache && !self.passes.joint();
-        if matches!(self.still_layers, StillLayers::AtLeast(_)) && !layers {
+        if matches!(self.still_layers, StillLayers::AtLeast(_)) && !self.cache {
             return Err(CubeShadowMapError::NoStillLayers);
         }
         self.bias.validate()?;
@@ -205,7 +200,7 @@ impl CubeShadowMapDescriptor<'_> {
     pub(super) fn still_least(&self, device: &wgpu::Device) -> Option<u64> {
         self.still_layers
             .least_triangles(self.size, &device.adapter_info())
-            .filter(|_| self.cache && !self.passes.joint())
+            .filter(|_| self.cache)
     }
 }
 
@@ -235,7 +230,6 @@ impl Default for CubeShadowMapDescriptor<'_> {
             cache: true,
             sides: CasterSides::default(),
             max_faces_per_frame: None,
-            passes: FacePasses::default(),
             still_layers: StillLayers::default(),
         }
     }

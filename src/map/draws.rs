@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use glam::DAffine3;
 
 use super::descriptor::CasterSides;
-use super::joint::Joint;
 use super::near::NearPlane;
 use super::resources::{INSTANCE_SIZE, Instance, PipelineKey};
 use super::scene::{Record, Scene, Winding};
 use super::slot::{Slot, bounds};
+use super::statistics::CubeStatistics;
 use crate::mesh::{Caster, CasterMesh};
 
 /// One draw call: a mesh, and where its instances lie.
@@ -30,6 +30,10 @@ impl Draw {
         }
     }
 
+    pub fn triangles(&self) -> u64 {
+        u64::from(self.mesh.triangle_count()) * u64::from(self.instance_count)
+    }
+
     /// Records it into a depth pass.
     pub fn record(
         &self,
@@ -37,21 +41,11 @@ impl Draw {
         pipelines: &HashMap<PipelineKey, wgpu::RenderPipeline>,
         instances: &wgpu::Buffer,
     ) {
-        // Prepare made one for every key.
-        if let Some(pipeline) = pipelines.get(&self.key()) {
-            self.record_with(pass, pipeline, instances, self.instance_count);
-        }
-    }
-
-    /// Records it with a pipeline made for its key, and the instances that follow its own.
-    pub fn record_with(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        pipeline: &wgpu::RenderPipeline,
-        instances: &wgpu::Buffer,
-        count: u32,
-    ) {
+        let Some(pipeline) = pipelines.get(&self.key()) else {
+            return; // prepare made one for every key
+        };
         let (_, offset) = self.mesh.layout();
+        let count = self.instance_count;
         let size = u64::from(count) * INSTANCE_SIZE;
         let first = self.first_instance * INSTANCE_SIZE;
         pass.set_pipeline(pipeline);
@@ -106,18 +100,12 @@ pub(super) struct DrawLists {
     // Kept only for its memory: group, culling and row of each caster on each face and layer.
     members: [Vec<(u32, Cull, u32)>; 12],
     rows: Vec<Instance>,
-    /// Whether all faces of a slot share one list, that of the lowest face drawn.
-    joint: bool,
-    /// Follows the instances of every draw.
-    separator: Option<Instance>,
 }
 
 impl DrawLists {
-    pub fn new(slots: usize, joint: Option<&Joint>) -> Self {
+    pub fn new(slots: usize) -> Self {
         Self {
             faces: (0..slots).map(|_| Default::default()).collect(),
-            joint: joint.is_some(),
-            separator: joint.and_then(Joint::separator),
             layers: (0..slots).map(|_| Default::default()).collect(),
             ..Self::default()
         }
@@ -142,6 +130,14 @@ impl DrawLists {
         self.faces.iter().chain(&self.layers).flatten().flatten()
     }
 
+    /// Counts draw calls and the triangles in them.
+    pub fn count(&self, statistics: &mut CubeStatistics) {
+        for draw in self.iter() {
+            statistics.draws += 1;
+            statistics.triangles += draw.triangles();
+        }
+    }
+
     /// Adds some faces of a slot.
     pub fn add(
         &mut self,
@@ -159,10 +155,7 @@ impl DrawLists {
         self.members.iter_mut().for_each(Vec::clear);
         for at in slot.masks().touching(mask) {
             let (caster, record) = (&casters[at], &scene.records()[at]);
-            let lists = match self.joint {
-                true => u16::from(mask & mask.wrapping_neg()),
-                false => slot.lists(slot.masks().get(at) & mask, record),
-            };
+            let lists = slot.lists(slot.masks().get(at) & mask, record);
             if lists == 0 {
                 continue; // all on layers that are there
             }
@@ -191,7 +184,6 @@ impl DrawLists {
                 });
                 let rows = run.iter().map(|&(.., row)| self.rows[row as usize]);
                 self.instances.extend(rows);
-                self.instances.extend(self.separator);
             }
         }
     }

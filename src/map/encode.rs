@@ -27,11 +27,7 @@ impl CubeShadowMap {
         self.textures.placeholder_cleared();
         for index in 0..self.slots.len() {
             let pending = self.slots[index].pending;
-            let cleared = match &self.joint {
-                Some(joint) => self.encode_joint(encoder, index, pending, joint),
-                None => self.encode_faces(encoder, index, pending),
-            };
-            self.textures.cleared(index, cleared);
+            self.encode_faces(encoder, index, pending);
             self.slots[index].encoded(pending);
             recorded |= pending != 0;
         }
@@ -41,14 +37,13 @@ impl CubeShadowMap {
     }
 
     /// Draws the pending faces of a slot, each in its pass.
-    fn encode_faces(&self, encoder: &mut wgpu::CommandEncoder, index: usize, pending: u8) -> u8 {
+    fn encode_faces(&self, encoder: &mut wgpu::CommandEncoder, index: usize, pending: u8) {
         for face in CubeFace::ALL {
             if pending & face.bit() != 0 {
                 let draws = self.draws.of(index, face.layer() as usize);
                 self.encode_face(encoder, index, face, draws);
             }
         }
-        pending
     }
 
     /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has every face drawn again that the
@@ -120,7 +115,6 @@ impl CubeShadowMap {
         }
         let pass = self.begin_pass(encoder, index, face, self.clear())?;
         self.slots[index].touched(face);
-        self.textures.cleared(index, face.bit());
         Some(pass)
     }
 

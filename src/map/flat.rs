@@ -115,7 +115,6 @@ impl ShadowMap {
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
             unclipped_depth: descriptor.unclipped_depth && resources::can_pull_casters(device),
-            constants: &[],
         };
         Ok(Self {
             size,

@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn the_light_lies_in_memory_as_wgsl_has_it() {
-        let text = include_str!("../../shaders/flat_receiver.wgsl");
+        let text = include_str!("../../shaders/flat_light.wgsl");
         assert_layout!(
             text,
             "ShadowsFlatLight",

@@ -175,7 +175,7 @@ impl ShadowMap {
             let key = draw.key();
             self.pipelines
                 .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
         }
         self.write_face(&frame);
     }
@@ -209,14 +209,12 @@ impl ShadowMap {
 
     fn count(&self, casters: usize) -> ShadowMapStatistics {
         let drawn = self.wanted.casters();
-        let triangles =
-            |draw: &Draw| u64::from(draw.mesh.triangle_count()) * u64::from(draw.instance_count);
         ShadowMapStatistics {
             rendered: self.pending,
             casters_drawn: drawn,
             casters_outside: casters as u32 - drawn,
             draws: self.draws.len() as u32,
-            triangles: self.draws.iter().map(triangles).sum(),
+            triangles: self.draws.iter().map(Draw::triangles).sum(),
             bytes: u64::from(self.size).pow(2) * texture::texel_bytes(self.texture.format())
                 + self.instances.size()
                 + self.face.size()

@@ -66,11 +66,7 @@ mod tests {
 
     #[test]
     fn the_light_lies_in_memory_as_wgsl_has_it() {
-        let text = concat!(
-            include_str!("../../shaders/cube_receiver.wgsl"),
-            include_str!("../../shaders/cube_fetch.wgsl"),
-            include_str!("../../shaders/cube_major.wgsl")
-        );
+        let text = include_str!("../../shaders/cube_light.wgsl");
         assert_layout!(
             text,
             "ShadowsCubeLight",

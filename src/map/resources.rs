@@ -1,7 +1,5 @@
 //! The GPU objects of a cube map that stay, whatever its lights do.
 
-use std::num::NonZeroU32;
-
 use super::descriptor::DepthEncoding;
 use super::light::LightUniform;
 use crate::gl;
@@ -69,17 +67,6 @@ pub(super) fn faces(
         wgpu::BufferUsages::UNIFORM,
     );
     let size = wgpu::BufferSize::new(size_of::<FaceUniform>() as u64);
-    let (layout, group) = face_group(device, label, &faces, size);
-    (faces, layout, group)
-}
-
-/// A binding of some bytes of the faces' matrices, picked by dynamic offset.
-pub(super) fn face_group(
-    device: &wgpu::Device,
-    label: &str,
-    faces: &wgpu::Buffer,
-    size: Option<wgpu::BufferSize>,
-) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
         entries: &[wgpu::BindGroupLayoutEntry {
@@ -99,13 +86,13 @@ pub(super) fn face_group(
         entries: &[wgpu::BindGroupEntry {
             binding: 0,
             resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: faces,
+                buffer: &faces,
                 offset: 0,
                 size,
             }),
         }],
     });
-    (layout, group)
+    (faces, layout, group)
 }
 
 /// All that two draws must share to use the same pipeline.
@@ -128,8 +115,6 @@ pub(super) struct PipelineKind {
     pub unclipped_depth: bool,
     /// Whether fragments write the depth, in every encoding.
     pub depth_written: bool,
-    /// Constants of the vertex shader.
-    pub constants: &'static [(&'static str, f64)],
 }
 
 /// Whether casters before a near plane can be pulled onto it. There they still are before every
@@ -146,7 +131,7 @@ pub(super) fn writes_depth(device: &wgpu::Device) -> bool {
     gl::is_gl(device)
 }
 
-/// Draws casters on one face a pass.
+/// Draws casters on one face.
 pub(super) fn caster_shader(device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
     let source = match writes_depth(device) {
         false => crate::wgsl::CUBE_CASTER,
@@ -158,13 +143,11 @@ pub(super) fn caster_shader(device: &wgpu::Device, label: &str) -> wgpu::ShaderM
     })
 }
 
-/// `views`: the faces that are drawn at once, by a shader that knows which it is on.
 pub(super) fn pipeline(
     device: &wgpu::Device,
     label: &str,
     kind: &PipelineKind,
     key: PipelineKey,
-    views: Option<NonZeroU32>,
 ) -> wgpu::RenderPipeline {
     let (vertex, fragment) = match (kind.encoding, kind.depth_written) {
         (DepthEncoding::MajorAxis, false) => ("vertex", None),
@@ -181,10 +164,7 @@ pub(super) fn pipeline(
         vertex: wgpu::VertexState {
             module: &kind.shader,
             entry_point: Some(vertex),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: kind.constants,
-                ..Default::default()
-            },
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[
                 Some(wgpu::VertexBufferLayout {
                     array_stride: key.stride,
@@ -226,7 +206,7 @@ pub(super) fn pipeline(
             },
             targets: &[],
         }),
-        multiview_mask: views,
+        multiview_mask: None,
         cache: None,
     })
 }

@@ -1,7 +1,5 @@
 //! The textures of a cube map, made when the first light casts.
 
-use std::sync::OnceLock;
-
 use super::face::CubeFace;
 use crate::gl;
 
@@ -12,9 +10,6 @@ pub(super) struct SlotTexture {
     pub first_layer: u32,
     pub cube: wgpu::TextureView,
     pub faces: [wgpu::TextureView; 6],
-    /// Faces that have been cleared or drawn since the texture was made.
-    pub cleared: u8,
-    layers: OnceLock<wgpu::TextureView>,
 }
 
 /// A texture for all lights, or one for each, or none yet.
@@ -132,19 +127,9 @@ impl Textures {
         self.blank_is_clear = true;
     }
 
-    /// Learns that some faces of a slot were cleared or drawn.
-    pub fn cleared(&mut self, slot: usize, mask: u8) {
-        if let Some(slot) = self.slots.get_mut(slot).and_then(Option::as_mut) {
-            slot.cleared |= mask;
-        }
-    }
-
-    /// Nothing is known of any texel any more.
+    /// Nothing is known of the placeholder's texels any more.
     pub fn doubt(&mut self) {
         self.blank_is_clear = false;
-        for slot in self.slots.iter_mut().flatten() {
-            slot.cleared = 0;
-        }
     }
 
     /// All lights' cubes, or a placeholder; `None` if each has a texture of its own.
@@ -180,24 +165,9 @@ impl SlotTexture {
         Self {
             cube: cube_view(&texture, label, first_layer),
             faces: CubeFace::ALL.map(|face| face_view(&texture, label, first_layer, face)),
-            cleared: 0,
-            layers: OnceLock::new(),
             texture,
             first_layer,
         }
-    }
-
-    /// All six faces as layers, for a pass that draws several.
-    pub fn layers(&self) -> &wgpu::TextureView {
-        self.layers.get_or_init(|| {
-            self.texture.create_view(&wgpu::TextureViewDescriptor {
-                label: Some("shadows cube map faces"),
-                dimension: Some(wgpu::TextureViewDimension::D2Array),
-                base_array_layer: self.first_layer,
-                array_layer_count: Some(6),
-                ..Default::default()
-            })
-        })
     }
 }
 

@@ -24,7 +24,6 @@ impl CubeShadowMap {
                 }
             }
         }
-        count += self.joint.as_ref().map_or(0, |joint| joint.room(count));
         let limit = device.limits().max_buffer_size;
         let size = count as u64 * INSTANCE_SIZE;
         if size > limit {
@@ -70,9 +69,8 @@ impl CubeShadowMap {
             let key = draw.key();
             self.pipelines
                 .entry(key)
-                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key, None));
+                .or_insert_with(|| resources::pipeline(device, &self.label, &self.kind, key));
         }
-        self.make_joint_pipelines(device, plans);
         let bytes = bytemuck::cast_slice(&self.draws.instances);
         self.uploads.write(&self.instances, 0, bytes);
     }

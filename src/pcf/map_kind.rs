@@ -68,6 +68,7 @@ pub(super) struct Reads {
 /// The files that a kind of map brings along.
 pub(super) struct MapWgsl {
     reads: Reads,
+    pub light: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
     pub fetch: &'static str,
@@ -89,6 +90,7 @@ impl MapWgsl {
     fn flat(reads: Reads) -> Self {
         Self {
             reads,
+            light: include_str!("../../shaders/flat_light.wgsl"),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
             depth: match reads.border {
                 false => include_str!("../../shaders/flat_edge_test.wgsl"),
@@ -123,6 +125,7 @@ impl MapWgsl {
         };
         Self {
             reads,
+            light: include_str!("../../shaders/cube_light.wgsl"),
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
             depth: match reads.encoding {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),

@@ -61,8 +61,10 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     };
     let weights = weights.map(|weights| weights.wgsl());
     let entry = entry(kernel);
-    let text = [own.receiver, own.depth, own.fetch, DERIVATIVES, own.slope]
+    let shared = [own.light, own.receiver, own.depth, own.fetch];
+    let text = shared
         .into_iter()
+        .chain([DERIVATIVES, own.slope])
         .chain(map.iter().copied())
         .chain(weights.as_deref())
         .chain(last)
@@ -74,7 +76,7 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
 
 /// The textbook's receiver.
 pub(super) fn textbook(own: &MapWgsl) -> String {
-    own.adapt(&[own.receiver, own.fetch, TEXTBOOK].join("\n"))
+    own.adapt(&[own.light, own.receiver, own.fetch, TEXTBOOK].join("\n"))
 }
 
 /// The function that hosts call: what every kernel does before its first tap.
