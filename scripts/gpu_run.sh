@@ -292,7 +292,7 @@ if [ -z "$adapter" ]; then
     exit 1
 fi
 
-! asked hard || enqueue 0 compare-hard-cases 200 \
+! asked hard || enqueue 0.01 compare-hard-cases 200 \
     "$compare" --hard-cases --rounds 1 "${wanted[@]+"${wanted[@]}"}" --out "$work/reports/hard-cases"
 for path in "$root"/deps/*; do
     name=${path##*/}
