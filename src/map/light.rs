@@ -27,7 +27,7 @@ pub(crate) struct LightUniform {
     pub quantum: f32,
     pub cube: i32,
     pub rounding: f32,
-    padding: f32,
+    pub centre: f32,
 }
 
 impl LightUniform {
@@ -54,7 +54,7 @@ impl LightUniform {
                 Depths::NotYet => -2,
             },
             rounding: bias.rounding(),
-            padding: 0.0,
+            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
         }
     }
 }
@@ -79,7 +79,8 @@ mod tests {
             depth_scale,
             quantum,
             cube,
-            rounding
+            rounding,
+            centre
         );
     }
 }
