@@ -184,7 +184,8 @@ impl ShadowMap {
         let face = FaceUniform {
             clip_from_light: frame.clip_from_light().to_cols_array(),
             range: frame.range,
-            padding: [0.0; 3],
+            texel: 2.0 / self.size as f32,
+            padding: [0.0; 2],
         };
         if self.written_face.replace(face) != Some(face) {
             self.uploads.write(&self.face, 0, bytemuck::bytes_of(&face));

@@ -19,7 +19,9 @@ pub(super) const UNIFORM_STRIDE: u64 = 256;
 pub(super) struct FaceUniform {
     pub clip_from_light: [f32; 16],
     pub range: f32,
-    pub padding: [f32; 3],
+    /// Of the map's side, where that is 2 wide.
+    pub texel: f32,
+    pub padding: [f32; 2],
 }
 
 /// What the lights look like to receivers, one by one and all together.
@@ -149,10 +151,10 @@ pub(super) fn pipeline(
     kind: &PipelineKind,
     key: PipelineKey,
 ) -> wgpu::RenderPipeline {
-    let (vertex, fragment) = match (kind.encoding, kind.depth_written) {
-        (DepthEncoding::MajorAxis, false) => ("vertex", None),
-        (DepthEncoding::MajorAxis, true) => ("vertex", Some("fragment_depth")),
-        (DepthEncoding::LinearDistance, _) => ("vertex_distance", Some("fragment_distance")),
+    let fragment = match (kind.encoding, kind.depth_written) {
+        (DepthEncoding::MajorAxis, false) => None,
+        (DepthEncoding::MajorAxis, true) => Some("fragment_depth"),
+        (DepthEncoding::LinearDistance, _) => Some("fragment_distance"),
     };
     let written = [
         ("slope_scale", f64::from(kind.slope_scale)),
@@ -163,7 +165,7 @@ pub(super) fn pipeline(
         layout: Some(&kind.layout),
         vertex: wgpu::VertexState {
             module: &kind.shader,
-            entry_point: Some(vertex),
+            entry_point: Some("vertex"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[
                 Some(wgpu::VertexBufferLayout {

@@ -108,7 +108,8 @@ impl CubeShadowMap {
             let uniform = FaceUniform {
                 clip_from_light: face.clip_from_light(near).to_cols_array(),
                 range: light.range,
-                padding: [0.0; 3],
+                texel: 2.0 / self.size as f32,
+                padding: [0.0; 2],
             };
             let offset = (slot as u64 * 6 + u64::from(face.layer())) * UNIFORM_STRIDE;
             let bytes = bytemuck::bytes_of(&uniform);
