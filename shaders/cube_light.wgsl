@@ -17,4 +17,7 @@ struct ShadowsCubeLight {
     // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
     // positions".
     rounding: f32,
+    // Where texel centres are between whole numbers, counted in texels from the middle of a face: 0.5 if
+    // the size is even, else 0.
+    centre: f32,
 }

@@ -170,7 +170,7 @@ fn a_negated_comparison_is_found() {
         assert_eq!(negated(&with(condition)), [""; 0], "{condition}");
     }
     // As the receivers once had it.
-    let (was, is) = ("!(plane_distance < 0.0)", "plane_distance >= 0.0");
+    let (was, is) = ("!(left <= 0.0)", "(left > 0.0)");
     let old = receivers()
         .into_iter()
         .find(|wgsl| wgsl.contains(is))

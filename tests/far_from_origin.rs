@@ -403,7 +403,7 @@ fn where_derivatives_say_nothing_the_map_does() {
     let asked = errors_by_derivatives(&gpu, scene.clone(), |module| module);
     // The broken twin: normals from the derivatives in any case.
     let never = errors_by_derivatives(&gpu, scene, |module| {
-        let doubtful = "doubt >= 0.25 * facing";
+        let doubtful = "16.0 * doubt > facing * facing";
         assert!(module.contains(doubtful));
         module.replace(doubtful, "false")
     });

@@ -310,7 +310,7 @@ fn coarser_formats_show_no_acne_either() {
                 };
                 let map = AnyMap::Flat(&map);
                 broken += acne(ask_changed(&gpu, map, &descriptor, 0, &points, |module| {
-                    module.replace("+= light.quantum", "+= 0.0")
+                    module.replace("uv)) + light.quantum", "uv))")
                 }));
             }
         }

@@ -73,16 +73,17 @@ fn name(kernel: Kernel) -> &'static str {
 /// The loops of a kernel's code: a square's is for the edges of the map alone.
 fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
     let linear = way.encoding == DepthEncoding::LinearDistance;
-    let fetches = way.map == MapKind::Cube && way.gather == Gather::Never;
+    let fetches = way.gather == Gather::Never;
     match kernel {
+        // What stands in for a texel beyond the horizon of the plane.
+        Kernel::Hard if way.map == MapKind::Cube => vec![0],
         Kernel::Hard => Vec::new(),
         // Nearly everywhere the first taps agree.
         Kernel::RandomDisk(disk) => vec![disk.around * disk.rings / 2],
         Kernel::Vogel(disk) => vec![disk.taps / 2],
         Kernel::ContactHardening(contact) => vec![contact.search_taps, contact.taps / 2],
         // What is too long for the compiler to unroll, a row of gathers at a time.
-        Kernel::Weighted5 if linear || fetches => vec![3, 0],
-        Kernel::Weighted7 => vec![4, 0],
+        Kernel::Weighted7 if linear || fetches => vec![4, 0],
         _ => vec![0],
     }
 }

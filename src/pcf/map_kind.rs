@@ -1,6 +1,9 @@
 //! The kinds of shadow map that a sampler can read.
 
+use super::text::TEXEL;
 use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowMap};
+
+const CUBE_TAP: &str = include_str!("../../shaders/cube_tap.wgsl");
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -76,6 +79,8 @@ pub(super) struct MapWgsl {
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
+    /// All that [`Kernel::Hard`](super::Kernel::Hard) takes.
+    pub hard: [&'static str; 2],
     pub slope: &'static str,
 }
 
@@ -97,13 +102,14 @@ impl MapWgsl {
                 true => include_str!("../../shaders/flat_edge_border.wgsl"),
             },
             fetch: include_str!("../../shaders/flat_texel.wgsl"),
-            gather: "",
-            texel: "",
-            four: match reads.gather {
+            gather: match reads.gather {
                 true => include_str!("../../shaders/flat_four.wgsl"),
                 false => include_str!("../../shaders/flat_four_fetches.wgsl"),
             },
+            texel: "",
+            four: include_str!("../../shaders/flat_compare.wgsl"),
             tap: include_str!("../../shaders/flat_tap.wgsl"),
+            hard: [TEXEL, include_str!("../../shaders/flat_hard.wgsl")],
             slope: include_str!("../../shaders/flat_slope.wgsl"),
         }
     }
@@ -135,7 +141,8 @@ impl MapWgsl {
             gather,
             texel: include_str!("../../shaders/cube_texel.wgsl"),
             four: include_str!("../../shaders/cube_four.wgsl"),
-            tap: include_str!("../../shaders/cube_tap.wgsl"),
+            tap: CUBE_TAP,
+            hard: [CUBE_TAP, include_str!("../../shaders/cube_hard.wgsl")],
             slope: include_str!("../../shaders/cube_slope.wgsl"),
         }
     }

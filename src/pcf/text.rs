@@ -3,12 +3,11 @@
 use super::Kernel;
 use super::map_kind::MapWgsl;
 
-const HARD: &str = include_str!("../../shaders/pcf_hard.wgsl");
 const SQUARE: &str = include_str!("../../shaders/pcf_square.wgsl");
 const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
 const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
 const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
-const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
+pub(super) const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
 const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
 const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
 const DERIVATIVES: &str = include_str!("../../shaders/pcf_derivatives.wgsl");
@@ -48,7 +47,7 @@ impl Extra {
 /// The functions of a kernel, and no other's.
 pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     let (weights, last) = match kernel {
-        Kernel::Hard => (None, vec![HARD]),
+        Kernel::Hard => (None, own.hard.to_vec()),
         Kernel::RandomDisk(_) => (None, vec![DISK, RANDOM_DISK]),
         Kernel::Vogel(_) => (None, vec![DISK, NOISE, VOGEL]),
         Kernel::ContactHardening(_) => (None, vec![DISK, NOISE, CONTACT]),
@@ -56,7 +55,7 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     };
     let map: &[&str] = match (kernel.uses_pixel(), &weights) {
         (true, _) => &[own.tap],
-        (false, None) => &[own.texel, TEXEL],
+        (false, None) => &[],
         (false, Some(_)) => &[own.texel, TEXEL, own.gather, own.four],
     };
     let weights = weights.map(|weights| weights.wgsl());
@@ -76,7 +75,7 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
 
 /// The textbook's receiver.
 pub(super) fn textbook(own: &MapWgsl) -> String {
-    own.adapt(&[own.light, own.receiver, own.fetch, TEXTBOOK].join("\n"))
+    own.adapt(&[own.light, own.receiver, own.depth, own.fetch, TEXTBOOK].join("\n"))
 }
 
 /// The function that hosts call: what every kernel does before its first tap.
@@ -97,23 +96,22 @@ fn {function}(
     position: vec3f,
     normal: vec3f{pixel_parameter}
 ) -> f32 {{
-    let nearer = vec2f(1.0, 0.0);
-    return {function}_nearer(
-        map, map_sampler, light{arguments}, position, normal, nearer{pixel}
+    let derived = shadows_cube_given(light, position, normal);
+    return {function}_derived(
+        map, map_sampler, light{arguments}, position, derived{pixel}
     );
 }}
 
-fn {function}_nearer(
+fn {function}_derived(
     map: texture_cube<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,{parameters}
     position: vec3f,
-    normal: vec3f,
-    nearer: vec2f{pixel_parameter}
+    derived: ShadowsCubeDerived{pixel_parameter}
 ) -> f32 {{
-    let receiver = shadows_cube_receiver(light, position, normal, nearer);
-    if receiver.known >= 0.0 {{
-        return receiver.known;
+    let receiver = shadows_cube_receiver(light, position, derived);
+    if !receiver.asks {{
+        return select(0.0, 1.0, receiver.lit);
     }}
     return shadows_cube_filter(map, map_sampler, receiver, light.size{arguments}{pixel});
 }}
@@ -143,8 +141,8 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
         "    let derived = shadows_cube_derived(
         shadows_map, shadows_map_sampler, {light}, position, x, y, {reach}
     );
-    return {function}_nearer(
-        shadows_map, shadows_map_sampler, {light}{disk}, position, derived.normal, derived.nearer{pixel}
+    return {function}_derived(
+        shadows_map, shadows_map_sampler, {light}{disk}, position, derived{pixel}
     );
 "
     )

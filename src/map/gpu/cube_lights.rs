@@ -30,7 +30,7 @@ pub(crate) struct LightUniform {
     pub quantum: f32,
     pub cube: i32,
     pub rounding: f32,
-    padding: f32,
+    pub centre: f32,
 }
 
 impl LightUniform {
@@ -57,7 +57,7 @@ impl LightUniform {
                 Depths::NotYet => -2,
             },
             rounding: bias.rounding(),
-            padding: 0.0,
+            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
         }
     }
 }
@@ -182,7 +182,8 @@ mod tests {
             depth_scale,
             quantum,
             cube,
-            rounding
+            rounding,
+            centre
         );
     }
 }
