@@ -135,18 +135,21 @@ impl Way {
     }
 
     /// The kernels whose text is not that of another way.
-    pub fn kernels(&self) -> &'static [Kernel] {
-        match self.gather {
+    pub fn kernels(&self) -> impl Iterator<Item = Kernel> {
+        let all: &[Kernel] = match self.gather {
             Gather::Never => &SQUARES,
             _ => &Kernel::ALL,
-        }
+        };
+        let encoding = self.encoding;
+        let read = move |kernel: &Kernel| kernel.reads(encoding);
+        all.iter().copied().filter(read)
     }
 }
 
 /// What a sampler can be made for, on a device without any feature.
 pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
     let ways = WAYS.iter().filter(|way| !way.border);
-    ways.flat_map(|way| way.kernels().iter().map(|&kernel| way.descriptor(kernel)))
+    ways.flat_map(|way| way.kernels().map(|kernel| way.descriptor(kernel)))
         .collect()
 }
 
@@ -154,7 +157,7 @@ pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
 pub fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     let of = |way: &Way| {
         let (device, queue) = way.device();
-        let descriptors = way.kernels().iter().map(|&kernel| way.descriptor(kernel));
+        let descriptors = way.kernels().map(|kernel| way.descriptor(kernel));
         descriptors
             .map(|descriptor| {
                 let sampler = made(&device, &queue, &descriptor);
@@ -204,6 +207,31 @@ fn host(@builtin(position) pixel: vec4f, @location(0) position: vec3f) -> @locat
 /// The same where the module is pasted.
 pub fn host(descriptor: &PcfDescriptor<'_>) -> String {
     host_of(descriptor, "")
+}
+
+/// Another that knows its normal, and asks in a branch.
+pub fn given_host(descriptor: &PcfDescriptor<'_>) -> String {
+    let pixel = match descriptor.kernel.uses_pixel() && !descriptor.textbook {
+        true => ", pixel.xy",
+        false => "",
+    };
+    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let name = visibility_name(descriptor.map);
+    format!(
+        "
+@fragment
+fn given_host(
+    @builtin(position) pixel: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+) -> @location(0) vec4f {{
+    if normal.z < 0.0 {{
+        return vec4f(0.0);
+    }}
+    return vec4f({name}_flat({light}position, normal{pixel}));
+}}
+"
+    )
 }
 
 pub fn visibility_name(map: MapKind) -> &'static str {

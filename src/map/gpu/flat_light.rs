@@ -25,7 +25,9 @@ pub(crate) struct FlatLightUniform {
     /// Negative where nothing casts.
     pub quantum: f32,
     pub rounding: f32,
-    padding: [f32; 3],
+    pub texel: f32,
+    pub depth_per: f32,
+    padding: f32,
 }
 
 impl FlatLightUniform {
@@ -44,7 +46,9 @@ impl FlatLightUniform {
         perspective: 1.0,
         quantum: 0.0,
         rounding: 0.0,
-        padding: [0.0; 3],
+        texel: 0.0,
+        depth_per: 0.0,
+        padding: 0.0,
     };
 
     /// `frame` is `None` where nothing casts.
@@ -79,7 +83,12 @@ impl FlatLightUniform {
             perspective: f32::from(u8::from(frame.perspective)),
             quantum: quantum(format).unwrap_or(0.0),
             rounding: bias.rounding(),
-            padding: [0.0; 3],
+            texel,
+            depth_per: match frame.perspective {
+                true => frame.near * (1.0 + bias.constant * texel),
+                false => 1.0 / frame.range,
+            },
+            padding: 0.0,
         }
     }
 }
@@ -145,7 +154,9 @@ mod tests {
             depth_bias,
             perspective,
             quantum,
-            rounding
+            rounding,
+            texel,
+            depth_per
         );
     }
 }
