@@ -1,81 +1,40 @@
 //! One light's place in a map: which casters its faces hold, and which they were drawn with.
 
-use super::face::{CubeFace, LightBounds};
-use super::masks::FaceMasks;
-use super::scene::{Record, Scene};
-use super::still::{Still, Way};
+use super::content::{Content, Signature, Texels};
+use super::face_masks::FaceMasks;
+use super::static_layer::{DrawMode, StaticLayer};
 use crate::PointLight;
-
-/// A mask of all six faces.
-pub(super) const ALL_FACES: u8 = 0b11_1111;
-
-/// The casters on a face, as a sum that their order does not change.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Content {
-    digest: u128,
-    pub casters: u32,
-    pub triangles: u64,
-}
-
-impl Content {
-    fn add(&mut self, record: &Record) {
-        self.digest = self.digest.wrapping_add(record.digest);
-        self.casters += 1;
-        self.triangles += u64::from(record.triangles);
-    }
-
-    fn remove(&mut self, record: &Record) {
-        self.digest = self.digest.wrapping_sub(record.digest);
-        self.casters -= 1;
-        self.triangles -= u64::from(record.triangles);
-    }
-
-    /// Casters of 100 triangles each, told apart by frames.
-    #[cfg(test)]
-    pub fn of_frames<'a>(frames: impl Iterator<Item = &'a u64>) -> Self {
-        frames.fold(Self::default(), |sum, &frame| Self {
-            digest: sum.digest + (1 << (frame % 128)),
-            casters: sum.casters + 1,
-            triangles: sum.triangles + 100,
-        })
-    }
-}
-
-/// All that a face's texels depend on. A face without casters is the same for every light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Signature {
-    light: Option<PointLight>,
-    content: Content,
-}
+use crate::map::projection::{ALL_FACES, CubeFace, touched_faces};
+use crate::scene::{Casters, Change, Record};
 
 /// One face of one light.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Face {
+#[derive(Clone, Debug)]
+pub(crate) struct Face {
     pub content: Content,
-    /// What its texels show; `None` if nobody knows.
-    pub rendered: Option<Signature>,
-    /// What they will show once the pending pass is encoded.
-    scheduled: Option<Signature>,
+    texels: Texels<PointLight>,
     /// Frames for which it has waited to be drawn.
     pub age: u32,
     /// How much has changed since it was drawn: the sum of (radius / distance)^2 of the casters
     /// that did.
     pub change: f64,
-    /// Its layer of casters that stand still.
-    pub still: Still,
+    /// Its layer of static casters.
+    pub layer: StaticLayer,
 }
 
-/// Bounds of a caster relative to a light.
-pub(super) fn bounds(light: &PointLight, record: &Record) -> LightBounds {
-    LightBounds {
-        centre: record.centre - light.position.as_dvec3(),
-        half: record.half,
-        radius: record.radius,
+impl Default for Face {
+    fn default() -> Self {
+        Self {
+            content: Content::default(),
+            texels: Texels::UNKNOWN,
+            age: 0,
+            change: 0.0,
+            layer: StaticLayer::default(),
+        }
     }
 }
 
 #[derive(Debug, Default)]
-pub(super) struct Slot {
+pub(crate) struct Slot {
     /// The light of this frame, for which the masks and contents below are.
     pub light: Option<PointLight>,
     /// The light that receivers are given: the one its faces were last drawn for together.
@@ -109,8 +68,8 @@ impl Slot {
         self.pending &= !mask;
         for (bit, face) in self.faces.iter_mut().enumerate() {
             if mask & 1 << bit != 0 {
-                face.rendered = face.scheduled;
-                face.still.encoded();
+                face.texels.encoded();
+                face.layer.encoded();
             }
         }
     }
@@ -118,13 +77,21 @@ impl Slot {
     /// Learns that somebody else draws on a face.
     pub fn touched(&mut self, face: CubeFace) {
         self.pending &= !face.bit();
-        self.faces[face.layer() as usize].rendered = None;
+        self.faces[face.layer() as usize].texels.forget();
     }
 
     /// Nothing is known of the texels any more: they are new.
     pub fn forget_texels(&mut self) {
-        self.faces.iter_mut().for_each(|face| face.rendered = None);
+        self.faces.iter_mut().for_each(|face| face.texels.forget());
         self.shown = None;
+    }
+
+    /// The texels are gone, and the layers under them.
+    pub fn texels_freed(&mut self) {
+        self.forget_texels();
+        self.faces
+            .iter_mut()
+            .for_each(|face| face.layer = StaticLayer::default());
     }
 
     /// Nothing is known of the texels any more, nor of the layers under them, and nothing is to be
@@ -132,17 +99,17 @@ impl Slot {
     pub fn doubt_texels(&mut self) {
         self.pending = 0;
         for face in &mut self.faces {
-            face.rendered = None;
-            face.still = Still::default();
+            face.texels.forget();
+            face.layer = StaticLayer::default();
         }
     }
 
     /// Takes another light (or none) and sorts all casters anew, of which `reached` are those that
     /// it may reach.
-    pub fn set_light(&mut self, light: Option<PointLight>, scene: &Scene, reached: &[u32]) {
+    pub fn set_light(&mut self, light: Option<PointLight>, casters: &[Record], reached: &[u32]) {
         self.light = light;
         self.casting = 0;
-        self.masks.reset(scene.records().len());
+        self.masks.reset(casters.len());
         for face in &mut self.faces {
             face.content = Content::default();
             face.change = 1.0;
@@ -152,43 +119,42 @@ impl Slot {
             return;
         };
         for &index in reached {
-            let record = &scene.records()[index as usize];
+            let record = &casters[index as usize];
             let mask = self.touched_by(&light, record);
             self.masks.set(index as usize, mask);
             self.enter(mask, &light, record);
         }
     }
 
-    pub fn push(&mut self, record: &Record) {
+    /// Learns what became of one caster.
+    pub fn apply(&mut self, change: &Change<'_>) {
         let Some(light) = self.light else { return };
-        let mask = self.touched_by(&light, record);
-        self.masks.push(mask);
-        self.enter(mask, &light, record);
-    }
-
-    pub fn replace(&mut self, index: usize, old: &Record, new: &Record) {
-        let Some(light) = self.light else { return };
-        self.leave(self.masks.get(index), &light, old);
-        let mask = self.touched_by(&light, new);
-        self.masks.set(index, mask);
-        self.enter(mask, &light, new);
-    }
-
-    pub fn remove_last(&mut self, old: &Record) {
-        let (Some(light), Some(mask)) = (self.light, self.masks.pop()) else {
-            return;
-        };
-        self.leave(mask, &light, old);
+        if let Some(old) = change.old {
+            let mask = match change.new {
+                Some(_) => self.masks.get(change.index),
+                None => self.masks.pop().unwrap_or(0), // the last
+            };
+            self.leave(mask, &light, old);
+        }
+        if let Some(new) = change.new {
+            let mask = self.touched_by(&light, new);
+            match change.old {
+                Some(_) => self.masks.set(change.index, mask),
+                None => self.masks.push(mask),
+            }
+            self.enter(mask, &light, new);
+        }
     }
 
     fn touched_by(&self, light: &PointLight, record: &Record) -> u8 {
-        if record.triangles == 0 {
+        if !record.casts() {
             return 0;
         }
         if !self.cull {
             return ALL_FACES;
         }
-        bounds(light, record).faces(f64::from(light.range))
+        let bounds = record.bounds.relative_to(light.position);
+        touched_faces(&bounds, f64::from(light.range))
     }
 
     fn enter(&mut self, mask: u8, light: &PointLight, record: &Record) {
@@ -211,8 +177,9 @@ impl Slot {
         if mask == 0 {
             return;
         }
-        let squared = record.centre.distance_squared(light.position.as_dvec3());
-        let seen = (record.radius * record.radius / squared).min(1.0);
+        let bounds = &record.bounds;
+        let squared = bounds.centre.distance_squared(light.position.as_dvec3());
+        let seen = (bounds.radius * bounds.radius / squared).min(1.0);
         for (bit, face) in self.faces.iter_mut().enumerate() {
             if mask & 1 << bit != 0 {
                 change(&mut face.content, record);
@@ -221,30 +188,22 @@ impl Slot {
         }
     }
 
-    fn wanted(&self, face: &Face) -> Signature {
-        let empty = face.content.casters == 0;
-        Signature {
-            light: self.light.filter(|_| !empty),
-            content: face.content,
-        }
+    fn wanted(&self, face: &Face) -> Signature<PointLight> {
+        Signature::new(self.light, face.content)
     }
 
     /// The faces whose texels are not what they should be.
     pub fn stale(&self) -> u8 {
-        self.mask_of(|face| face.rendered != Some(self.wanted(face)))
+        self.mask_of(|face| !face.texels.show(&self.wanted(face)))
     }
 
-    /// The faces whose texels belong with no light that receivers are given: drawn for another
-    /// one, or unknown.
-    pub fn strange(&self) -> u8 {
-        self.mask_of(|face| match face.rendered {
-            None => true,
-            Some(signature) => signature.light.is_some() && signature.light != self.shown,
-        })
+    /// The faces whose texels belong with no light that receivers are given.
+    pub fn foreign(&self) -> u8 {
+        self.mask_of(|face| face.texels.are_foreign(self.shown))
     }
 
     pub fn empty(&self) -> u8 {
-        self.mask_of(|face| face.content.casters == 0)
+        self.mask_of(|face| face.content.is_empty())
     }
 
     fn mask_of(&self, is: impl Fn(&Face) -> bool) -> u8 {
@@ -260,7 +219,7 @@ impl Slot {
             if mask & 1 << bit != 0 {
                 let wanted = self.wanted(&self.faces[bit]);
                 let face = &mut self.faces[bit];
-                face.scheduled = Some(wanted);
+                face.texels.schedule(wanted);
                 face.age = 0;
                 face.change = 0.0;
             }
@@ -268,21 +227,16 @@ impl Slot {
         self.pending = mask;
     }
 
-    /// Decides how the faces of a mask are drawn: on layers of at least so many triangles that stand
-    /// still, or all at once.
-    pub fn choose_ways(&mut self, mask: u8, least: u64, scene: &Scene) {
+    /// Decides how the faces of a mask are drawn: on layers of at least so many triangles of static
+    /// casters, or all at once.
+    pub fn choose_modes(&mut self, mask: u8, least: u64, casters: &Casters) {
         let Some(light) = self.light else { return };
         for (bit, face) in self.faces.iter_mut().enumerate() {
             if mask & 1 << bit != 0 {
                 let masks = &self.masks;
-                face.still.choose(&light, scene.frame(), least, |frame| {
-                    let mut content = Content::default();
-                    masks
-                        .touching(1 << bit)
-                        .map(|at| &scene.records()[at])
-                        .filter(|record| record.since <= frame)
-                        .for_each(|record| content.add(record));
-                    content
+                face.layer.choose(&light, casters.frame(), least, |frame| {
+                    let on_face = masks.touching(1 << bit).map(|at| &casters.records()[at]);
+                    Content::of(on_face.filter(|record| record.since <= frame))
                 });
             }
         }
@@ -291,10 +245,10 @@ impl Slot {
     /// Which lists of draws a caster on the faces `on` goes to, as bits: 0 to 5 the faces, 6 to 11
     /// the layers under them.
     pub fn lists(&self, on: u8, record: &Record) -> u16 {
-        let list = |bit: usize| match self.faces[bit].still.way() {
-            Way::Build(until) if record.since <= until => 64 << bit,
-            Way::Copy(until) if record.since <= until => 0,
-            Way::Whole | Way::Copy(_) | Way::Build(_) => 1 << bit,
+        let list = |bit: usize| match self.faces[bit].layer.mode() {
+            DrawMode::Build(until) if record.since <= until => 64 << bit,
+            DrawMode::Copy(until) if record.since <= until => 0,
+            DrawMode::Whole | DrawMode::Copy(_) | DrawMode::Build(_) => 1 << bit,
         };
         (0..6)
             .filter(|bit| on & 1 << bit != 0)

@@ -1,126 +1,66 @@
 //! Whether a host's view can show any receiver that looks a face up.
 
-use glam::{DMat4, DVec3, DVec4, Vec4Swizzles};
+use glam::{DVec3, DVec4};
 
-use super::face::CubeFace;
-use super::slot::ALL_FACES;
-use crate::{DepthConvention, PointLight, Radius, View};
+use crate::map::projection::{ALL_FACES, CubeFace};
+use crate::scene::{Frustum, Region};
+use crate::{PointLight, Radius};
 
 /// How much longer than their radius kernels are along the surface at most
 /// ([`ContactHardening`](crate::ContactHardening)).
 const STRETCH: f64 = 4.0;
 
-/// Half-spaces and corners of a view's frustum, the corners homogeneous: those of an infinite far
-/// plane are directions.
-pub(super) struct Frustum {
-    planes: Vec<DVec4>,
-    corners: Vec<DVec4>,
-    eye: Option<DVec3>,
-}
-
-impl Frustum {
-    pub fn new(view: &View) -> Self {
-        let matrix = view.clip_from_world().as_dmat4();
-        let (x, y, z, w) = (matrix.row(0), matrix.row(1), matrix.row(2), matrix.row(3));
-        let mut planes = vec![w - x, w + x, w - y, w + y];
-        // The near plane; what lies beyond the far one is no receiver either.
-        match view.depth() {
-            DepthConvention::InfiniteReverse => planes.push(w - z),
-            DepthConvention::FiniteReverse | DepthConvention::Standard => {
-                planes.extend([w - z, z]);
-            }
-        }
-        let eye = view.eye();
-        Self {
-            planes,
-            corners: corners(matrix),
-            eye: (eye.w != 0.0).then(|| eye.xyz() / eye.w),
-        }
-    }
-
-    /// How much a light's shadows can matter on screen: 1 where the eye is within its range, then
-    /// falling with the square of the distance, as the size of its range on screen does.
-    pub fn weight(&self, light: &PointLight) -> f64 {
-        let range = f64::from(light.range);
-        let distance = self
-            .eye
-            .map_or(range, |eye| eye.distance(light.position.as_dvec3()));
-        (range / distance.max(range)).powi(2)
-    }
-
-    /// A mask of the faces that kernels may read for something that the view shows, never too few.
-    pub fn faces(&self, light: &PointLight, reach: Radius, size: u32) -> u8 {
-        let (texels, world) = reach.reach();
-        let margin = STRETCH * f64::from(world);
-        let Some(wide) = widened(f64::from(texels), f64::from(size)) else {
-            return if self.misses(&Region::range(light)) {
-                0
-            } else {
-                ALL_FACES
-            };
+/// A mask of the faces that kernels may read for something that the view shows, never too few.
+pub(crate) fn visible_faces(frustum: &Frustum, light: &PointLight, reach: Radius, size: u32) -> u8 {
+    let (texels, world) = reach.reach();
+    let margin = STRETCH * f64::from(world);
+    let Some(wide) = widened(f64::from(texels), f64::from(size)) else {
+        return if frustum.misses(&around_range(light)) {
+            0
+        } else {
+            ALL_FACES
         };
-        CubeFace::ALL
-            .into_iter()
-            .filter(|face| !self.misses(&Region::face(light, *face, wide, margin)))
-            .fold(0, |mask, face| mask | face.bit())
-    }
+    };
+    CubeFace::ALL
+        .into_iter()
+        .filter(|face| !frustum.misses(&around_face(light, *face, wide, margin)))
+        .fold(0, |mask, face| mask | face.bit())
+}
 
-    /// Whether the view surely shows nothing of a region.
-    fn misses(&self, region: &Region) -> bool {
-        let apart = |planes: &[DVec4], points: &[DVec4], margin: f64| {
-            planes.iter().any(|plane| {
-                let behind = -margin * plane.xyz().length();
-                points.iter().all(|point| plane.dot(*point) < behind)
-            })
-        };
-        apart(&self.planes, &region.points, region.margin)
-            || apart(&region.sides, &self.corners, 0.0)
+/// Whatever a light may reach.
+fn around_range(light: &PointLight) -> Region {
+    let (centre, range) = (light.position.as_dvec3(), f64::from(light.range));
+    let sign = |i: i32, bit: i32| if i & bit == 0 { -range } else { range };
+    let corner = |i| centre + DVec3::new(sign(i, 1), sign(i, 2), sign(i, 4));
+    Region {
+        points: (0..8).map(|i| corner(i).extend(1.0)).collect(),
+        margin: 0.0,
+        sides: CubeFace::ALL
+            .map(|face| below(centre, face.axes()[2].as_dvec3(), range))
+            .into(),
     }
 }
 
-/// Where receivers may be: around the hull of some points, and before some planes.
-struct Region {
-    points: Vec<DVec4>,
-    margin: f64,
-    sides: Vec<DVec4>,
-}
-
-impl Region {
-    /// Whatever a light may reach.
-    fn range(light: &PointLight) -> Self {
-        let (centre, range) = (light.position.as_dvec3(), f64::from(light.range));
-        let sign = |i: i32, bit: i32| if i & bit == 0 { -range } else { range };
-        let corner = |i| centre + DVec3::new(sign(i, 1), sign(i, 2), sign(i, 4));
-        Self {
-            points: (0..8).map(|i| corner(i).extend(1.0)).collect(),
-            margin: 0.0,
-            sides: CubeFace::ALL
-                .map(|face| below(centre, face.axes()[2].as_dvec3(), range))
-                .into(),
-        }
+/// In range, and in a face's pyramid, made `wide` times as wide, or within `margin` of it.
+fn around_face(light: &PointLight, face: CubeFace, wide: f64, margin: f64) -> Region {
+    let (apex, range) = (light.position.as_dvec3(), f64::from(light.range));
+    let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
+    // What is in range is so along the major axis, too; what it is near to may lie beyond.
+    let far = range + margin;
+    let mut points = vec![apex.extend(1.0)];
+    for (s, t) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+        let corner = apex + far * (forward + wide * (s * right + t * up));
+        points.push(corner.extend(1.0));
     }
-
-    /// In range, and in a face's pyramid, made `wide` times as wide, or within `margin` of it.
-    fn face(light: &PointLight, face: CubeFace, wide: f64, margin: f64) -> Self {
-        let (apex, range) = (light.position.as_dvec3(), f64::from(light.range));
-        let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
-        // What is in range is so along the major axis, too; what it is near to may lie beyond.
-        let far = range + margin;
-        let mut points = vec![apex.extend(1.0)];
-        for (s, t) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
-            let corner = apex + far * (forward + wide * (s * right + t * up));
-            points.push(corner.extend(1.0));
-        }
-        let mut sides = vec![below(apex, forward, range)];
-        for side in [right, -right, up, -up] {
-            let inward = (wide * forward + side).normalize();
-            sides.push(inward.extend(margin - inward.dot(apex)));
-        }
-        Self {
-            points,
-            margin,
-            sides,
-        }
+    let mut sides = vec![below(apex, forward, range)];
+    for side in [right, -right, up, -up] {
+        let inward = (wide * forward + side).normalize();
+        sides.push(inward.extend(margin - inward.dot(apex)));
+    }
+    Region {
+        points,
+        margin,
+        sides,
     }
 }
 
@@ -142,24 +82,13 @@ fn widened(texels: f64, size: f64) -> Option<f64> {
     (STRETCH * radius < 1.0 && along < 1.0).then(|| 1.0 / (1.0 - along))
 }
 
-fn corners(clip_from_world: DMat4) -> Vec<DVec4> {
-    let world_from_clip = clip_from_world.inverse();
-    (0..8)
-        .map(|i| {
-            let sign = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
-            let depth = f64::from(i & 4) / 4.0;
-            // In front of the eye clip w is above 0, and so is the w of the point.
-            world_from_clip * DVec4::new(sign(1), sign(2), depth, 1.0)
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
     use glam::camera::rh::{proj::directx as proj, view};
 
     use super::*;
+    use crate::{DepthConvention, View};
 
     fn random(state: &mut u32) -> f64 {
         *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -247,7 +176,7 @@ mod tests {
             };
             let matrix = projection * camera;
             let frustum = Frustum::new(&View::new(matrix, depth).unwrap());
-            let mask = frustum.faces(&light, reach, size);
+            let mask = visible_faces(&frustum, &light, reach, size);
             hidden += 6 - mask.count_ones();
             for _ in 0..200 {
                 let offset =

@@ -1,115 +1,18 @@
-//! Where a flat map lies in the world: frames of spots, and frames fitted for directional lights.
+//! Maps of directional lights, fitted to what casts, receives and is seen.
 
-use glam::{DVec2, DVec3, Mat4, Vec3};
+use glam::{DVec2, DVec3};
 
-use super::scene::Record;
+use super::flat::{FlatFrame, axes};
 use crate::mesh::Bounds;
-use crate::{DirectionalLight, Radius, SpotLight, View};
-
-/// The frame of a map: origin and axes in world space, rounded to what shaders get.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct FlatFrame {
-    pub origin: Vec3,
-    pub right: Vec3,
-    pub up: Vec3,
-    pub forward: Vec3,
-    /// 1 / tan of the half angle, or 1 / half the width.
-    pub scale: f32,
-    pub near: f32,
-    pub range: f32,
-    pub perspective: bool,
-}
-
-/// Right, up and forward, with `right x up = forward` as on the faces of a cube map.
-fn axes(forward: DVec3) -> [Vec3; 3] {
-    let forward = forward.normalize();
-    let helper = if forward.y.abs() > 0.9 {
-        DVec3::Z
-    } else {
-        DVec3::Y
-    };
-    let right = helper.cross(forward).normalize();
-    [right, forward.cross(right), forward].map(|axis| axis.as_vec3())
-}
-
-impl FlatFrame {
-    pub fn of_spot(light: &SpotLight, near: f32) -> Self {
-        let [right, up, forward] = axes(light.direction.as_dvec3());
-        Self {
-            origin: light.position,
-            right,
-            up,
-            forward,
-            scale: 1.0 / light.half_angle.tan(),
-            near,
-            range: light.range,
-            perspective: true,
-        }
-    }
-
-    /// Clip space from positions relative to the origin: reverse-Z, for a spot infinite.
-    pub fn clip_from_light(&self) -> Mat4 {
-        let across = |axis: Vec3| (axis * self.scale).extend(0.0);
-        let (depth, w) = match self.perspective {
-            true => (
-                glam::Vec4::new(0.0, 0.0, 0.0, self.near),
-                self.forward.extend(0.0),
-            ),
-            false => ((-self.forward / self.range).extend(1.0), glam::Vec4::W),
-        };
-        Mat4::from_cols(across(self.right), across(self.up), depth, w).transpose()
-    }
-
-    /// Clip space from world space.
-    pub fn clip_from_world(&self) -> Mat4 {
-        self.clip_from_light() * Mat4::from_translation(-self.origin)
-    }
-
-    /// Whether all of it is within `f32`: not if the light or a caster is too far away, or the map
-    /// too wide or too narrow.
-    pub fn fits_f32(&self) -> bool {
-        self.clip_from_world().is_finite() && self.range.is_finite() && self.scale.is_normal()
-    }
-
-    /// Whether the light is outside a caster's bounds and the near plane does not cut them.
-    pub fn is_clear_of(&self, record: &Record) -> bool {
-        let centre = record.centre - self.origin.as_dvec3();
-        let forward = self.forward.as_dvec3();
-        let room = forward.abs().dot(record.half).min(record.radius);
-        !self.perspective || forward.dot(centre) - room > f64::from(self.near)
-    }
-
-    /// Whether a caster is drawn on the map.
-    pub fn holds(&self, record: &Record) -> bool {
-        record.triangles > 0 && self.touches(record)
-    }
-
-    /// Whether a caster may show on the map.
-    fn touches(&self, record: &Record) -> bool {
-        let centre = record.centre - self.origin.as_dvec3();
-        let [right, up, forward] = [self.right, self.up, self.forward].map(|axis| axis.as_dvec3());
-        let scale = f64::from(self.scale);
-        let reaches = |normal: DVec3, offset: f64| {
-            let room = (normal.abs().dot(record.half)).min(record.radius * normal.length());
-            normal.dot(centre) + offset + room >= 0.0
-        };
-        let inside = [right, -right, up, -up]
-            .into_iter()
-            .all(|side| match self.perspective {
-                true => reaches(forward + scale * side, 0.0),
-                false => reaches(scale * side, 1.0),
-            });
-        let range = f64::from(self.range);
-        inside && (!self.perspective || centre.length() - record.radius <= range)
-    }
-}
+use crate::scene::Record;
+use crate::{DirectionalLight, Radius, View};
 
 /// No tap takes a receiver's plane for nearer to a directional light than the receiver by more widths
 /// of the map: `bound` in flat_receiver.wgsl.
 const BOUND_WIDTHS: f64 = 16.0;
 
 /// What a directional light's map is fitted to.
-pub(super) struct Fit<'a> {
+pub(crate) struct Fit<'a> {
     pub light: &'a DirectionalLight,
     pub view: Option<(&'a View, f32)>,
     pub receivers: Option<Bounds>,
@@ -124,7 +27,7 @@ pub(super) struct Fit<'a> {
 
 /// A box in the light's axes: right, up, forward.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LightBox {
+pub(crate) struct LightBox {
     min: DVec3,
     max: DVec3,
 }
@@ -134,11 +37,11 @@ impl LightBox {
     pub fn of_casters(light: &DirectionalLight, records: &[Record]) -> Option<Self> {
         let basis = axes(-light.toward_light.as_dvec3()).map(|axis| axis.as_dvec3());
         let local = |point: DVec3| DVec3::from_array(basis.map(|axis| axis.dot(point)));
-        let casting = records.iter().filter(|record| record.triangles > 0);
+        let casting = records.iter().filter(|record| record.casts());
         Self::of(casting.flat_map(|record| {
-            let half = DVec3::from_array(basis.map(|axis| axis.abs().dot(record.half)))
-                .min(DVec3::splat(record.radius));
-            [local(record.centre) - half, local(record.centre) + half]
+            let half = record.bounds.half_along(basis);
+            let centre = local(record.bounds.centre);
+            [centre - half, centre + half]
         }))
     }
 
@@ -161,7 +64,7 @@ impl LightBox {
 /// is no more than a step too wide; the grid of texels is fixed in the world (Valient, "Stable
 /// Rendering of Cascaded Shadow Maps", ShaderX6, 2008). So shadows do not shimmer when the camera
 /// moves or turns.
-pub(super) fn fit(fit: &Fit<'_>) -> Option<(FlatFrame, f64)> {
+pub(crate) fn fit_directional(fit: &Fit<'_>) -> Option<(FlatFrame, f64)> {
     let rounded = axes(-fit.light.toward_light.as_dvec3());
     let basis = rounded.map(|axis| axis.as_dvec3());
     let local = |point: DVec3| DVec3::from_array(basis.map(|axis| axis.dot(point)));

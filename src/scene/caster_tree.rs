@@ -21,7 +21,7 @@ const MOVE: usize = 30;
 /// costs, let go when that is used up, and built anew when casters have moved and it has wasted as
 /// much (ski rental: Karlin et al., "Competitive Snoopy Caching", 1988).
 #[derive(Default)]
-pub(super) struct Reach {
+pub(crate) struct CasterSpheres {
     spheres: Vec<DVec4>,
     tree: Option<Tree>,
     /// Looks that a tree saves, or would, less what it costs; 0 to [`BUILD`] for each caster.
@@ -30,7 +30,7 @@ pub(super) struct Reach {
     wasted: usize,
 }
 
-impl Reach {
+impl CasterSpheres {
     pub fn push(&mut self, sphere: DVec4) {
         self.spheres.push(sphere);
         self.follow(|tree| tree.push(sphere));
@@ -294,17 +294,17 @@ mod tests {
             .prop_map(move |(at, radius): ([f64; 3], f64)| DVec3::from(at).extend(radius) * scale)
     }
 
-    fn found(reach: &mut Reach, centre: DVec3, range: f64) -> Vec<u32> {
+    fn found(casters: &mut CasterSpheres, centre: DVec3, range: f64) -> Vec<u32> {
         let mut found = Vec::new();
-        reach.within(centre, range, &mut found);
+        casters.within(centre, range, &mut found);
         found.sort_unstable();
         found
     }
 
-    fn of(spheres: &[DVec4]) -> Reach {
-        let mut reach = Reach::default();
-        spheres.iter().for_each(|sphere| reach.push(*sphere));
-        reach
+    fn of(spheres: &[DVec4]) -> CasterSpheres {
+        let mut casters = CasterSpheres::default();
+        spheres.iter().for_each(|sphere| casters.push(*sphere));
+        casters
     }
 
     #[derive(Clone, Debug)]
@@ -336,12 +336,12 @@ mod tests {
             tree.credit = usize::MAX / 2; // keep it, whatever it costs
             for step in steps {
                 let count = plain.spheres.len();
-                for reach in [&mut plain, &mut tree] {
+                for casters in [&mut plain, &mut tree] {
                     match step {
-                        Step::Set(at, sphere) if at < count => reach.set(at, sphere),
+                        Step::Set(at, sphere) if at < count => casters.set(at, sphere),
                         Step::Set(..) => {}
-                        Step::Push(sphere) => reach.push(sphere),
-                        Step::Truncate(by) => reach.truncate(count.saturating_sub(by).max(1)),
+                        Step::Push(sphere) => casters.push(sphere),
+                        Step::Truncate(by) => casters.truncate(count.saturating_sub(by).max(1)),
                     }
                 }
             }
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    /// Casters a unit apart, which lights reach two dozen of.
+    /// Casters a unit apart, which lights casters two dozen of.
     fn field(count: usize) -> Vec<DVec4> {
         let side = (count as f64).sqrt().ceil();
         let place = |i: usize| DVec3::new(i as f64 % side, 0.0, (i as f64 / side).floor());
@@ -362,11 +362,11 @@ mod tests {
 
     #[test]
     fn a_tree_whose_boxes_are_not_stretched_loses_casters() {
-        let mut reach = of(&field(1000));
-        reach.build();
+        let mut casters = of(&field(1000));
+        casters.build();
         let far = DVec3::new(500.0, 0.0, 0.0);
-        reach.set(17, far.extend(0.3));
-        assert_eq!(found(&mut reach, far, 1.0), [17]);
+        casters.set(17, far.extend(0.3));
+        assert_eq!(found(&mut casters, far, 1.0), [17]);
         // The broken twin: the caster moves, its boxes do not.
         let mut twin = of(&field(1000));
         twin.build();
@@ -378,61 +378,61 @@ mod tests {
 
     #[test]
     fn a_tree_is_built_when_looks_in_vain_have_cost_as_much_and_again_when_it_is_worn() {
-        let mut reach = of(&field(4096));
+        let mut casters = of(&field(4096));
         let at = DVec3::new(20.0, 0.0, 20.0);
         let mut queries = 0;
-        while reach.tree.is_none() {
-            found(&mut reach, at, 2.5);
+        while casters.tree.is_none() {
+            found(&mut casters, at, 2.5);
             queries += 1;
         }
         assert!(queries > BUILD && queries < BUILD + 3, "{queries}");
-        let looks = |reach: &Reach| {
-            let tree = reach.tree.as_ref().unwrap();
+        let looks = |casters: &CasterSpheres| {
+            let tree = casters.tree.as_ref().unwrap();
             tree.within(at, 2.5, &mut Vec::new())
         };
-        let fresh = looks(&reach);
+        let fresh = looks(&casters);
         assert!(fresh < 4096 / 10, "{fresh} looks");
         // Everything changes places, as far as may be.
         let field = field(4096);
         for i in 0..4096 {
-            reach.set(i, field[i * 2039 % 4096]);
+            casters.set(i, field[i * 2039 % 4096]);
         }
-        let worn = looks(&reach);
+        let worn = looks(&casters);
         assert!(worn > 2000, "{worn} looks at boxes as wide as the field");
         for _ in 0..2 * BUILD {
-            found(&mut reach, at, 2.5);
+            found(&mut casters, at, 2.5);
         }
-        assert_eq!(looks(&reach), fresh, "the same places under other names");
+        assert_eq!(looks(&casters), fresh, "the same places under other names");
     }
 
     #[test]
     fn a_tree_that_only_costs_is_let_go_and_not_built_where_all_moves() {
-        let mut reach = of(&field(4096));
-        reach.build();
+        let mut casters = of(&field(4096));
+        casters.build();
         let all = field(4096);
-        let move_all = |reach: &mut Reach| (0..4096).for_each(|i| reach.set(i, all[i]));
-        (0..BUILD / MOVE).for_each(|_| move_all(&mut reach));
-        assert!(reach.tree.is_some());
-        move_all(&mut reach);
-        assert!(reach.tree.is_none(), "no light asked for it");
+        let move_all = |casters: &mut CasterSpheres| (0..4096).for_each(|i| casters.set(i, all[i]));
+        (0..BUILD / MOVE).for_each(|_| move_all(&mut casters));
+        assert!(casters.tree.is_some());
+        move_all(&mut casters);
+        assert!(casters.tree.is_none(), "no light asked for it");
         for _ in 0..BUILD {
-            move_all(&mut reach);
+            move_all(&mut casters);
             for k in 0..16 {
-                found(&mut reach, DVec3::X * f64::from(k), 2.5);
+                found(&mut casters, DVec3::X * f64::from(k), 2.5);
             }
         }
         assert!(
-            reach.tree.is_none(),
+            casters.tree.is_none(),
             "16 lights save less than 4096 moves cost"
         );
     }
 
     #[test]
     fn few_casters_never_have_a_tree() {
-        let mut reach = of(&field(FEWEST - 1));
+        let mut casters = of(&field(FEWEST - 1));
         for _ in 0..10 * BUILD {
-            found(&mut reach, DVec3::ZERO, 1.0);
+            found(&mut casters, DVec3::ZERO, 1.0);
         }
-        assert!(reach.tree.is_none());
+        assert!(casters.tree.is_none());
     }
 }

@@ -1,9 +1,9 @@
-//! What stands still on a face, and whether to keep it in a layer of its own.
+//! What is static on a face, and whether to keep it in a layer of its own.
 
-use super::slot::Content;
+use super::content::Content;
 use crate::PointLight;
 
-/// Draws of a face in which its casters must have been the same before they are thought still: the
+/// Draws of a face in which its casters must have been the same before they are thought static: the
 /// third is the one that makes a layer of them.
 const LEAST_PATIENCE: u32 = 2;
 
@@ -16,7 +16,7 @@ const REPAID: u32 = 8;
 
 /// How a face is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Way {
+pub(crate) enum DrawMode {
     /// All casters, on a face that is cleared.
     #[default]
     Whole,
@@ -29,7 +29,7 @@ pub(super) enum Way {
 
 /// The casters on a face that have not changed after a frame, for a light.
 #[derive(Clone, Copy, Debug)]
-struct Layer {
+struct Held {
     light: PointLight,
     until: u64,
     content: Content,
@@ -47,18 +47,18 @@ struct Watch {
 /// The layer under one face. Casters belong to it by the frame in which they last changed, so that
 /// one that changes leaves it, and is missed in its sum.
 #[derive(Clone, Debug)]
-pub(super) struct Still {
+pub(crate) struct StaticLayer {
     /// What the layer's texels show.
-    holds: Option<Layer>,
+    holds: Option<Held>,
     /// What they will show once the pending pass is encoded.
-    scheduled: Option<Layer>,
+    scheduled: Option<Held>,
     watch: Option<Watch>,
     patience: u32,
     copies: u32,
-    way: Way,
+    mode: DrawMode,
 }
 
-impl Default for Still {
+impl Default for StaticLayer {
     fn default() -> Self {
         Self {
             holds: None,
@@ -66,20 +66,20 @@ impl Default for Still {
             watch: None,
             patience: LEAST_PATIENCE,
             copies: 0,
-            way: Way::Whole,
+            mode: DrawMode::Whole,
         }
     }
 }
 
-impl Still {
-    pub fn way(&self) -> Way {
-        self.way
+impl StaticLayer {
+    pub fn mode(&self) -> DrawMode {
+        self.mode
     }
 
     /// Learns that the layer was drawn.
     pub fn encoded(&mut self) {
-        if let Some(layer) = self.scheduled.take() {
-            self.holds = Some(layer);
+        if let Some(held) = self.scheduled.take() {
+            self.holds = Some(held);
             self.copies = 0;
         }
     }
@@ -95,13 +95,13 @@ impl Still {
     ) {
         self.scheduled = None;
         let from = self.ripe(light, now);
-        let right = |layer: &Layer| layer.light == *light && since(layer.until) == layer.content;
-        self.way = match self.holds {
-            Some(layer) if right(&layer) => {
+        let right = |held: &Held| held.light == *light && since(held.until) == held.content;
+        self.mode = match self.holds {
+            Some(held) if right(&held) => {
                 self.copies += 1;
                 // What stopped since then joins it if that is worth a layer by itself.
-                self.build(light, from, least + layer.content.triangles, since)
-                    .unwrap_or(Way::Copy(layer.until))
+                self.build(light, from, least + held.content.triangles, since)
+                    .unwrap_or(DrawMode::Copy(held.until))
             }
             Some(_) => {
                 self.holds = None;
@@ -110,9 +110,11 @@ impl Still {
                     false => LEAST_PATIENCE,
                 };
                 self.watch = None;
-                Way::Whole
+                DrawMode::Whole
             }
-            None => self.build(light, from, least, since).unwrap_or(Way::Whole),
+            None => self
+                .build(light, from, least, since)
+                .unwrap_or(DrawMode::Whole),
         };
     }
 
@@ -143,19 +145,19 @@ impl Still {
         from: Option<u64>,
         least: u64,
         since: impl Fn(u64) -> Content,
-    ) -> Option<Way> {
+    ) -> Option<DrawMode> {
         let until = from?;
         let content = since(until);
         if content.triangles < least {
             return None;
         }
         let light = *light;
-        self.scheduled = Some(Layer {
+        self.scheduled = Some(Held {
             light,
             until,
             content,
         });
-        Some(Way::Build(until))
+        Some(DrawMode::Build(until))
     }
 }
 
@@ -170,67 +172,70 @@ mod tests {
     }
 
     /// Draws a face of casters of 100 triangles each, given by the frames in which they last changed.
-    fn draw(still: &mut Still, now: u64, casters: &[u64]) -> Way {
+    fn draw(layer: &mut StaticLayer, now: u64, casters: &[u64]) -> DrawMode {
         let since = |frame: u64| Content::of_frames(casters.iter().filter(|&&at| at <= frame));
-        still.choose(&light(), now, 150, since);
-        still.encoded();
-        still.way()
+        layer.choose(&light(), now, 150, since);
+        layer.encoded();
+        layer.mode()
     }
 
     #[test]
     fn casters_that_were_drawn_in_vain_twice_get_a_layer() {
-        let mut still = Still::default();
-        let ways = (1..7).map(|now| draw(&mut still, now, &[0, 0, now]));
+        let mut layer = StaticLayer::default();
+        let modes = (1..7).map(|now| draw(&mut layer, now, &[0, 0, now]));
         let expected = [
-            Way::Whole,
-            Way::Whole,
-            Way::Build(1),
-            Way::Copy(1),
-            Way::Copy(1),
-            Way::Copy(1),
+            DrawMode::Whole,
+            DrawMode::Whole,
+            DrawMode::Build(1),
+            DrawMode::Copy(1),
+            DrawMode::Copy(1),
+            DrawMode::Copy(1),
         ];
-        assert_eq!(ways.collect::<Vec<_>>(), expected);
+        assert_eq!(modes.collect::<Vec<_>>(), expected);
     }
 
     #[test]
     fn where_all_move_or_too_little_stands_there_is_none() {
-        for still_ones in [&[][..], &[0]] {
-            let mut still = Still::default();
+        for static_ones in [&[][..], &[0]] {
+            let mut layer = StaticLayer::default();
             for now in 1..200 {
-                let casters = [still_ones, &[now; 9]].concat();
-                assert_eq!(draw(&mut still, now, &casters), Way::Whole);
+                let casters = [static_ones, &[now; 9]].concat();
+                assert_eq!(draw(&mut layer, now, &casters), DrawMode::Whole);
             }
         }
     }
 
     #[test]
     fn what_stops_joins_and_what_starts_leaves() {
-        let mut still = Still::default();
+        let mut layer = StaticLayer::default();
         let mut casters = vec![0, 0, 0, 0];
         for now in 1..5 {
             casters[2] = now;
             casters[3] = now;
-            draw(&mut still, now, &casters);
+            draw(&mut layer, now, &casters);
         }
         // Two of them stop in frame 4; something else goes on.
-        let ways: Vec<Way> = (5..12)
-            .map(|now| draw(&mut still, now, &[&casters[..], &[now]].concat()))
+        let modes: Vec<DrawMode> = (5..12)
+            .map(|now| draw(&mut layer, now, &[&casters[..], &[now]].concat()))
             .collect();
-        assert!(ways.contains(&Way::Copy(1)));
-        assert!(matches!(ways[..], [.., Way::Copy(until)] if until >= 4));
+        assert!(modes.contains(&DrawMode::Copy(1)));
+        assert!(matches!(modes[..], [.., DrawMode::Copy(until)] if until >= 4));
         casters[0] = 12;
-        assert_eq!(draw(&mut still, 12, &casters), Way::Whole);
+        assert_eq!(draw(&mut layer, 12, &casters), DrawMode::Whole);
     }
 
     #[test]
     fn layers_that_never_repay_become_rare() {
         // A hundred casters take turns in moving: each layer is out of date when it is looked for.
         let mut casters = [0; 100];
-        let mut still = Still::default();
+        let mut layer = StaticLayer::default();
         let mut built = 0;
         for now in 1..1000 {
             casters[now as usize * 37 % 100] = now;
-            built += usize::from(matches!(draw(&mut still, now, &casters), Way::Build(_)));
+            built += usize::from(matches!(
+                draw(&mut layer, now, &casters),
+                DrawMode::Build(_)
+            ));
         }
         assert!((2..25).contains(&built), "{built}");
     }

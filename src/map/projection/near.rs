@@ -1,11 +1,11 @@
 //! Where the shadow map of a light with a position begins, unless the host says where.
 
-use super::descriptor::{DepthEncoding, quantum};
+use crate::map::encoding::{DepthEncoding, quantum};
 use crate::{PointLight, SpotLight};
 
 /// A light's near plane for one kind of texels, as a share of the light's range.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct NearPlane {
+pub(crate) struct NearPlane {
     share: f32,
 }
 

@@ -1,11 +1,12 @@
 //! The textures of a cube map, made when the first light casts.
 
-use super::face::CubeFace;
 use crate::gl;
+use crate::map::encoding::texel_bytes;
+use crate::map::projection::CubeFace;
 
 /// One light's six layers.
 #[derive(Debug)]
-pub(super) struct SlotTexture {
+pub(crate) struct SlotTexture {
     pub texture: wgpu::Texture,
     pub first_layer: u32,
     pub cube: wgpu::TextureView,
@@ -14,7 +15,7 @@ pub(super) struct SlotTexture {
 
 /// A texture for all lights, or one for each, or none yet.
 #[derive(Debug)]
-pub(super) struct Textures {
+pub(crate) struct CubeTextures {
     label: String,
     size: u32,
     format: wgpu::TextureFormat,
@@ -39,7 +40,7 @@ struct Array {
     view: Option<wgpu::TextureView>,
 }
 
-impl Textures {
+impl CubeTextures {
     pub fn new(
         device: &wgpu::Device,
         label: &str,
@@ -52,7 +53,7 @@ impl Textures {
             true => gl::array_cubes(device, lights),
             false => 1,
         };
-        let placeholder = create(device, label, 1, format, 6 * cubes(1));
+        let placeholder = create_texture(device, label, 1, format, 6 * cubes(1));
         Self {
             label: label.to_owned(),
             size,
@@ -80,11 +81,11 @@ impl Textures {
         self.revision += 1;
         let label = self.label.clone();
         let Some(array) = &mut self.array else {
-            let texture = create(device, &label, self.size, self.format, 6);
+            let texture = create_texture(device, &label, self.size, self.format, 6);
             self.slots[slot] = Some(SlotTexture::new(texture, &label, 0));
             return slot..slot + 1;
         };
-        let texture = create(device, &label, self.size, self.format, 6 * array.cubes);
+        let texture = create_texture(device, &label, self.size, self.format, 6 * array.cubes);
         array.view = Some(array_view(&texture, &label));
         for (slot, first_layer) in self.slots.iter_mut().zip((0..).step_by(6)) {
             *slot = Some(SlotTexture::new(texture.clone(), &label, first_layer));
@@ -152,14 +153,6 @@ impl Textures {
     }
 }
 
-/// Bytes of a texel.
-pub(super) fn texel_bytes(format: wgpu::TextureFormat) -> u64 {
-    match format {
-        wgpu::TextureFormat::Depth16Unorm => 2,
-        _ => 4,
-    }
-}
-
 impl SlotTexture {
     fn new(texture: wgpu::Texture, label: &str, first_layer: u32) -> Self {
         Self {
@@ -171,14 +164,14 @@ impl SlotTexture {
     }
 }
 
-pub(super) fn create(
+pub(crate) fn create_texture(
     device: &wgpu::Device,
     label: &str,
     size: u32,
     format: wgpu::TextureFormat,
     layers: u32,
 ) -> wgpu::Texture {
-    // Layers of what stands still are copied to it.
+    // Layers of what is static are copied to it.
     let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT
         | wgpu::TextureUsages::TEXTURE_BINDING
         | wgpu::TextureUsages::COPY_DST;

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
+use crate::scene::{CasterBounds, HalfSpace};
+
 /// A face of a cube map, in the order of its array layers. Exhaustive: there are six.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
@@ -70,44 +72,41 @@ impl CubeFace {
     }
 }
 
-/// Bounds of a caster relative to the light: a box and a sphere with the same centre.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LightBounds {
-    pub centre: DVec3,
-    pub half: DVec3,
-    pub radius: f64,
+/// A mask of all six faces.
+pub(crate) const ALL_FACES: u8 = 0b11_1111;
+
+/// A mask of the faces whose frusta a caster may touch, given relative to the light: 0 if it lies
+/// beyond the range.
+pub(crate) fn touched_faces(caster: &CasterBounds, range: f64) -> u8 {
+    let gap = (caster.centre.abs() - caster.half).max(DVec3::ZERO);
+    if gap.length_squared() > range * range || caster.centre.length() - caster.radius > range {
+        return 0;
+    }
+    CubeFace::ALL
+        .into_iter()
+        .filter(|face| touches(caster, *face))
+        .fold(0, |mask, face| mask | face.bit())
 }
 
-impl LightBounds {
-    /// A mask of the faces whose frusta these bounds may touch: 0 if they lie beyond the range.
-    pub fn faces(&self, range: f64) -> u8 {
-        let gap = (self.centre.abs() - self.half).max(DVec3::ZERO);
-        if gap.length_squared() > range * range || self.centre.length() - self.radius > range {
-            return 0;
-        }
-        CubeFace::ALL
-            .into_iter()
-            .filter(|face| self.touches(*face))
-            .fold(0, |mask, face| mask | face.bit())
-    }
+/// Whether any point may satisfy `|right| <= forward` and `|up| <= forward`.
+fn touches(caster: &CasterBounds, face: CubeFace) -> bool {
+    let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
+    let sides = [forward - right, forward + right, forward - up, forward + up];
+    sides.into_iter().all(|normal| {
+        let side = HalfSpace {
+            normal,
+            length: std::f64::consts::SQRT_2,
+            offset: 0.0,
+        };
+        side.touches(caster)
+    })
+}
 
-    /// Whether the light, and what lies before the near planes of its faces, is surely outside.
-    pub fn clear_of_near(&self, near: f64) -> bool {
-        let gap = self.centre.abs() - self.half;
-        gap.max_element() > near * (1.0 + 1e-6)
-    }
-
-    /// Whether any point may satisfy `|right| <= forward` and `|up| <= forward`.
-    fn touches(&self, face: CubeFace) -> bool {
-        let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
-        let sides = [forward - right, forward + right, forward - up, forward + up];
-        sides.into_iter().all(|normal| {
-            let distance = normal.dot(self.centre);
-            // The normals have length sqrt(2).
-            let reach = self.radius * std::f64::consts::SQRT_2;
-            distance + normal.abs().dot(self.half) >= 0.0 && distance + reach >= 0.0
-        })
-    }
+/// Whether the light, and what lies before the near planes of its faces, is surely outside a caster
+/// given relative to the light.
+pub(crate) fn clear_of_near(caster: &CasterBounds, near: f64) -> bool {
+    let gap = caster.centre.abs() - caster.half;
+    gap.max_element() > near * (1.0 + 1e-6)
 }
 
 #[cfg(test)]
@@ -147,12 +146,12 @@ mod tests {
         for _ in 0..2000 {
             let centre = DVec3::new(random(), random(), random()) * 3.0;
             let half = DVec3::new(random(), random(), random()).abs();
-            let bounds = LightBounds {
+            let bounds = CasterBounds {
                 centre,
                 half,
                 radius: half.length(),
             };
-            let mask = bounds.faces(100.0);
+            let mask = touched_faces(&bounds, 100.0);
             culled += 6 - mask.count_ones();
             for _ in 0..20 {
                 let point = centre + half * DVec3::new(random(), random(), random());
@@ -171,24 +170,24 @@ mod tests {
 
     #[test]
     fn bounds_that_reach_the_near_cube_are_not_clear_of_it() {
-        let at = |x: f64| LightBounds {
+        let at = |x: f64| CasterBounds {
             centre: DVec3::new(x, 0.0, 0.0),
             half: DVec3::ONE,
             radius: 1.8,
         };
-        assert!(at(1.2).clear_of_near(0.1));
-        assert!(!at(1.05).clear_of_near(0.1));
-        assert!(!at(0.0).clear_of_near(0.1));
+        assert!(clear_of_near(&at(1.2), 0.1));
+        assert!(!clear_of_near(&at(1.05), 0.1));
+        assert!(!clear_of_near(&at(0.0), 0.1));
     }
 
     #[test]
     fn what_lies_beyond_the_range_touches_no_face() {
-        let bounds = LightBounds {
+        let bounds = CasterBounds {
             centre: DVec3::new(5.0, 5.0, 5.0),
             half: DVec3::ONE,
             radius: 1.8,
         };
-        assert_eq!(bounds.faces(6.8), 0);
-        assert_ne!(bounds.faces(7.0), 0);
+        assert_eq!(touched_faces(&bounds, 6.8), 0);
+        assert_ne!(touched_faces(&bounds, 7.0), 0);
     }
 }

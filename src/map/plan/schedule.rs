@@ -4,7 +4,7 @@ use super::slot::Slot;
 
 /// Faces of one light that are drawn together or not at all.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Job {
+pub(crate) struct Job {
     pub slot: usize,
     pub faces: u8,
     pub age: u32,
@@ -22,7 +22,7 @@ impl Job {
 /// A light that moved has all its stale faces drawn together, since receivers are given one
 /// position for all of them. Faces that do not belong with the light that receivers are given must
 /// be drawn at once.
-pub(super) fn jobs_of(
+pub(crate) fn jobs_of(
     index: usize,
     slot: &Slot,
     faces: u8,
@@ -44,7 +44,7 @@ pub(super) fn jobs_of(
     if slot.shown != slot.light {
         return (0, vec![job(faces)]);
     }
-    let must = faces & slot.strange();
+    let must = faces & slot.foreign();
     let jobs = (0..6)
         .map(|bit| 1 << bit)
         .filter(|bit| faces & !must & bit != 0)
@@ -59,7 +59,7 @@ pub(super) fn jobs_of(
 /// Jobs are whole, so the first half may overdraw by at most five faces (a light that moved).
 /// Every frame at least half the budget goes to the oldest, and nothing gets in before them, so no
 /// job waits longer than [`longest_wait`].
-pub(super) fn choose(mut jobs: Vec<Job>, budget: u32) -> Vec<Job> {
+pub(crate) fn choose(mut jobs: Vec<Job>, budget: u32) -> Vec<Job> {
     let mut chosen = Vec::new();
     let mut used = 0;
     jobs.sort_by(|a, b| {
@@ -85,7 +85,7 @@ pub(super) fn choose(mut jobs: Vec<Job>, budget: u32) -> Vec<Job> {
 }
 
 /// The most frames that a stale face can wait, visible all the while.
-pub(super) fn longest_wait(slots: usize, budget: u32) -> u32 {
+pub(crate) fn longest_wait(slots: usize, budget: u32) -> u32 {
     (slots as u32 * 6).div_ceil(budget.div_ceil(2))
 }
 

@@ -6,7 +6,7 @@ const BITS: usize = u64::BITS as usize;
 /// those bits: what is found or forgotten takes a time that depends on how many touch a face, and
 /// on the others by a 4096th of a word each.
 #[derive(Debug, Default)]
-pub(super) struct FaceMasks {
+pub(crate) struct FaceMasks {
     masks: Vec<u8>,
     some: Vec<u64>,
     any: Vec<u64>,

@@ -1,65 +1,11 @@
 //! How a cube map is made, and what it is told each frame.
 
-use super::resources::UNIFORM_STRIDE;
-use super::still_layer::StillLayers;
+use super::encoding::{DepthEncoding, quantum};
+use super::sides::CasterSides;
+use super::static_layers::StillLayers;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
 use crate::{Bias, PointLight, Radius, View};
-
-/// What the texels of a [`CubeShadowMap`](crate::CubeShadowMap) hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum DepthEncoding {
-    /// `near / d`, where `d` is the distance along the face's major axis: infinite reverse-Z, 0
-    /// where no caster is. Linear over a face for any plane, and needs no fragment shader.
-    #[default]
-    MajorAxis,
-    /// `distance / range` from light to caster, written by the fragment shader, 1 where no caster
-    /// is. Evenly spaced, so the better choice for `Depth16Unorm`; costs about a third more to draw
-    /// than [`MajorAxis`](Self::MajorAxis), since depths are not known before the fragment shader.
-    LinearDistance,
-}
-
-impl DepthEncoding {
-    /// The depth that means "no caster".
-    pub fn clear_depth(self) -> f32 {
-        match self {
-            Self::MajorAxis => 0.0,
-            Self::LinearDistance => 1.0,
-        }
-    }
-
-    /// The comparison by which the nearer caster stays.
-    pub fn nearer(self) -> wgpu::CompareFunction {
-        match self {
-            Self::MajorAxis => wgpu::CompareFunction::Greater,
-            Self::LinearDistance => wgpu::CompareFunction::Less,
-        }
-    }
-}
-
-/// Which sides of casters are drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum CasterSides {
-    /// The sides that face the light, where that shows the same as both: for closed meshes each of
-    /// whose surfaces encloses a positive volume (found when the mesh is made; never for meshes in
-    /// the host's own buffer), under any transform, if the light is outside the mesh's bounds. Both
-    /// sides of all others. Takes about a third off the time of drawing.
-    ///
-    /// On outlines, where a near and a far side meet within a texel, depths may differ from
-    /// [`Both`](Self::Both) by the depth of that texel. A surface that passes through itself and is
-    /// inside out there casts from the far side of that part.
-    #[default]
-    Nearest,
-    /// Both sides of every mesh.
-    Both,
-    /// Of closed meshes only the sides that look away from the light; meshes that are not closed
-    /// keep both. It hides acne where receivers are compared without their plane, and lets light in
-    /// where thin casters touch receivers. Closed meshes must be wound counter-clockwise seen from
-    /// outside.
-    Far,
-}
 
 /// When a [`CubeShadowMap`](crate::CubeShadowMap) takes its texture memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -146,7 +92,12 @@ impl CubeShadowMapDescriptor<'_> {
         }
     }
 
-    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), CubeShadowMapError> {
+    /// `most_tiles`: as many as have room for their matrices.
+    pub(super) fn validate(
+        &self,
+        device: &wgpu::Device,
+        most_tiles: u32,
+    ) -> Result<(), CubeShadowMapError> {
         let limits = device.limits();
         let limit = limits.max_texture_dimension_2d;
         if self.size == 0 || self.size > limit {
@@ -155,7 +106,7 @@ impl CubeShadowMapDescriptor<'_> {
                 limit,
             });
         }
-        let most = self.most_lights(&limits);
+        let most = self.most_lights(&limits, most_tiles);
         if self.lights == 0 || self.lights > most {
             return Err(CubeShadowMapError::Slots {
                 lights: self.lights,
@@ -186,31 +137,18 @@ impl CubeShadowMapDescriptor<'_> {
     }
 
     /// As many as have room for their matrices, and in one texture for their layers.
-    fn most_lights(&self, limits: &wgpu::Limits) -> u32 {
-        let matrices = limits.max_buffer_size / (6 * UNIFORM_STRIDE);
-        // A dynamic offset, which is in bytes, has 32 bits.
-        let matrices = matrices.min(u64::from(u32::MAX) / (6 * UNIFORM_STRIDE)) as u32;
+    fn most_lights(&self, limits: &wgpu::Limits, most_tiles: u32) -> u32 {
         match self.cube_array {
-            true => matrices.min(limits.max_texture_array_layers / 6),
-            false => matrices,
+            true => (most_tiles / 6).min(limits.max_texture_array_layers / 6),
+            false => most_tiles / 6,
         }
     }
 
-    /// The fewest triangles that stand still on a face that are worth a layer.
-    pub(super) fn still_least(&self, device: &wgpu::Device) -> Option<u64> {
+    /// The fewest triangles of static casters on a face that are worth a layer.
+    pub(super) fn layer_least(&self, device: &wgpu::Device) -> Option<u64> {
         self.still_layers
             .least_triangles(self.size, &device.adapter_info())
             .filter(|_| self.cache)
-    }
-}
-
-/// One step of a format's depths, 0 for floats; `None` for formats that are not supported.
-pub(super) fn quantum(format: wgpu::TextureFormat) -> Option<f32> {
-    match format {
-        wgpu::TextureFormat::Depth32Float => Some(0.0),
-        wgpu::TextureFormat::Depth24Plus => Some(1.0 / 16_777_215.0),
-        wgpu::TextureFormat::Depth16Unorm => Some(1.0 / 65_535.0),
-        _ => None,
     }
 }
 
