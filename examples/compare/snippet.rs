@@ -16,6 +16,7 @@ pub fn of(config: &Config) -> String {
         Config::Cube { map, sampler } => cube(&map) + &pcf(&sampler),
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
+        Config::Peer { .. } => "// Another engine's: no part of this library.\n".to_owned(),
     }
 }
 
