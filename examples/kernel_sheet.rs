@@ -77,8 +77,8 @@ const PEERS: Sheet = Sheet {
     tiles: &[
         "exact",
         "cube-2x2",
+        "cube-hw",
         "cube-3x3",
-        "cube-5x5",
         "cube-textbook",
         "peer-bevy-2x2",
         "peer-bevy-gaussian",

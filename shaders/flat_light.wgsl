@@ -24,4 +24,8 @@ struct ShadowsFlatLight {
     // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
     // positions".
     rounding: f32,
+    // World width of a texel, at distance 1 of a spot.
+    texel: f32,
+    // How depth changes: by this over the distance (spot, the bias in it), by this times it (directional).
+    depth_per: f32,
 }

@@ -280,7 +280,10 @@ fn a_tiny_near_plane_costs_floats_not_a_digit() {
         .collect();
     let linear = (DepthEncoding::LinearDistance, TextureFormat::Depth32Float);
     for kernel in Kernel::ALL {
-        for kind in [float, linear] {
+        for kind in [float, linear]
+            .into_iter()
+            .filter(|kind| kernel.reads(kind.0))
+        {
             let [tiny, large] = [None, Some(large)].map(|near| {
                 let map = cube(&gpu, &lamp, near, kind);
                 visibility(&gpu, &map, kernel, &points)

@@ -305,6 +305,16 @@ pub enum PcfError {
         /// Lights the map was made for.
         lights: usize,
     },
+    /// A hardware comparison of depths of which a plane's are not linear.
+    #[error(
+        "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass encoding: MajorAxis, or another kernel"
+    )]
+    HardwareEncoding(crate::DepthEncoding),
+    /// A hardware comparison of cube arrays on a back end that has none.
+    #[error(
+        "wgpu's GL back end compares no cube arrays in hardware; pass many_lights: false, or another kernel"
+    )]
+    HardwareArray,
     /// Textbook receivers of depths that they cannot read.
     #[error(
         "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"

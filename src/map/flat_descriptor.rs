@@ -195,7 +195,9 @@ pub(crate) struct FlatLightUniform {
     /// Negative where nothing casts.
     pub quantum: f32,
     pub rounding: f32,
-    padding: [f32; 3],
+    pub texel: f32,
+    pub depth_per: f32,
+    padding: f32,
 }
 
 impl FlatLightUniform {
@@ -214,7 +216,9 @@ impl FlatLightUniform {
         perspective: 1.0,
         quantum: 0.0,
         rounding: 0.0,
-        padding: [0.0; 3],
+        texel: 0.0,
+        depth_per: 0.0,
+        padding: 0.0,
     };
 
     /// `frame` is `None` where nothing casts.
@@ -249,7 +253,12 @@ impl FlatLightUniform {
             perspective: f32::from(u8::from(frame.perspective)),
             quantum: quantum(format).unwrap_or(0.0),
             rounding: bias.rounding(),
-            padding: [0.0; 3],
+            texel,
+            depth_per: match frame.perspective {
+                true => frame.near * (1.0 + bias.constant * texel),
+                false => 1.0 / frame.range,
+            },
+            padding: 0.0,
         }
     }
 }
@@ -278,7 +287,9 @@ mod tests {
             depth_bias,
             perspective,
             quantum,
-            rounding
+            rounding,
+            texel,
+            depth_per
         );
     }
 }

@@ -74,6 +74,7 @@ pub(super) struct MapWgsl {
     pub light: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
+    pub edge: &'static str,
     pub fetch: &'static str,
     pub gather: &'static str,
     pub texel: &'static str,
@@ -82,6 +83,8 @@ pub(super) struct MapWgsl {
     /// All that [`Kernel::Hard`](super::Kernel::Hard) takes.
     pub hard: [&'static str; 2],
     pub slope: &'static str,
+    pub compare: &'static str,
+    pub hardware: &'static str,
 }
 
 impl MapWgsl {
@@ -97,7 +100,8 @@ impl MapWgsl {
             reads,
             light: include_str!("../../shaders/flat_light.wgsl"),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
-            depth: match reads.border {
+            depth: "",
+            edge: match reads.border {
                 false => include_str!("../../shaders/flat_edge_test.wgsl"),
                 true => include_str!("../../shaders/flat_edge_border.wgsl"),
             },
@@ -111,6 +115,8 @@ impl MapWgsl {
             tap: include_str!("../../shaders/flat_tap.wgsl"),
             hard: [TEXEL, include_str!("../../shaders/flat_hard.wgsl")],
             slope: include_str!("../../shaders/flat_slope.wgsl"),
+            compare: "",
+            hardware: include_str!("../../shaders/flat_hardware.wgsl"),
         }
     }
 
@@ -137,6 +143,7 @@ impl MapWgsl {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
                 DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
             },
+            edge: "",
             fetch,
             gather,
             texel: include_str!("../../shaders/cube_texel.wgsl"),
@@ -144,6 +151,11 @@ impl MapWgsl {
             tap: CUBE_TAP,
             hard: [CUBE_TAP, include_str!("../../shaders/cube_hard.wgsl")],
             slope: include_str!("../../shaders/cube_slope.wgsl"),
+            compare: match reads.many_lights {
+                false => include_str!("../../shaders/cube_compare.wgsl"),
+                true => include_str!("../../shaders/cube_array_compare.wgsl"),
+            },
+            hardware: include_str!("../../shaders/cube_hardware.wgsl"),
         }
     }
 
@@ -157,9 +169,13 @@ impl MapWgsl {
     pub fn adapt(&self, wgsl: &str) -> String {
         match (self.reads.map, self.reads.many_lights) {
             (MapKind::Cube, false) => wgsl.to_owned(),
-            (MapKind::Cube, true) => wgsl.replace("texture_cube<f32>", "texture_cube_array<f32>"),
+            (MapKind::Cube, true) => wgsl
+                .replace("texture_cube<f32>", "texture_cube_array<f32>")
+                .replace("texture_depth_cube,", "texture_depth_cube_array,")
+                .replace("texture_depth_cube;", "texture_depth_cube_array;"),
             (MapKind::Flat, _) => wgsl
                 .replace("texture_cube<f32>", "texture_2d<f32>")
+                .replace("texture_depth_cube", "texture_depth_2d")
                 .replace("ShadowsCube", "ShadowsFlat")
                 .replace("shadows_cube_", "shadows_flat_"),
         }

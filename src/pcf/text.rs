@@ -11,6 +11,7 @@ pub(super) const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
 const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
 const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
 const DERIVATIVES: &str = include_str!("../../shaders/pcf_derivatives.wgsl");
+const HARDWARE: &str = include_str!("../../shaders/pcf_hardware.wgsl");
 const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
 
 /// Name of the textbook's function.
@@ -46,6 +47,10 @@ impl Extra {
 
 /// The functions of a kernel, and no other's.
 pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
+    if kernel == Kernel::HardwareBilinear {
+        let text = [own.light, own.edge, own.compare, own.hardware, HARDWARE];
+        return own.adapt(&text.join("\n"));
+    }
     let (weights, last) = match kernel {
         Kernel::Hard => (None, own.hard.to_vec()),
         Kernel::RandomDisk(_) => (None, vec![DISK, RANDOM_DISK]),
@@ -60,7 +65,7 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     };
     let weights = weights.map(|weights| weights.wgsl());
     let entry = entry(kernel);
-    let shared = [own.light, own.receiver, own.depth, own.fetch];
+    let shared = [own.light, own.receiver, own.depth, own.edge, own.fetch];
     let text = shared
         .into_iter()
         .chain([DERIVATIVES, own.slope])
@@ -124,6 +129,14 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
     let Some(kernel) = kernel else {
         return format!("    return shadows_visibility_flat({index}position, cross(x, y));\n");
     };
+    if kernel == Kernel::HardwareBilinear {
+        return format!(
+            "    return shadows_cube_hardware_derived(
+        shadows_map, shadows_map_sampler, {light}, position, x, y
+    );
+"
+        );
+    }
     let (disk, pixel) = match kernel.uses_pixel() {
         false => ("", ""),
         true => (", shadows_kernel, shadows_offsets", ", pixel"),
@@ -174,11 +187,15 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
             ", shadows_kernel, shadows_offsets",
         ),
     };
+    let (map, sampler) = match kernel {
+        Some(Kernel::HardwareBilinear) => ("texture_depth_cube", "sampler_comparison"),
+        _ => ("texture_cube<f32>", "sampler"),
+    };
     let derived = derived(kernel, &format!("shadows_light{element}"), light);
     own.adapt_module(&format!(
         "
-@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
-@group({group}) @binding(1) var shadows_map_sampler: sampler;
+@group({group}) @binding(0) var shadows_map: {map};
+@group({group}) @binding(1) var shadows_map_sampler: {sampler};
 @group({group}) @binding(2) var<{lights};
 {disk_bindings}
 fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{

@@ -135,18 +135,21 @@ impl Way {
     }
 
     /// The kernels whose text is not that of another way.
-    pub fn kernels(&self) -> &'static [Kernel] {
-        match self.gather {
+    pub fn kernels(&self) -> impl Iterator<Item = Kernel> {
+        let all: &[Kernel] = match self.gather {
             Gather::Never => &SQUARES,
             _ => &Kernel::ALL,
-        }
+        };
+        let encoding = self.encoding;
+        let read = move |kernel: &Kernel| kernel.reads(encoding);
+        all.iter().copied().filter(read)
     }
 }
 
 /// What a sampler can be made for, on a device without any feature.
 pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
     let ways = WAYS.iter().filter(|way| !way.border);
-    ways.flat_map(|way| way.kernels().iter().map(|&kernel| way.descriptor(kernel)))
+    ways.flat_map(|way| way.kernels().map(|kernel| way.descriptor(kernel)))
         .collect()
 }
 
@@ -154,7 +157,7 @@ pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
 pub fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     let of = |way: &Way| {
         let (device, queue) = way.device();
-        let descriptors = way.kernels().iter().map(|&kernel| way.descriptor(kernel));
+        let descriptors = way.kernels().map(|kernel| way.descriptor(kernel));
         descriptors
             .map(|descriptor| {
                 let sampler = made(&device, &queue, &descriptor);

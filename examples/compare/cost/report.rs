@@ -25,8 +25,8 @@ show: distances, one tap, a constant bias of 0.15 m.
 
 ![The same shadows, exact and by several receivers](peers.png)
 
-The same corner of `courtyard` with faces of 1024 texels. Above: exact, then this library's 2x2, 3x3 and 5x5;
-below: the textbook, then our rendition of Bevy's `Hardware2x2` and `Gaussian` and of three.js. Red is false
+The same corner of `courtyard` with faces of 1024 texels. Above: exact, then this library's 2x2, 2x2 by the
+hardware and 3x3; below: the textbook, then our rendition of Bevy's `Hardware2x2` and `Gaussian` and of three.js. Red is false
 light, blue false shadow.
 
 | | source | taken | left out |
