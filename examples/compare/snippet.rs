@@ -16,7 +16,10 @@ pub fn of(config: &Config) -> String {
         Config::Cube { map, sampler } => cube(&map) + &pcf(&sampler),
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
-        Config::Peer { .. } => "// Another engine's: no part of this library.\n".to_owned(),
+        Config::Peer { peer, size } => format!(
+            "// Another engine's, no part of this library: {}, {size} texels.\n",
+            peer.name
+        ),
     }
 }
 
