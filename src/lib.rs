@@ -185,6 +185,7 @@ pub mod mesh;
 pub mod pcf;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod scene;
 mod submissions;
 pub mod support;
 mod uploads;

@@ -209,6 +209,31 @@ pub fn host(descriptor: &PcfDescriptor<'_>) -> String {
     host_of(descriptor, "")
 }
 
+/// Another that knows its normal, and asks in a branch.
+pub fn given_host(descriptor: &PcfDescriptor<'_>) -> String {
+    let pixel = match descriptor.kernel.uses_pixel() && !descriptor.textbook {
+        true => ", pixel.xy",
+        false => "",
+    };
+    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let name = visibility_name(descriptor.map);
+    format!(
+        "
+@fragment
+fn given_host(
+    @builtin(position) pixel: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+) -> @location(0) vec4f {{
+    if normal.z < 0.0 {{
+        return vec4f(0.0);
+    }}
+    return vec4f({name}_flat({light}position, normal{pixel}));
+}}
+"
+    )
+}
+
 pub fn visibility_name(map: MapKind) -> &'static str {
     match map {
         MapKind::Flat => "shadows_flat_visibility",
