@@ -202,7 +202,7 @@ pub use map::{
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
     StillLayers, texture_from_clip,
 };
-pub use mesh::{Caster, CasterMesh, HostPositions};
+pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
 pub use pcf::{
     AnyMap, ContactHardening, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
     RandomDisk, VogelDisk,
