@@ -200,7 +200,7 @@ pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
     CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    StillLayers, texture_from_clip,
+    StaticLayers, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
 pub use pcf::{
