@@ -88,7 +88,7 @@ impl HostMesh<'_> {
         check_layout(device, self.stride, self.offset)?;
         let index_size = self.index_format.byte_size() as u64;
         let (offset, count) = (self.index_offset, self.index_count);
-        if offset % index_size != 0 || count % 3 != 0 {
+        if !offset.is_multiple_of(index_size) || !count.is_multiple_of(3) {
             return Err(CasterMeshError::IndexLayout {
                 offset,
                 count,
@@ -128,7 +128,7 @@ impl HostMesh<'_> {
 }
 
 fn check_layout(device: &wgpu::Device, stride: u64, offset: u64) -> Result<(), CasterMeshError> {
-    if stride % 4 != 0 || offset % 4 != 0 || stride < POSITION_SIZE {
+    if !stride.is_multiple_of(4) || !offset.is_multiple_of(4) || stride < POSITION_SIZE {
         return Err(CasterMeshError::Layout { stride, offset });
     }
     let limit = u64::from(device.limits().max_vertex_buffer_array_stride);
