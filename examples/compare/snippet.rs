@@ -76,7 +76,7 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
         cache,
         sides,
         max_faces_per_frame: budget,
-        still_layers,
+        static_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
         .field("size", "", size, &default.size)
@@ -102,10 +102,10 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
             &default.max_faces_per_frame,
         )
         .field(
-            "still_layers",
-            "StillLayers::",
-            still_layers,
-            &default.still_layers,
+            "static_layers",
+            "StaticLayers::",
+            static_layers,
+            &default.static_layers,
         )
         .finish()
 }
