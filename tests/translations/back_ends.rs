@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use naga::back::{glsl, hlsl, spv};
+use naga::back::{glsl, hlsl, msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{ResourceBinding, ShaderStage};
@@ -15,12 +15,18 @@ use crate::{Module, all};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Language {
     Hlsl,
+    Msl,
     SpirV,
     /// OpenGL ES 3.2.
     Glsl,
 }
 
-const LANGUAGES: [Language; 3] = [Language::Hlsl, Language::SpirV, Language::Glsl];
+const LANGUAGES: [Language; 4] = [
+    Language::Hlsl,
+    Language::Msl,
+    Language::SpirV,
+    Language::Glsl,
+];
 
 /// One entry point in one of the languages.
 struct Translation {
@@ -42,6 +48,7 @@ fn bytes(language: Language, ready: &Ready<'_>) -> Result<(Vec<u8>, String), Str
     let own = ready.entry.clone();
     match language {
         Language::Hlsl => to_hlsl(ready),
+        Language::Msl => to_msl(ready),
         Language::SpirV => to_spirv(ready).map(|bytes| (bytes, own)),
         // naga calls every entry point so.
         Language::Glsl => to_glsl(ready).map(|text| (text.into_bytes(), "main".to_owned())),
@@ -68,6 +75,31 @@ fn to_hlsl(ready: &Ready<'_>) -> Result<(Vec<u8>, String), String> {
     Ok((text.into_bytes(), entry))
 }
 
+/// The same, of the least version of Metal's language that has `@invariant`.
+fn to_msl(ready: &Ready<'_>) -> Result<(Vec<u8>, String), String> {
+    let options = msl::Options {
+        lang_version: (2, 1),
+        bounds_check_policies: BOUNDS,
+        ..Default::default()
+    };
+    let pipeline = msl::PipelineOptions {
+        entry_point: Some((ready.stage, ready.entry.clone())),
+        ..Default::default()
+    };
+    let (text, written) = msl::write_string(ready.module, ready.info, &options, &pipeline)
+        .map_err(|error| error.to_string())?;
+    let entry = written.entry_point_names.into_iter().next();
+    let entry = entry.ok_or("no entry point")?.map_err(|e| e.to_string())?;
+    Ok((text.into_bytes(), entry))
+}
+
+const BOUNDS: BoundsCheckPolicies = BoundsCheckPolicies {
+    index: BoundsCheckPolicy::Restrict,
+    buffer: BoundsCheckPolicy::Restrict,
+    image_load: BoundsCheckPolicy::Restrict,
+    binding_array: BoundsCheckPolicy::Unchecked,
+};
+
 fn bindings(module: &naga::Module) -> impl Iterator<Item = ResourceBinding> {
     let globals = module.global_variables.iter();
     globals.filter_map(|(_, global)| global.binding)
@@ -76,12 +108,7 @@ fn bindings(module: &naga::Module) -> impl Iterator<Item = ResourceBinding> {
 fn to_spirv(ready: &Ready<'_>) -> Result<Vec<u8>, String> {
     let mut options = spv::Options {
         lang_version: (1, 3),
-        bounds_check_policies: BoundsCheckPolicies {
-            index: BoundsCheckPolicy::Restrict,
-            buffer: BoundsCheckPolicy::Restrict,
-            image_load: BoundsCheckPolicy::Restrict,
-            binding_array: BoundsCheckPolicy::Unchecked,
-        },
+        bounds_check_policies: BOUNDS,
         ..Default::default()
     };
     for binding in bindings(ready.module) {
@@ -182,17 +209,19 @@ fn translations(module: &Module, languages: &[Language]) -> Result<Vec<Translati
     Ok(all)
 }
 
-fn compiler(language: Language) -> &'static str {
-    match language {
+/// What checks a language, if anything does that runs anywhere.
+fn compiler(language: Language) -> Option<&'static str> {
+    Some(match language {
         Language::Hlsl => "dxc",
+        Language::Msl => return None,
         Language::SpirV => "spirv-val",
         Language::Glsl => "glslangValidator",
-    }
+    })
 }
 
 /// What is said against translations of one language; `None` where no compiler of it is installed.
 fn refused(language: Language, translations: &[Translation], folder: &Path) -> Option<String> {
-    let compiler = command(compiler(language))?;
+    let compiler = command(compiler(language)?)?;
     let files: Vec<PathBuf> = translations
         .iter()
         .map(|translation| {
@@ -226,7 +255,7 @@ fn refused(language: Language, translations: &[Translation], folder: &Path) -> O
         Language::SpirV => each
             .map(|(file, _)| run(command().args(["--target-env", "vulkan1.1"]).arg(file)))
             .collect(),
-        Language::Hlsl => each
+        Language::Hlsl | Language::Msl => each
             .map(|(file, translation)| {
                 let model = match translation.stage {
                     ShaderStage::Vertex => "vs_6_0",
@@ -262,10 +291,7 @@ fn every_module_translates_to_what_each_back_end_takes() {
         assert!(made.len() > modules.len(), "{language:?}: {}", made.len());
         let said = refused(language, &made, &folder(&format!("{language:?}")));
         if said.is_none() {
-            eprintln!(
-                "{language:?}: translated, and not checked: {} is not here",
-                compiler(language)
-            );
+            eprintln!("{language:?}: translated, and not checked: no compiler of it is here");
         }
         assert_eq!(said.unwrap_or_default(), "", "{language:?}");
     }
