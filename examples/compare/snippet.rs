@@ -147,6 +147,7 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         encoding,
         many_lights,
         textbook,
+        flat_lights,
         gather,
     } = sampler;
     Literal::new("sampler", "PcfDescriptor")
@@ -155,6 +156,12 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
         .field("many_lights", "", many_lights, &default.many_lights)
         .field("textbook", "", textbook, &default.textbook)
+        .field(
+            "flat_lights",
+            "FlatLights::",
+            flat_lights,
+            &default.flat_lights,
+        )
         .field("gather", "Gather::", gather, &default.gather)
         .finish()
 }

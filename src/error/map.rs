@@ -290,6 +290,16 @@ pub enum PcfError {
         /// The maps that the sampler is to read.
         map: crate::MapKind,
     },
+    /// A setting for flat maps, of a sampler for others.
+    #[error(
+        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Flat"
+    )]
+    FlatOnly {
+        /// The field.
+        setting: &'static str,
+        /// The maps that the sampler is to read.
+        map: crate::MapKind,
+    },
     /// A sampler for one light and a cube array, on a back end that reads no single cube out of it.
     #[error(
         "wgpu's GL back end reads no single cube out of a cube array; make the sampler with many_lights, or the map without cube_array"
