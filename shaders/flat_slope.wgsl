@@ -14,7 +14,7 @@ fn shadows_flat_derived(
     let ray = select(light.forward, from_light, spot);
     let normal = cross(x, y);
     let facing = abs(dot(normal, ray));
-    let doubt = sqrt(shadows_flat_doubt(position, x, y)) * length(ray);
+    let doubt = 0.25 * sqrt(shadows_flat_doubt(position, x, y)) * length(ray);
     let away = select(1.0, dot(light.forward, from_light), spot);
     // As far as the derivatives' plane may be off where the kernel ends, against the distance.
     let end = reach.x * 2.0 * away / (light.size * light.scale) + reach.y;
@@ -49,14 +49,14 @@ fn shadows_flat_mapped(
     let own = light.near / max(local.x, 1e-30);
     // Four texels of depth from one texel to the next.
     let steepest = 8.0 / (light.size * light.scale) * select(1.0 / light.range, own / away, spot);
-    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps, steepest);
+    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps);
     // Depth is linear in u and v; it is the plane's distance that makes it the receiver's own here.
     let slope = 0.5 * light.size * found.slope;
     let plane = select(1.0 / light.range, own - dot(slope, uv), spot);
     // Texels around the receiver, and around where it is taken to be.
     let world = reach.y + light.rounding * length(position);
     let texels = reach.x + 0.5 * world * light.size * light.scale / away;
-    let bend = texels * found.bend;
+    let bend = texels * shadows_flat_bend(found, steepest);
     let beside = select(vec2f(1.0, bend * light.range), vec2f(own / (own + bend), 0.0), spot);
     return ShadowsFlatDerived(axes * vec3f(plane, light.scale * slope), beside);
 }
@@ -69,4 +69,9 @@ fn shadows_flat_stored_at(
     texel: vec2f,
 ) -> f32 {
     return shadows_flat_depths(map, map_sampler, receiver, size, texel).y;
+}
+
+// The receiver's texel, or the nearest that has others to all sides.
+fn shadows_flat_inner(receiver: ShadowsFlatReceiver, size: f32) -> vec2f {
+    return max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
 }

@@ -266,6 +266,7 @@ fn what_stands_beyond_the_horizon_of_a_receiver_casts_no_shadow_on_it() {
             .replace("select(texel, mirrored, behind)", "texel")
             .replace("2.0 * place - direction", "direction")
             .replace("select(receiver.own, ", "select(0.0, ")
+            .replace("select(own, ", "select(0.0, ")
     });
     for (kernel, [right, broken]) in counts {
         // No texel by itself has a depth there that could be broken.
