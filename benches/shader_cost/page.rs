@@ -28,8 +28,8 @@ a cache, how pixels diverge.
 const RECEIVERS: &str = "## Receivers
 
 Over a Lambert shader with one light that has no shadow. *Normal given*: the host passes its geometric
-normal, which saves the derivatives. `peer` rows do what other engines' shaders do, in WGSL of our own;
-what they get wrong is not measured.
+normal, which saves the derivatives. `peer` rows do what other engines' shaders do, in WGSL of our own.
+What all of them get wrong is measured in [speed-vs-error.md](speed-vs-error.md#instructions-against-error).
 
 | | VALU | normal given | texture | VGPRs | waves |
 |---|--:|--:|--:|--:|--:|

@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt as _;
 use super::kernel::KernelUniform;
 use super::layout::create_layout;
 use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, Gather, Kernel, MapKind, offsets, text};
+use super::{AnyMap, FlatLights, Gather, Kernel, MapKind, offsets, text};
 use crate::error::PcfError;
 use crate::{CubeShadowMap, DepthEncoding};
 
@@ -29,6 +29,9 @@ pub struct PcfDescriptor<'a> {
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). `kernel` is
     /// then its default, or [`Kernel::Hard`]. Default false. For cube maps.
     pub textbook: bool,
+    /// Which lights its flat maps are prepared for. Default [`FlatLights::Any`]; a sampler for one kind
+    /// of light takes fewer instructions. For flat maps.
+    pub flat_lights: FlatLights,
     /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
     pub gather: Gather,
 }
@@ -46,6 +49,12 @@ impl PcfDescriptor<'_> {
                 let map = self.map;
                 return Err(PcfError::CubesOnly { setting, map });
             }
+        }
+        if self.map != MapKind::Flat && self.flat_lights != FlatLights::default() {
+            return Err(PcfError::FlatOnly {
+                setting: "flat_lights",
+                map: self.map,
+            });
         }
         if !self.textbook {
             return match self.kernel.reads(self.encoding) {
@@ -113,6 +122,7 @@ impl PcfSampler {
             encoding,
             many_lights,
             textbook,
+            flat_lights,
             gather,
         } = descriptor;
         kernel.validate()?;
@@ -136,6 +146,7 @@ impl PcfSampler {
             map,
             encoding,
             many_lights,
+            flat_lights,
             border,
             gather: gather.on(device, map)?,
         };
