@@ -43,7 +43,7 @@ fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
     if !receiver.asks {
         return select(0.0, 1.0, receiver.lit);
     }
-    let middle = floor(receiver.texel);
+    let middle = shadows_cube_floor(receiver, receiver.texel);
     var lit = 0.0;
     for (var y = -1; y <= 1; y++) {
         for (var x = -1; x <= 1; x++) {

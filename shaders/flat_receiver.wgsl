@@ -103,3 +103,13 @@ fn shadows_flat_receiver(
     receiver.spot = spot;
     return receiver;
 }
+
+// Where the receiver is between the centres of texels, 0 .. 1.
+fn shadows_flat_between(receiver: ShadowsFlatReceiver) -> vec2f {
+    return fract(receiver.texel + 0.5);
+}
+
+// The corner of a place's texel toward that of the map.
+fn shadows_flat_floor(receiver: ShadowsFlatReceiver, place: vec2f) -> vec2f {
+    return floor(place);
+}

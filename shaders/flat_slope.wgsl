@@ -18,10 +18,10 @@ fn shadows_flat_derived(
     let doubt = shadows_flat_doubt(position, x, y) * distance;
     // As far as the derivatives' plane may be off where the kernel ends.
     let away = select(1.0, dot(light.forward, from_light), spot);
-    let end = reach.x * light.texel * away + reach.y;
+    let end = 0.25 * (reach.x * light.texel * away + reach.y);
     var derived = ShadowsFlatDerived(normal, squared, facing, end * sqrt(doubt * squared) / abs(facing));
     // Gone round once where that says nothing. Not a branch, of which some drivers run both sides.
-    let rounds = select(0, 1, 16.0 * doubt > facing * facing);
+    let rounds = select(0, 1, doubt > facing * facing);
     for (var i = 0; i < rounds; i++) {
         derived = shadows_flat_mapped(map, map_sampler, light, position, reach, 5 * rounds);
     }
@@ -51,14 +51,14 @@ fn shadows_flat_mapped(
     let own = light.depth_per / light.depth_bias * inverse;
     // Four texels of depth from one texel to the next.
     let steepest = 4.0 * light.texel * select(light.depth_per, own * inverse, spot);
-    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps, steepest);
+    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps);
     // Depth is linear over the map; it is the plane's distance that makes it the receiver's own here.
     let forward = select(light.depth_per, own - dot(found.slope, place), spot);
     let normal = axes * vec3f(forward, light.texels * found.slope);
     let facing = dot(normal, shadows_flat_ray(light, from_light));
     // Texels around the receiver, and around where it is taken to be.
     let world = reach.y + light.rounding * length(position);
-    let bend = found.bend * (reach.x + world * light.texels * inverse);
+    let bend = shadows_flat_bend(found, steepest) * (reach.x + world * light.texels * inverse);
     let share = bend / select(light.depth_per, own + bend, spot);
     return ShadowsFlatDerived(normal, dot(normal, normal), facing, abs(facing) * share);
 }
@@ -71,4 +71,9 @@ fn shadows_flat_stored_at(
     texel: vec2f,
 ) -> f32 {
     return shadows_flat_depths(map, map_sampler, receiver, size, texel).y;
+}
+
+// The receiver's texel, or the nearest that has others to all sides.
+fn shadows_flat_inner(receiver: ShadowsFlatReceiver, size: f32) -> vec2f {
+    return max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
 }

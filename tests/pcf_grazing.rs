@@ -267,6 +267,7 @@ fn what_stands_beyond_the_horizon_of_a_receiver_casts_no_shadow_on_it() {
             .replace("2.0 * place - direction", "direction")
             .replace("floor(2.0 * receiver.texel - texel - 0.5)", "texel")
             .replace("select(receiver.own, ", "select(0.0, ")
+            .replace("select(own, ", "select(0.0, ")
             .replace(", receiver.own, ", ", 0.0, ")
     });
     for (kernel, [right, broken]) in counts {

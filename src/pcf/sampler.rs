@@ -212,7 +212,7 @@ impl PcfSampler {
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering); for
     /// [`Kernel::HardwareBilinear`] a `texture_depth_cube`, `texture_depth_cube_array` or
     /// `texture_depth_2d` and a comparison sampler;
-    /// 2 the light (uniform buffer of 48 bytes, for flat maps 96; with `many_lights` a read-only
+    /// 2 the light (uniform buffer of 64 bytes, for flat maps 96; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
     /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
