@@ -1,4 +1,4 @@
-// Depth of casters on the faces of a cube map: what one face a pass and several share.
+// Depth of casters on one face of a cube map, or on a flat map: what all back ends share.
 
 struct ShadowsCubeFaceUniform {
     clip_from_light: mat4x4f,

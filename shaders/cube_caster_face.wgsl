@@ -1,4 +1,4 @@
-// After cube_caster.wgsl: one face a pass.
+// After cube_caster.wgsl: everywhere but on wgpu's GL back end.
 
 @group(0) @binding(0) var<uniform> face: ShadowsCubeFaceUniform;
 

@@ -1,4 +1,4 @@
-// After cube_caster.wgsl: one face a pass on wgpu's GL back end. There clip z becomes 2 z - w, which for
+// After cube_caster.wgsl: on wgpu's GL back end. There clip z becomes 2 z - w, which for
 // reverse-Z is a small difference of large numbers: it loses depth's digits, and far triangles to GL's
 // far plane. So fragments write depth, and vertices lie in the middle of clip space, where 2 z - w is 0.
 

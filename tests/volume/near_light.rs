@@ -101,7 +101,9 @@ fn a_cap_of_far_triangles_is_not_enough_there() {
     stage.savings.method = Method::ZFail;
     assert_eq!(truth.errors(&stage.draw(&gpu)).wrong, 0);
     stage.savings.caps = Caps::Full;
-    assert!(truth.errors(&stage.draw(&gpu)).wrong > 300);
+    let wrong = truth.errors(&stage.draw(&gpu)).wrong;
+    eprintln!("{wrong}");
+    assert!(wrong > 300, "{wrong}");
 }
 
 #[test]
