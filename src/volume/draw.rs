@@ -4,6 +4,7 @@ use super::counter::{self, Counter, Counting};
 use super::kept::Slot;
 use super::layout::{storage, uniform};
 use super::method::Count;
+use super::near_plane::NearPlane;
 use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces};
 use super::renderer::Drawn;
@@ -15,6 +16,8 @@ use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
 const EXTRUDE: &str = include_str!("../../shaders/volume_extrude.wgsl");
+const CORNER: &str = include_str!("../../shaders/volume_corner.wgsl");
+const CORNER_CUT: &str = include_str!("../../shaders/volume_corner_cut.wgsl");
 const AS_IS: &str = include_str!("../../shaders/volume_depth_as_is.wgsl");
 const STEPS: &str = include_str!("../../shaders/volume_depth_steps.wgsl");
 const DRAW: &str = include_str!("../../shaders/volume_draw.wgsl");
@@ -45,14 +48,21 @@ pub(super) enum Feed {
 
 impl Feed {
     /// The shader of all faces.
-    pub fn source(self, depth: DepthConvention) -> String {
+    pub fn source(self, depth: DepthConvention, near: NearPlane) -> String {
+        let (extension, corner) = match near {
+            NearPlane::Clipped | NearPlane::Passed => ("", CORNER),
+            NearPlane::Cut => ("enable clip_distances;", CORNER_CUT),
+        };
         let set_back = match depth {
             DepthConvention::InfiniteReverse => AS_IS,
             DepthConvention::FiniteReverse | DepthConvention::Standard => STEPS,
         };
         match self {
-            Self::Pulled => [POSITION, set_back, EXTRUDE, DRAW].join("\n"),
-            Self::Records => [POSITION, set_back, EXTRUDE, LIGHT_SIDE, VERTEX].join("\n"),
+            Self::Pulled => [extension, POSITION, set_back, EXTRUDE, corner, DRAW].join("\n"),
+            Self::Records => [
+                extension, POSITION, set_back, EXTRUDE, corner, LIGHT_SIDE, VERTEX,
+            ]
+            .join("\n"),
         }
     }
 
@@ -190,12 +200,14 @@ impl DrawPipelines {
                 source: wgpu::ShaderSource::Wgsl(source.into()),
             })
         };
+        let near = NearPlane::of(device.features(), descriptor.depth);
         let factory = Factory {
             device,
             descriptor,
             feed,
+            near,
             label,
-            module: module(feed.source(descriptor.depth)),
+            module: module(feed.source(descriptor.depth, near)),
             counting: (descriptor.counter == Counter::Exact)
                 .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -307,6 +319,7 @@ struct Factory<'a> {
     device: &'a wgpu::Device,
     descriptor: &'a ShadowVolumeDescriptor<'a>,
     feed: Feed,
+    near: NearPlane,
     label: &'a str,
     module: wgpu::ShaderModule,
     /// Holds the fragment shader, where that is what counts.
@@ -333,10 +346,11 @@ impl Factory<'_> {
             targets: &targets,
         });
         let steps = [("depth_steps", f64::from(self.bias(style)))];
-        let constants = match self.descriptor.depth {
-            DepthConvention::InfiniteReverse => &[][..],
-            DepthConvention::FiniteReverse | DepthConvention::Standard => &steps,
-        };
+        let steps = steps
+            .into_iter()
+            .filter(|_| self.descriptor.depth.clips_far());
+        let near_depth = self.near.depth(self.descriptor.depth);
+        let constants: Vec<_> = steps.chain(near_depth).collect();
         self.device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(&label),
@@ -345,7 +359,7 @@ impl Factory<'_> {
                     module: &self.module,
                     entry_point: Some(faces.entry_point()),
                     compilation_options: wgpu::PipelineCompilationOptions {
-                        constants,
+                        constants: &constants,
                         ..Default::default()
                     },
                     buffers: &self.feed.vertex_buffers(faces),

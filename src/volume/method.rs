@@ -11,8 +11,9 @@
 //! - z-pass needs no cap that cannot lie between N and P: no light cap, for P is the first surface
 //!   that the host draws and the light cap is such a surface, and no dark cap at infinity.
 //!
-//! Where far faces are kept by `unclipped_depth`, near ones are, too: rays then start at the eye
-//! (from infinity behind it in an orthographic view), and the pyramid is that much larger.
+//! Where far faces are kept by `unclipped_depth`, near ones are, too, unless the vertex shaders cut them
+//! (see `near_plane.rs`): rays then start at the eye (from infinity behind it in an orthographic view),
+//! and the pyramid is that much larger.
 //!
 //! **The dark cap** closes the sides, so its boundary must be theirs, projected to infinity. The
 //! light cap projected there is one such chain; a fan from one point over the silhouette is another.
@@ -29,6 +30,7 @@ use glam::{DVec4, Vec4Swizzles as _};
 use super::descriptor::ShadowVolumeDescriptor;
 use super::far_end::{Ends, FarEnd};
 use super::hull::Hull;
+use super::near_plane::NearPlane;
 use super::scissor::{self, Rect};
 use super::world_box::WorldBox;
 use super::{ShadowVolumeFrame, StartFrom};
@@ -82,16 +84,18 @@ pub(super) struct Options {
     pub extrusion: Extrusion,
     pub culling: bool,
     pub start_from: StartFrom,
+    pub near: NearPlane,
 }
 
 impl Options {
-    pub fn of(descriptor: &ShadowVolumeDescriptor<'_>) -> Self {
+    pub fn of(device: &wgpu::Device, descriptor: &ShadowVolumeDescriptor<'_>) -> Self {
         Self {
             method: descriptor.method,
             caps: descriptor.caps,
             extrusion: descriptor.extrusion,
             culling: descriptor.culling,
             start_from: descriptor.start_from,
+            near: NearPlane::of(device.features(), descriptor.depth),
         }
     }
 
@@ -160,7 +164,7 @@ impl Rules {
     pub fn new(frame: &ShadowVolumeFrame<'_>, options: Options) -> Self {
         let light = frame.light.0.as_dvec4();
         let view = frame.view;
-        let origins = origins(view);
+        let origins = origins(view, options.near);
         let ends = Ends::new(frame, origins.clone());
         let range = ends.range;
         let receiving = ends
@@ -264,9 +268,9 @@ impl Rules {
 }
 
 /// The points from which rays start, such that all others are between them.
-fn origins(view: &View) -> Vec<DVec4> {
+fn origins(view: &View, near_plane: NearPlane) -> Vec<DVec4> {
     let near = view.near_corners().map(|corner| corner.extend(1.0));
-    if !view.depth().clips_far() {
+    if near_plane.ends_faces() {
         return near.to_vec();
     }
     let eye = view.eye();
