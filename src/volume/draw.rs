@@ -142,6 +142,8 @@ pub(super) struct Style {
     /// Whether faces that are clockwise on screen are the volume's front.
     pub clockwise: bool,
     pub part: Part,
+    /// Whether depth is clipped though the projection has a far plane: see `Form`.
+    pub clipped: bool,
 }
 
 impl Style {
@@ -208,6 +210,8 @@ impl DrawPipelines {
             near,
             label,
             module: module(feed.source(descriptor.depth, near)),
+            clipped: (descriptor.depth.clips_far())
+                .then(|| module(feed.source(DepthConvention::InfiniteReverse, NearPlane::Clipped))),
             counting: (descriptor.counter == Counter::Exact)
                 .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -223,11 +227,19 @@ impl DrawPipelines {
         let kinds = KINDS.map(|(count, faces)| (count, faces, Part::Whole));
         let kinds = kinds.iter().chain(parts);
         let styles = kinds.flat_map(|&(count, faces, part)| {
-            [false, true].map(|clockwise| Style {
-                count,
-                faces,
-                clockwise,
-                part,
+            let clips = descriptor.depth.clips_far();
+            let may_be_clipped = clips && (count, faces) == (Count::Fail, Faces::LightCap);
+            let clipped = [false, true]
+                .into_iter()
+                .take(1 + usize::from(may_be_clipped));
+            clipped.flat_map(move |clipped| {
+                [false, true].map(|clockwise| Style {
+                    count,
+                    faces,
+                    clockwise,
+                    part,
+                    clipped,
+                })
             })
         });
         let pipelines = styles.map(|style| (style, factory.make(style))).collect();
@@ -322,6 +334,8 @@ struct Factory<'a> {
     near: NearPlane,
     label: &'a str,
     module: wgpu::ShaderModule,
+    /// The same for faces that the rasteriser clips.
+    clipped: Option<wgpu::ShaderModule>,
     /// Holds the fragment shader, where that is what counts.
     counting: Option<wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
@@ -334,29 +348,32 @@ impl Factory<'_> {
         let nearer = self.descriptor.depth.nearer();
         let counting = self.descriptor.counter.counting(style.count, nearer);
         let targets = self.targets(&counting);
-        let (module, fragment) = match &self.counting {
+        let (counting_module, fragment) = match &self.counting {
             Some(counting) => (counting, "shadows_volume_count"),
             None => (&self.module, "shadows_volume_nothing"),
         };
         // A pass without colour needs no fragment stage, and is faster without.
         let fragment = (!targets.is_empty()).then(|| wgpu::FragmentState {
-            module,
+            module: counting_module,
             entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         });
-        let steps = [("depth_steps", f64::from(self.bias(style)))];
-        let steps = steps
-            .into_iter()
-            .filter(|_| self.descriptor.depth.clips_far());
+        let unclipped_depth = self.descriptor.depth.clips_far() && !style.clipped;
+        let module = match &self.clipped {
+            Some(clipped) if style.clipped => clipped,
+            _ => &self.module,
+        };
+        let steps = ("depth_steps", f64::from(self.bias(style)));
         let near_depth = self.near.depth(self.descriptor.depth);
-        let constants: Vec<_> = steps.chain(near_depth).collect();
+        let of_unclipped = [Some(steps), near_depth].into_iter().flatten();
+        let constants: Vec<_> = of_unclipped.filter(|_| unclipped_depth).collect();
         self.device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(&label),
                 layout: Some(&self.layout),
                 vertex: wgpu::VertexState {
-                    module: &self.module,
+                    module,
                     entry_point: Some(faces.entry_point()),
                     compilation_options: wgpu::PipelineCompilationOptions {
                         constants: &constants,
@@ -375,7 +392,7 @@ impl Factory<'_> {
                         Part::Back => Some(wgpu::Face::Front),
                     },
                     // Faces beyond a finite far plane must count; clamped, they do.
-                    unclipped_depth: self.descriptor.depth.clips_far(),
+                    unclipped_depth,
                     ..Default::default()
                 },
                 depth_stencil: Some(self.depth_stencil(style, counting)),

@@ -25,7 +25,7 @@
 //! In a plane, where finite volumes end, any two caps with one boundary are the same chain, and the
 //! fan serves.
 
-use glam::{DVec4, Vec4Swizzles as _};
+use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 use super::descriptor::ShadowVolumeDescriptor;
 use super::far_end::{Ends, FarEnd};
@@ -138,6 +138,8 @@ pub(super) enum Skip {
 pub(super) struct Form {
     pub count: Count,
     pub dark_cap: DarkCap,
+    /// Whether the light cap is clipped, as the host's surfaces are.
+    pub light_cap_clipped: bool,
     /// Vertices of a side: 6 for a quad, 3 where its far edge is one point at infinity.
     pub side_vertices: u32,
     pub far: FarEnd,
@@ -157,6 +159,8 @@ pub(super) struct Rules {
     visible: Hull,
     /// From the receivers to the light: what misses it shadows none of them.
     receiving: Option<Hull>,
+    /// Of a view that clips both; positive between them.
+    near_and_far: Option<[DVec4; 2]>,
     light_reaches_view: bool,
 }
 
@@ -182,6 +186,7 @@ impl Rules {
             near: Hull::new(&with(&origins, unit(light))),
             visible: Hull::new(&frustum),
             receiving,
+            near_and_far: view.near_and_far_planes(),
             light_reaches_view,
             origins,
             ends,
@@ -228,6 +233,7 @@ impl Rules {
         Form {
             count,
             dark_cap,
+            light_cap_clipped: count == Count::Fail && self.is_cut_by_near_alone(world),
             side_vertices: if directional && !full && far.is_infinite() {
                 3
             } else {
@@ -235,6 +241,21 @@ impl Rules {
             },
             far,
         }
+    }
+
+    /// Whether the near plane may cut the caster, and the far plane, which the view has, certainly does not.
+    ///
+    /// Its light cap is then clipped in z-fail, which loses nothing by that. Cut where the host's surfaces
+    /// are, by the same arithmetic, it has their corners. From any other the rasteriser finds other depths:
+    /// a corner is moved by up to half of 1/256 of a pixel, and steep depth by more than any bias.
+    fn is_cut_by_near_alone(&self, world: &WorldBox) -> bool {
+        let within = |plane: DVec4| {
+            let normal = plane.xyz();
+            let size = normal.length() * world.reach(DVec3::ZERO) + plane.w.abs();
+            world.nearest(normal) + plane.w > 1e-5 * size
+        };
+        self.near_and_far
+            .is_some_and(|[near, far]| within(far) && !within(near))
     }
 
     /// The nearest end that leaves every shadow whole.
