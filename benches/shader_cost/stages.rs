@@ -54,7 +54,7 @@ pub fn all() -> Vec<Case> {
         case(
             "caster/face-distance".to_owned(),
             &joined(FACE),
-            &["vertex_distance", "fragment_distance"],
+            &["vertex", "fragment_distance"],
             1,
             vec![],
         ),

@@ -331,7 +331,7 @@ impl ShadowMap {
         self.instances.write(&mut self.uploads, &instances);
         self.pipelines
             .make(device, self.draws.iter().map(Draw::key));
-        let uniform = FaceUniform::new(&frame.clip_from_light(), frame.range);
+        let uniform = FaceUniform::new(&frame.clip_from_light(), frame.range, self.size);
         self.uniforms.write(&mut self.uploads, 0, uniform);
         Ok(())
     }

@@ -16,22 +16,23 @@ enum Mode {
     HardCases,
     Temporal,
     Growth,
+    Cost,
 }
 
-use Mode::{Compare, Growth, HardCases, Sweep, Temporal};
+use Mode::{Compare, Cost, Growth, HardCases, Sweep, Temporal};
 
 /// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
 /// Options that are not here are of use to all.
 const USES: [(&str, &[Mode]); 16] = [
-    ("scenes", &[Compare, Sweep, Temporal]),
-    ("ground", &[Compare, Sweep, Temporal]),
-    ("light", &[Compare, Sweep, Temporal]),
+    ("scenes", &[Compare, Sweep, Temporal, Cost]),
+    ("ground", &[Compare, Sweep, Temporal, Cost]),
+    ("light", &[Compare, Sweep, Temporal, Cost]),
     ("light_kind", &[Compare, Sweep, Temporal]),
-    ("range", &[Compare, Sweep, Temporal]),
-    ("camera", &[Compare, Sweep, Temporal]),
+    ("range", &[Compare, Sweep, Temporal, Cost]),
+    ("camera", &[Compare, Sweep, Temporal, Cost]),
     ("techniques", &[Compare, Sweep, Temporal]),
-    ("size", &[Compare, Sweep]),
-    ("face", &[Compare, Temporal]),
+    ("size", &[Compare, Sweep, Cost]),
+    ("face", &[Compare, Temporal, Cost]),
     ("frames", &[Compare, Sweep, Growth]),
     ("seed", &[Compare]),
     ("export", &[Compare]),
@@ -48,6 +49,7 @@ impl Mode {
             _ if args.hard_cases => HardCases,
             _ if args.temporal.is_some() => Temporal,
             _ if args.growth.is_some() => Growth,
+            _ if args.cost.is_some() => Cost,
             _ => Compare,
         }
     }
@@ -60,6 +62,7 @@ impl Mode {
             HardCases => Some("--hard-cases"),
             Temporal => Some("--temporal"),
             Growth => Some("--growth"),
+            Cost => Some("--cost"),
         }
     }
 }

@@ -160,7 +160,7 @@ impl CubeGpu {
         let Some(light) = slot.light else { return };
         let near = near_plane.of_point(&light);
         for face in CubeFace::ALL {
-            let uniform = FaceUniform::new(&face.clip_from_light(near), light.range);
+            let uniform = FaceUniform::new(&face.clip_from_light(near), light.range, self.size);
             let at = uniform_index(index, face);
             self.uniforms.write(&mut self.uploads, at, uniform);
         }

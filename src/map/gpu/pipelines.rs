@@ -74,10 +74,10 @@ impl Pipelines {
 
     fn pipeline(&self, device: &wgpu::Device, key: PipelineKey) -> wgpu::RenderPipeline {
         let kind = &self.kind;
-        let (vertex, fragment) = match (kind.encoding, self.depth_written) {
-            (DepthEncoding::MajorAxis, false) => ("vertex", None),
-            (DepthEncoding::MajorAxis, true) => ("vertex", Some("fragment_depth")),
-            (DepthEncoding::LinearDistance, _) => ("vertex_distance", Some("fragment_distance")),
+        let fragment = match (kind.encoding, self.depth_written) {
+            (DepthEncoding::MajorAxis, false) => None,
+            (DepthEncoding::MajorAxis, true) => Some("fragment_depth"),
+            (DepthEncoding::LinearDistance, _) => Some("fragment_distance"),
         };
         let written = [
             ("slope_scale", f64::from(kind.slope_scale)),
@@ -88,7 +88,7 @@ impl Pipelines {
             layout: Some(&self.layout),
             vertex: wgpu::VertexState {
                 module: &self.shader,
-                entry_point: Some(vertex),
+                entry_point: Some("vertex"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &[
                     Some(wgpu::VertexBufferLayout {

@@ -18,15 +18,19 @@ pub(crate) fn most_tiles(limits: &wgpu::Limits) -> u32 {
 pub(crate) struct FaceUniform {
     clip_from_light: [f32; 16],
     range: f32,
-    padding: [f32; 3],
+    /// Of the map's side, where that is 2 wide.
+    texel: f32,
+    padding: [f32; 2],
 }
 
 impl FaceUniform {
-    pub fn new(clip_from_light: &glam::Mat4, range: f32) -> Self {
+    /// `size`: texels along a side of the map.
+    pub fn new(clip_from_light: &glam::Mat4, range: f32, size: u32) -> Self {
         Self {
             clip_from_light: clip_from_light.to_cols_array(),
             range,
-            padding: [0.0; 3],
+            texel: 2.0 / size as f32,
+            padding: [0.0; 2],
         }
     }
 }
