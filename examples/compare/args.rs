@@ -136,6 +136,11 @@ pub struct Args {
           value_parser = times, group = "mode")]
     pub growth: Option<f64>,
 
+    /// Instead, draw the scenes and the hard cases with the shaders' arithmetic as drivers may choose it:
+    /// names, separated by commas, or all. Exits with 1 if a hard case fails that should not.
+    #[arg(long, value_name = "NAME,..|all", value_delimiter = ',', group = "mode")]
+    pub arithmetic: Option<Vec<String>>,
+
     /// Directory for all that is written; made where it is missing.
     #[arg(long, value_name = "DIR", default_value = "target/compare")]
     pub out: PathBuf,

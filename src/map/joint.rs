@@ -87,10 +87,7 @@ impl Joint {
                     bind_group_layouts: &[Some(&layout)],
                     immediate_size: 0,
                 }),
-                shader: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(&label),
-                    source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CASTER_VIEWS.into()),
-                }),
+                shader: crate::shader::module(device, &label, crate::wgsl::CUBE_CASTER_VIEWS),
                 constants: match separators {
                     true => &[("separators", 1.0)],
                     false => &[],

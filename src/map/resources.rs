@@ -152,10 +152,7 @@ pub(super) fn caster_shader(device: &wgpu::Device, label: &str) -> wgpu::ShaderM
         false => crate::wgsl::CUBE_CASTER,
         true => crate::wgsl::CUBE_CASTER_GL,
     };
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    })
+    crate::shader::module(device, label, source)
 }
 
 /// `views`: the faces that are drawn at once, by a shader that knows which it is on.

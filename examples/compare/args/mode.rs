@@ -16,28 +16,29 @@ enum Mode {
     HardCases,
     Temporal,
     Growth,
+    Arithmetic,
 }
 
-use Mode::{Compare, Growth, HardCases, Sweep, Temporal};
+use Mode::{Arithmetic, Compare, Growth, HardCases, Sweep, Temporal};
 
 /// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
 /// Options that are not here are of use to all.
 const USES: [(&str, &[Mode]); 16] = [
-    ("scenes", &[Compare, Sweep, Temporal]),
-    ("ground", &[Compare, Sweep, Temporal]),
-    ("light", &[Compare, Sweep, Temporal]),
-    ("light_kind", &[Compare, Sweep, Temporal]),
-    ("range", &[Compare, Sweep, Temporal]),
-    ("camera", &[Compare, Sweep, Temporal]),
-    ("techniques", &[Compare, Sweep, Temporal]),
-    ("size", &[Compare, Sweep]),
-    ("face", &[Compare, Temporal]),
+    ("scenes", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("ground", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("light", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("light_kind", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("range", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("camera", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("techniques", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("size", &[Compare, Sweep, Arithmetic]),
+    ("face", &[Compare, Temporal, Arithmetic]),
     ("frames", &[Compare, Sweep, Growth]),
     ("seed", &[Compare]),
     ("export", &[Compare]),
     ("error_at_most", &[Sweep]),
     ("time_at_most", &[Sweep]),
-    ("rounds", &[HardCases]),
+    ("rounds", &[HardCases, Arithmetic]),
     ("steps", &[Temporal]),
 ];
 
@@ -48,6 +49,7 @@ impl Mode {
             _ if args.hard_cases => HardCases,
             _ if args.temporal.is_some() => Temporal,
             _ if args.growth.is_some() => Growth,
+            _ if args.arithmetic.is_some() => Arithmetic,
             _ => Compare,
         }
     }
@@ -60,6 +62,7 @@ impl Mode {
             HardCases => Some("--hard-cases"),
             Temporal => Some("--temporal"),
             Growth => Some("--growth"),
+            Arithmetic => Some("--arithmetic"),
         }
     }
 }

@@ -16,11 +16,12 @@ pub mod trial;
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
+use indicatif::ProgressBar;
 use shadows::{CubeShadowMapDescriptor, wgpu};
 
 use self::cases::Case;
 use self::expect::{is_software, way};
-use self::table::Table;
+use self::table::{Row, Table};
 use self::trial::Trial;
 use crate::date;
 use crate::host::gpu::{Gpu, describe};
@@ -32,7 +33,7 @@ use crate::table::{ROWS, volume};
 use crate::technique::{Config, Technique};
 
 /// Of the pictures, in pixels.
-const SIZE: [u32; 2] = [320, 240];
+pub const SIZE: [u32; 2] = [320, 240];
 /// Texels along a map's side.
 const SIDE: u32 = 512;
 /// The named techniques that are tried.
@@ -69,15 +70,7 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     let techniques = techniques()?;
     let cases: Vec<Case> = cases::all().collect();
     let bar = progress(cases.len() as u64 * u64::from(rounds), "hard cases");
-    let row = |case: &Case| {
-        let techniques = &techniques;
-        Trial {
-            gpu,
-            case,
-            techniques,
-        }
-        .run(rounds, &bar)
-    };
+    let row = |case: &Case| tried(gpu, case, &techniques, rounds, &bar);
     let rows = cases.iter().map(row).collect::<Result<_>>()?;
     bar.finish_and_clear();
     let table = Table {
@@ -96,6 +89,25 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     failures.iter().for_each(|failure| note(failure));
     say(&dir.join("hard-cases.md").display().to_string())?;
     Ok(failures.len())
+}
+
+/// One case in so many rounds, of each of which `bar` is told.
+///
+/// # Errors
+/// If the device cannot do what a technique needs.
+pub fn tried(
+    gpu: &Gpu,
+    case: &Case,
+    techniques: &[Technique],
+    rounds: u32,
+    bar: &ProgressBar,
+) -> Result<Row> {
+    let trial = Trial {
+        gpu,
+        case,
+        techniques,
+    };
+    trial.run(rounds, bar)
 }
 
 fn write(table: &Table, dir: &Path) -> Result<()> {
