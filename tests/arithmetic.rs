@@ -49,6 +49,7 @@ fn explore() {
                 if let Some(o) = o { print!(" | {} {:.4} {}+{}{}", t.name, o.wrong_percent(), o.false_lit, o.false_shadow, if o.failures.is_empty() { "" } else { " FAILS" }); }
             }
             println!();
+            if std::env::var("SAY").is_ok() { for (t, o) in techniques.iter().zip(&row.outcomes) { for f in o.iter().flat_map(|o| &o.failures) { println!("    {}: {f}", t.name); } } }
         }
     }
 }

@@ -14,6 +14,11 @@ const STEPS: f32 = 256.0;
 /// Beyond so many steps from the picture's middle f32 has no room for a step.
 const LAST: f32 = 8_388_608.0;
 
+/// Of shadow volumes, the function that gives the corners that are the casters' own. Those far away may be
+/// behind the eye, where hardware clips before it snaps.
+const NEAR: &str = "near_point";
+const HOST: &str = "host_vertex";
+
 /// Positions in clip space whose place in a picture of so many pixels is a whole number of steps. Hardware
 /// takes depth from triangles so moved, llvmpipe from those before.
 pub struct Snap(pub [u32; 2]);
@@ -27,8 +32,10 @@ impl Rules for Snap {
         let Some(result) = &work.function.result else {
             return value;
         };
-        if is_position(result.binding.as_ref()) {
-            return self.snapped(value, work);
+        match work.function.name.as_deref() {
+            Some(NEAR) => return self.snapped(value, work),
+            Some(HOST) => {}
+            _ => return value,
         }
         let ty = result.ty;
         let TypeInner::Struct { members, .. } = &work.module.types[ty].inner else {

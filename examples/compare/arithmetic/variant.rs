@@ -199,11 +199,12 @@ impl Variant {
     pub fn rewrite(self, wgsl: &str, size: [u32; 2]) -> String {
         let module = naga::front::wgsl::parse_str(wgsl).expect("shaders parse");
         let module = with_types(module);
+        let module = match self.snapped {
+            true => made_anew(module, &Snap(size), &|_| true),
+            false => module,
+        };
         let module = made_anew(module, &Inline, &|_| true);
         let mut module = made_anew(module, &self.arithmetic, &|entry| self.is_about(entry));
-        if self.snapped {
-            module = made_anew(module, &Snap(size), &is_seen);
-        }
         naga::compact::compact(&mut module, naga::compact::KeepUnused::No);
         let info = validated(&module);
         let flags = naga::back::wgsl::WriterFlags::empty();
@@ -220,12 +221,6 @@ impl Variant {
             Where::Fragments => entry.stage == naga::ShaderStage::Fragment,
         }
     }
-}
-
-/// Whether an entry point draws in the picture itself.
-fn is_seen(entry: &naga::EntryPoint) -> bool {
-    let name = entry.name.as_str();
-    name == "host_vertex" || name.starts_with("shadows_volume_") && entry.stage == naga::ShaderStage::Vertex
 }
 
 /// While it lives, the shaders that its thread makes are rewritten.
