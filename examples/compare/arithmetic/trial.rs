@@ -4,10 +4,11 @@ use anyhow::Result;
 use indicatif::ProgressBar;
 use shadows::reference::ReferenceImage;
 
-use super::Plan;
+use super::{Plan, bounds};
 use super::variant::Variant;
 use crate::hard;
 use crate::hard::cases::Case;
+use crate::hard::trial::Trial;
 use crate::host::gpu::Gpu;
 use crate::shadow::Shadow;
 use crate::stage::Stage;
@@ -89,7 +90,13 @@ impl<'a> Trials<'a> {
         drop(installed);
         let _installed = variant.install(hard::SIZE);
         for case in self.cases {
-            let found = hard::tried(self.gpu, case, self.techniques, self.plan.rounds, bar)?;
+            let trial = Trial {
+                gpu: self.gpu,
+                case,
+                techniques: self.techniques,
+                limits: bounds::of(variant.name),
+            };
+            let found = trial.run(self.plan.rounds, bar)?;
             let mut kinds = Kinds::default();
             for (technique, outcome) in self.techniques.iter().zip(&found.outcomes) {
                 let Some(outcome) = outcome else { continue };

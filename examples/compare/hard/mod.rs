@@ -16,12 +16,11 @@ pub mod trial;
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
-use indicatif::ProgressBar;
 use shadows::{CubeShadowMapDescriptor, wgpu};
 
 use self::cases::Case;
 use self::expect::{is_software, way};
-use self::table::{Row, Table};
+use self::table::Table;
 use self::trial::Trial;
 use crate::date;
 use crate::host::gpu::{Gpu, describe};
@@ -70,7 +69,16 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     let techniques = techniques()?;
     let cases: Vec<Case> = cases::all().collect();
     let bar = progress(cases.len() as u64 * u64::from(rounds), "hard cases");
-    let row = |case: &Case| tried(gpu, case, &techniques, rounds, &bar);
+    let row = |case: &Case| {
+        let (techniques, limits) = (techniques.as_slice(), [].as_slice());
+        Trial {
+            gpu,
+            case,
+            techniques,
+            limits,
+        }
+        .run(rounds, &bar)
+    };
     let rows = cases.iter().map(row).collect::<Result<_>>()?;
     bar.finish_and_clear();
     let table = Table {
@@ -89,25 +97,6 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     failures.iter().for_each(|failure| note(failure));
     say(&dir.join("hard-cases.md").display().to_string())?;
     Ok(failures.len())
-}
-
-/// One case in so many rounds, of each of which `bar` is told.
-///
-/// # Errors
-/// If the device cannot do what a technique needs.
-pub fn tried(
-    gpu: &Gpu,
-    case: &Case,
-    techniques: &[Technique],
-    rounds: u32,
-    bar: &ProgressBar,
-) -> Result<Row> {
-    let trial = Trial {
-        gpu,
-        case,
-        techniques,
-    };
-    trial.run(rounds, bar)
 }
 
 fn write(table: &Table, dir: &Path) -> Result<()> {
