@@ -5,9 +5,6 @@
 //!   fragment shader).
 //! - `one_moving_vs_all_moving`, `still_vs_all_moving`: the same scene, one sphere or none moving, the
 //!   latter for 33 frames in a row, of which the median counts.
-//! - `multiview_vs_six_passes`: the same scene, all moving, all six faces in one multiview pass
-//!   against a pass for each, where the device has multiview; `_of_64`: with faces of 64 texels, so
-//!   that passes and draws weigh more than pixels.
 //! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
 //!   against all moving; the first frame in which none moves.
 //! - `flat_prepare_still_vs_moving`: the same for a flat map of a directional light and 10,000 casters;
@@ -54,9 +51,7 @@ use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
 use shadows::glam::{Affine3A, Vec3, Vec3A};
-use shadows::{
-    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight, wgpu,
-};
+use shadows::{Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu};
 use shapes::cuboid;
 
 fn main() {
@@ -67,20 +62,6 @@ fn main() {
     };
     println!("adapter {}, clock wall", host::gpu::describe(&gpu.info));
     spheres(&gpu, if quick { 15 } else { 75 });
-    if gpu.support.multiview {
-        multiview(
-            &gpu,
-            "multiview_vs_six_passes",
-            1024,
-            if quick { 5 } else { 25 },
-        );
-        multiview(
-            &gpu,
-            "multiview_vs_six_passes_of_64",
-            64,
-            if quick { 5 } else { 25 },
-        );
-    }
     still_layers::run(&gpu, if quick { 5 } else { 25 });
     prepare(&gpu, if quick { 15 } else { 75 });
     flat::prepare(&gpu, if quick { 15 } else { 75 });
@@ -161,34 +142,6 @@ fn many_in_a_row(mut work: impl FnMut() -> Duration) -> Duration {
     let mut times = [(); 33].map(|()| work());
     times.sort_unstable();
     times[times.len() / 2]
-}
-
-fn multiview(gpu: &Gpu, name: &str, size: u32, rounds: u32) {
-    let scene = spheres_moving(0.0);
-    let light = PointLight::new(scene.light.truncate(), scene.range);
-    let casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
-    let [mut joint, mut separate] = [FacePasses::Multiview, FacePasses::Separate].map(|passes| {
-        let descriptor = CubeShadowMapDescriptor {
-            size,
-            passes,
-            cache: false,
-            ..Default::default()
-        };
-        new_map(gpu, &descriptor)
-    });
-    let (mut one, mut six) = (Vec::new(), Vec::new());
-    // The first round makes pipelines and textures.
-    for round in 0..=rounds {
-        let times = [
-            frame(gpu, &mut joint, light, &casters),
-            frame(gpu, &mut separate, light, &casters),
-        ];
-        if round > 0 {
-            one.push(times[0]);
-            six.push(times[1]);
-        }
-    }
-    ratio(name, &one, &six);
 }
 
 /// Boxes in a flat world of one a square metre, lights all over it.

@@ -19,8 +19,12 @@ mod assembly;
 mod device;
 #[path = "shader_cost/kept.rs"]
 mod kept;
+#[path = "../tests/common/modules.rs"]
+mod modules;
 #[path = "shader_cost/page.rs"]
 mod page;
+#[path = "../tests/common/pcf.rs"]
+mod pcf;
 #[path = "../examples/host/peers.rs"]
 mod peers;
 #[path = "shader_cost/pipeline.rs"]

@@ -1,8 +1,10 @@
-// Depth of casters on the faces of a cube map: what one face a pass and several share.
+// Depth of casters on one face of a cube map, or on a flat map: what all back ends share.
 
 struct ShadowsCubeFaceUniform {
     clip_from_light: mat4x4f,
     range: f32,
+    // Of the map's side, where that is 2 wide.
+    texel: f32,
 }
 
 // Rows of the affine map from the mesh to positions relative to the light. The host multiplies
@@ -18,7 +20,12 @@ fn from_light(position: vec3f, instance: Instance) -> vec3f {
     return vec3f(dot(instance.x, p), dot(instance.y, p), dot(instance.z, p));
 }
 
-struct Fragment {
-    @builtin(position) clip: vec4f,
-    @location(0) from_light: vec3f,
+@group(0) @binding(0) var<uniform> face: ShadowsCubeFaceUniform;
+
+// Distance from the light as a fraction of its range (Gerasimov 2004), on the ray through the texel's centre.
+// A position that is interpolated lies beside that ray by as much as the vertices were snapped.
+@fragment
+fn fragment_distance(@builtin(position) pixel: vec4f) -> @builtin(frag_depth) f32 {
+    let ray = vec3f(pixel.xy * face.texel - 1.0, 1.0);
+    return length(ray) / (pixel.w * face.range);
 }

@@ -1,8 +1,6 @@
-// After cube_caster.wgsl: one face a pass on wgpu's GL back end. There clip z becomes 2 z - w, which for
+// After cube_caster.wgsl: on wgpu's GL back end. There clip z becomes 2 z - w, which for
 // reverse-Z is a small difference of large numbers: it loses depth's digits, and far triangles to GL's
 // far plane. So fragments write depth, and vertices lie in the middle of clip space, where 2 z - w is 0.
-
-@group(0) @binding(0) var<uniform> face: ShadowsCubeFaceUniform;
 
 // Slope-scaled bias: the rasteriser adds it to its own depths alone.
 override slope_scale: f32 = 0.0;
@@ -34,16 +32,4 @@ fn fragment_depth(in: Drawn) -> @builtin(frag_depth) f32 {
         discard;
     }
     return min(depth - slope_scale * slope, 1.0);
-}
-
-@vertex
-fn vertex_distance(@location(0) position: vec3f, instance: Instance) -> Fragment {
-    let relative = from_light(position, instance);
-    return Fragment(in_the_middle(face.clip_from_light * vec4f(relative, 1.0)), relative);
-}
-
-// Distance from the light as a fraction of its range (Gerasimov 2004).
-@fragment
-fn fragment_distance(in: Fragment) -> @builtin(frag_depth) f32 {
-    return length(in.from_light) / face.range;
 }

@@ -1,20 +1,22 @@
-// The four stored depths around a corner of texels that is in this direction, each fetched by itself:
-// for devices that have no gather (WebGL 2) or a wrong one. Bottom left, bottom right, top right, top
-// left.
+// The four stored depths around a corner of texels that is in this direction along the face's axes, each
+// fetched by itself: for devices that have no gather (WebGL 2) or a wrong one. Bottom left, bottom right,
+// top right, top left.
 fn shadows_cube_gather(
     map: texture_cube<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     direction: vec3f,
 ) -> vec4f {
-    // Half a texel, so that each fetch is at the middle of one.
-    let right = receiver.face.right / size;
-    let down = receiver.face.down / size;
+    // Each at the middle of its texel.
+    let face = receiver.face;
+    let a = shadows_cube_to_world(face, direction + vec3f(0.0, -0.5, 0.5));
+    let b = shadows_cube_to_world(face, direction + vec3f(0.0, 0.5, 0.5));
+    let c = shadows_cube_to_world(face, direction + vec3f(0.0, 0.5, -0.5));
+    let d = shadows_cube_to_world(face, direction + vec3f(0.0, -0.5, -0.5));
     return vec4f(
-        shadows_cube_fetch(map, map_sampler, receiver, direction - right + down),
-        shadows_cube_fetch(map, map_sampler, receiver, direction + right + down),
-        shadows_cube_fetch(map, map_sampler, receiver, direction + right - down),
-        shadows_cube_fetch(map, map_sampler, receiver, direction - right - down),
+        shadows_cube_fetch(map, map_sampler, receiver, a),
+        shadows_cube_fetch(map, map_sampler, receiver, b),
+        shadows_cube_fetch(map, map_sampler, receiver, c),
+        shadows_cube_fetch(map, map_sampler, receiver, d),
     );
 }

@@ -1,45 +1,29 @@
-// What every kernel on a cube map needs: the light, the texel frame of the face that a receiver
+// What kernels on a cube map need besides the light: the texel frame of the face that a receiver
 // falls on, and the depth of the receiver's plane in the direction of any texel.
 
-struct ShadowsCubeLight {
-    // World space.
-    position: vec3f,
-    near: f32,
-    range: f32,
-    // Texels along a face.
-    size: f32,
-    // Biases; a texel at distance 1 along the major axis is 2 / size wide.
-    normal_offset: f32,
-    depth_scale: f32,
-    // One step of the map's format.
-    quantum: f32,
-    // Which cube of the array; -1: no caster in range, -2: not drawn yet.
-    cube: i32,
-    // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
-    // positions".
-    rounding: f32,
-}
-
-// One face of the cube, seen from a receiver on it: directions are
-// forward + u * right + v * down with u and v in -1 .. 1, and `texel` is where the receiver is,
-// in texels from the corner (-1, -1).
+// Which face of the cube a direction falls on, as what it takes to turn vectors to the face's axes.
 struct ShadowsCubeFace {
-    forward: vec3f,
-    right: vec3f,
-    down: vec3f,
-    texel: vec2f,
+    x_major: bool,
+    y_major: bool,
+    // The signs of the face's forward, right and down axes along the world's.
+    side: f32,
+    right: f32,
+    down: f32,
 }
 
 // A map stores near / d, d along the major axis, which for a plane n.x = q is near * (n.dir) / q
-// with dir of length 1 along that axis: linear in dir. `plane` is near * n / q, so that the depth
-// of the receiver's plane in any direction is one dot product, and no tap needs a bias for slope.
+// with dir of length 1 along that axis: linear in dir, so that the depth of the receiver's plane in any
+// direction is one dot product, and no tap needs a bias for slope. Directions are in texels: from the
+// light to the middle of a face it is half of the map's size.
 struct ShadowsCubeReceiver {
     face: ShadowsCubeFace,
+    // Where it is on its face, in texels from the corner.
     texel: vec2f,
-    // Along the face's axes (forward, right, down), and along the world's.
-    plane: vec3f,
+    // How the plane's depth changes from texel to texel, along the face's axes (right, down).
+    slope: vec2f,
+    // The same along the world's axes.
     gradient: vec3f,
-    // The receiver's own depth: stands in for the plane's where a texel does not see the plane, so that
+    // The plane's depth at the receiver. Stands in for that at a texel which does not see the plane, so that
     // nothing behind the receiver shadows it.
     own: f32,
     // No tap takes the plane for nearer than this depth, a thirty-second of the receiver's distance:
@@ -53,90 +37,107 @@ struct ShadowsCubeReceiver {
     normal: vec3f,
     // World width of a texel at the receiver.
     width: f32,
-    // 1: surely lit, 0: surely unlit, -1: ask the map.
-    known: f32,
+    // Whether the map says what the receiver sees, and if not, whether it is lit.
+    asks: bool,
+    lit: bool,
     cube: i32,
+    centre: f32,
     quantum: f32,
     range_over_near: f32,
 }
 
-fn shadows_cube_face(direction: vec3f, size: f32) -> ShadowsCubeFace {
+fn shadows_cube_major(direction: vec3f) -> f32 {
     let a = abs(direction);
+    return max(a.x, max(a.y, a.z));
+}
+
+fn shadows_cube_face(direction: vec3f) -> ShadowsCubeFace {
+    let a = abs(direction);
+    let major = max(a.x, max(a.y, a.z));
     var face: ShadowsCubeFace;
-    if a.x >= a.y && a.x >= a.z {
-        let side = select(-1.0, 1.0, direction.x > 0.0);
-        face.forward = vec3f(side, 0.0, 0.0);
-        face.right = vec3f(0.0, 0.0, -side);
-        face.down = vec3f(0.0, -1.0, 0.0);
-    } else if a.y >= a.z {
-        let side = select(-1.0, 1.0, direction.y > 0.0);
-        face.forward = vec3f(0.0, side, 0.0);
-        face.right = vec3f(1.0, 0.0, 0.0);
-        face.down = vec3f(0.0, 0.0, side);
-    } else {
-        let side = select(-1.0, 1.0, direction.z > 0.0);
-        face.forward = vec3f(0.0, 0.0, side);
-        face.right = vec3f(side, 0.0, 0.0);
-        face.down = vec3f(0.0, -1.0, 0.0);
-    }
-    let major = dot(face.forward, direction);
-    let uv = vec2f(dot(face.right, direction), dot(face.down, direction)) / major;
-    face.texel = (uv * 0.5 + 0.5) * size;
+    face.x_major = a.x >= major;
+    face.y_major = select(a.y >= major, false, face.x_major);
+    let along = select(select(direction.z, direction.y, face.y_major), direction.x, face.x_major);
+    face.side = select(-1.0, 1.0, along > 0.0);
+    face.right = select(select(face.side, 1.0, face.y_major), -face.side, face.x_major);
+    face.down = select(-1.0, face.side, face.y_major);
     return face;
 }
 
-// `normal` is the geometric one, of any length and either sign; it is turned toward the light. `nearer`
-// is the share of its distance at which the receiver is taken to be: 1 where the normal is known (see
-// pcf_derivatives.wgsl).
+// The parts of a vector along a face's axes right and down.
+fn shadows_cube_across(face: ShadowsCubeFace, v: vec3f) -> vec2f {
+    return vec2f(select(v.x, v.z, face.x_major), select(v.y, v.z, face.y_major))
+        * vec2f(face.right, face.down);
+}
+
+// From a face's axes (forward, right, down) to the world's.
+fn shadows_cube_to_world(face: ShadowsCubeFace, v: vec3f) -> vec3f {
+    let f = v * vec3f(face.side, face.right, face.down);
+    return vec3f(
+        select(f.y, f.x, face.x_major),
+        select(f.z, f.x, face.y_major),
+        select(select(f.x, f.z, face.y_major), f.y, face.x_major),
+    );
+}
+
+// What is known of a receiver's plane.
+struct ShadowsCubeDerived {
+    // Geometric, of any length and either sign; its squared length, and its part along the ray from the light.
+    normal: vec3f,
+    squared: f32,
+    facing: f32,
+    // The same without its sign, of where the receiver is taken to be: nearer to the light, if anything.
+    taken: f32,
+}
+
+// A normal that the host knows.
+fn shadows_cube_given(light: ShadowsCubeLight, position: vec3f, normal: vec3f) -> ShadowsCubeDerived {
+    let facing = dot(normal, position - light.position);
+    return ShadowsCubeDerived(normal, dot(normal, normal), facing, abs(facing));
+}
+
 fn shadows_cube_receiver(
     light: ShadowsCubeLight,
     position: vec3f,
-    normal: vec3f,
-    nearer: vec2f,
+    derived: ShadowsCubeDerived,
 ) -> ShadowsCubeReceiver {
-    // Whether the light reaches it is a matter of where the receiver is, not of where it is taken to be.
-    let own_ray = position - light.position;
-    let reach = length(own_ray);
-    var receiver: ShadowsCubeReceiver;
-    if reach > light.range || light.cube < 0 {
-        receiver.known = select(0.0, 1.0, reach <= light.range && light.cube == -1);
-        return receiver;
-    }
-    let from_light = nearer.x * own_ray;
-    let distance = nearer.x * reach;
-    receiver.cube = light.cube;
-    receiver.quantum = light.quantum;
-    receiver.range_over_near = light.range / light.near;
-    let face = shadows_cube_face(from_light, light.size);
-    receiver.face = face;
-    receiver.texel = face.texel;
-    let toward_light = -sign(dot(normal, from_light));
-    let n = normalize(normal) * select(toward_light, 1.0, toward_light == 0.0);
-    let height = dot(n, from_light);
-    let sine = length(cross(n, from_light)) / distance;
-    let major = dot(face.forward, from_light);
+    let from_light = position - light.position;
+    let squared = dot(from_light, from_light);
+    let major = shadows_cube_major(from_light);
+    let facing = derived.facing;
+    // Of the ray to the plane's normal, times the normal's length: Pythagoras. The normal's length cancels.
+    let sine = sqrt(abs(derived.squared - facing * facing / squared));
     // As far as rounding may have moved the receiver, where that is more than the bias in texels.
-    let rounding = light.rounding * (abs(position) + abs(from_light));
-    let offset = max(light.normal_offset * major * sine, dot(abs(n), rounding));
-    let plane_distance = height + offset;
+    let rounded = light.rounding * dot(abs(derived.normal), abs(position) + abs(from_light));
+    let left = derived.taken - max(light.normal_offset * major * sine, rounded);
+    var receiver: ShadowsCubeReceiver;
     // The light within the bias of the receiver's plane: nothing is between them. Nor is there at the
     // light itself, or where there is no plane: there the numbers above are not numbers, which no
     // comparison may be trusted to say.
-    if distance == 0.0 || dot(normal, normal) == 0.0 || plane_distance >= 0.0 {
-        receiver.known = 1.0;
-        return receiver;
-    }
-    let axes = mat3x3f(face.forward, face.right, face.down);
-    receiver.normal = n;
+    let reached = squared <= light.range * light.range;
+    receiver.asks = reached & (light.cube >= 0) & (abs(facing) > 0.0) & (left > 0.0);
+    receiver.lit = reached & (light.cube >= -1);
+    let face = shadows_cube_face(from_light);
+    receiver.face = face;
+    // A little less than half of the map, so that no other axis comes out as long as the major one.
+    let half_size = 0.4999998 * light.size;
+    let scale = light.near * light.depth_scale;
+    let per_length = select(-scale, scale, facing > 0.0) / (half_size * left);
+    let to_face = half_size / major;
+    let step = shadows_cube_step(light.quantum);
+    receiver.texel = shadows_cube_across(face, from_light) * to_face + half_size;
+    receiver.gradient = derived.normal * per_length;
+    receiver.slope = shadows_cube_across(face, derived.normal) * per_length;
+    receiver.own = abs(facing * per_length) * to_face + step;
+    receiver.bound = 32.0 * scale / major + step;
+    receiver.horizon = step;
     receiver.local = from_light;
-    receiver.ray = from_light / distance;
-    receiver.gradient = light.near * light.depth_scale / plane_distance * n;
-    receiver.plane = receiver.gradient * axes;
-    let own_distance = max(major - dot(abs(face.forward), rounding), 0.03125 * major);
-    receiver.own = light.near * light.depth_scale / own_distance;
-    receiver.bound = 32.0 * receiver.own;
-    receiver.horizon = 0.0;
+    receiver.ray = from_light * inverseSqrt(squared);
+    receiver.normal = derived.normal * (select(1.0, -1.0, facing > 0.0) * inverseSqrt(derived.squared));
     receiver.width = 2.0 * major / light.size;
-    receiver.known = -1.0;
+    receiver.cube = light.cube;
+    receiver.centre = light.centre;
+    receiver.quantum = light.quantum;
+    receiver.range_over_near = light.range / light.near;
     return receiver;
 }

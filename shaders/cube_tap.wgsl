@@ -1,7 +1,43 @@
-// One tap of a disk: the texel that a point falls on, on whichever face it is.
+// One texel of a cube map: the one that a point falls on, on whichever face it is.
+
+// The direction of that texel's centre along the world's axes, in texels; `local` is relative to the light.
+fn shadows_cube_centre(receiver: ShadowsCubeReceiver, size: f32, local: vec3f) -> vec3f {
+    // The faces' grids are one grid in the three axes, and on each face the major axis stays as it is. Scaled
+    // to a little less than half of the map, so that no other axis is rounded to beyond the last texel.
+    let a = abs(local);
+    let most = max(a.x, max(a.y, a.z));
+    let x_major = a.x >= most;
+    let y_major = select(a.y >= most, false, x_major);
+    let place = local * (0.4999998 * size / most) - receiver.centre;
+    let texel = round(place);
+    return receiver.centre + vec3f(
+        select(texel.x, place.x, x_major),
+        select(texel.y, place.y, y_major),
+        select(place.z, texel.z, x_major | y_major),
+    );
+}
+
+// The plane's depth in a direction, in texels.
+fn shadows_cube_depth_in(receiver: ShadowsCubeReceiver, direction: vec3f) -> f32 {
+    let g = receiver.gradient;
+    return receiver.horizon + g.x * direction.x + g.y * direction.y + g.z * direction.z;
+}
+
+fn shadows_cube_stored_in(
+    map: texture_cube<f32>,
+    map_sampler: sampler,
+    receiver: ShadowsCubeReceiver,
+    size: f32,
+    direction: vec3f,
+) -> f32 {
+    let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
+    let step = 2.0 / size;
+    let squared = step * step * dot(direction, direction);
+    return shadows_cube_depth(receiver, found, vec4f(squared)).x;
+}
 
 // Depth of the receiver's plane, and the depth stored, in the direction of the centre of the texel
-// that `local` falls on; `local` is a point of the plane relative to the light.
+// that `local` falls on, a point of the plane.
 fn shadows_cube_look(
     map: texture_cube<f32>,
     map_sampler: sampler,
@@ -9,19 +45,10 @@ fn shadows_cube_look(
     size: f32,
     local: vec3f,
 ) -> vec2f {
-    // The faces' grids are one grid in the three axes: texel centres are symmetric about 0. So all
-    // three are rounded to it, and the one along the major axis put back, without a branch.
-    let a = abs(local);
-    let x_is_major = a.x >= a.y && a.x >= a.z;
-    let y_is_major = !x_is_major && a.y >= a.z;
-    let major = vec3<bool>(x_is_major, y_is_major, !x_is_major && !y_is_major);
-    let on_cube = local / max(a.x, max(a.y, a.z));
-    let texel = clamp(floor((on_cube * 0.5 + 0.5) * size), vec3f(0.0), vec3f(size - 1.0));
-    let direction = select((texel + 0.5) * (2.0 / size) - 1.0, sign(local), major);
-    let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
-    let stored = shadows_cube_depth(receiver, found, vec4f(dot(direction, direction))).x;
+    let direction = shadows_cube_centre(receiver, size, local);
+    let stored = shadows_cube_stored_in(map, map_sampler, receiver, size, direction);
     // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
-    let depth = dot(receiver.gradient, direction);
+    let depth = shadows_cube_depth_in(receiver, direction);
     let plane = select(receiver.own, depth, depth > receiver.horizon);
     return vec2f(min(plane, receiver.bound), stored);
 }

@@ -1,27 +1,30 @@
-// One texel of a cube map.
+// One texel of a cube map, by its place on the receiver's face.
 
-// The direction of a texel's centre along the receiver's face's axes (forward, right, down), of
-// length 1 along the major axis. `texel` counts from the face's corner and may lie beyond its edge:
-// there the grid goes on, texel for texel, on the neighbouring face, whose texels have directions
-// (and major axes) of their own.
+// The direction of a texel's centre along the receiver's face's axes (forward, right, down), in texels.
+// `texel` counts from the face's corner and may lie beyond its edge: there the grid goes on, texel for
+// texel, on the neighbouring face, whose texels have directions (and major axes) of their own.
 fn shadows_cube_coordinates(size: f32, texel: vec2f) -> vec3f {
-    let step = 2.0 / size;
-    var uv = clamp((texel + 0.5) * step - 1.0, vec2f(0.5 * step - 3.0), vec2f(3.0 - 0.5 * step));
-    var coordinates: vec3f;
-    if abs(uv.x) > 1.0 {
-        // Beyond a corner no fourth texel exists; the last one along the edge stands in.
-        uv.y = clamp(uv.y, 0.5 * step - 1.0, 1.0 - 0.5 * step);
-        coordinates = vec3f(2.0 - abs(uv.x), sign(uv.x), uv.y);
-    } else if abs(uv.y) > 1.0 {
-        coordinates = vec3f(2.0 - abs(uv.y), uv.x, sign(uv.y));
-    } else {
-        coordinates = vec3f(1.0, uv);
-    }
-    return coordinates;
+    let half_size = 0.5 * size;
+    let most = half_size - 0.5;
+    var uv = clamp(texel - most, vec2f(0.5 - 3.0 * half_size), vec2f(3.0 * half_size - 0.5));
+    let beyond = abs(uv) > vec2f(half_size);
+    // Beyond a corner no fourth texel exists; the last one along the edge stands in.
+    uv.y = select(uv.y, clamp(uv.y, -most, most), beyond.x);
+    let on_face = clamp(uv, vec2f(-half_size), vec2f(half_size));
+    let over = abs(uv) - abs(on_face);
+    return vec3f(half_size - over.x - over.y, on_face);
+}
+
+fn shadows_cube_at(receiver: ShadowsCubeReceiver, size: f32, coordinates: vec3f) -> f32 {
+    let place = receiver.texel - 0.5 * size;
+    // What the gradient is along the face's axis: at the receiver the plane has its own depth.
+    let forward = (receiver.own - receiver.horizon - dot(receiver.slope, place)) / (0.5 * size);
+    return receiver.own + dot(receiver.slope, coordinates.yz - place)
+        + forward * (coordinates.x - 0.5 * size);
 }
 
 fn shadows_cube_plane(receiver: ShadowsCubeReceiver, size: f32, texel: vec2f) -> f32 {
-    return dot(receiver.plane, shadows_cube_coordinates(size, texel));
+    return shadows_cube_at(receiver, size, shadows_cube_coordinates(size, texel));
 }
 
 // Depth of the receiver's plane in a texel's direction (0 or less beyond the plane's horizon), and
@@ -34,9 +37,11 @@ fn shadows_cube_depths(
     texel: vec2f,
 ) -> vec2f {
     let coordinates = shadows_cube_coordinates(size, texel);
-    let face = receiver.face;
-    let direction = mat3x3f(face.forward, face.right, face.down) * coordinates;
+    let direction = shadows_cube_to_world(receiver.face, coordinates);
     let found = vec4f(shadows_cube_fetch(map, map_sampler, receiver, direction));
-    let stored = shadows_cube_depth(receiver, found, vec4f(dot(coordinates, coordinates))).x;
-    return vec2f(dot(receiver.plane, coordinates), stored);
+    // The major axis of a texel beyond the edge is another one.
+    let step = 2.0 / size;
+    let squared = step * step * dot(coordinates, coordinates);
+    let stored = shadows_cube_depth(receiver, found, vec4f(squared)).x;
+    return vec2f(shadows_cube_at(receiver, size, coordinates), stored);
 }

@@ -1,5 +1,5 @@
 // The map's edge where samplers have a border: beyond it they find depth 0, which is nothing.
-fn shadows_flat_gathers(size: f32, first: vec2f, last: vec2f) -> bool {
+fn shadows_flat_gathers(size: f32, corner: vec2f, reach: f32) -> bool {
     return true;
 }
 

@@ -1,39 +1,13 @@
-// What every kernel on a flat map needs: the light's frame, and the depth of the receiver's plane
-// at any texel.
-
-struct ShadowsFlatLight {
-    // Origin of the frame: the light itself, or a point on a directional light's near plane.
-    position: vec3f,
-    near: f32,
-    // Axes of the frame in world space, of length 1.
-    forward: vec3f,
-    // From a position across, divided by the distance where the light is a spot, to -1 .. 1.
-    scale: f32,
-    right: vec3f,
-    // Texels along a side.
-    size: f32,
-    down: vec3f,
-    // How far a spot reaches; how far depths of a directional light do.
-    range: f32,
-    // Biases: in texels, and as a factor (spot) or a difference (directional) of depth.
-    normal_offset: f32,
-    depth_bias: f32,
-    // 1 for a spot, 0 for a directional light.
-    perspective: f32,
-    // One step of the map's format; negative where nothing is in the map: all is lit.
-    quantum: f32,
-    // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
-    // positions".
-    rounding: f32,
-}
+// What kernels on a flat map need besides the light: the depth of the receiver's plane at any
+// texel.
 
 // Depth is near / d (spot) or 1 - d / range (directional), d along the frame's forward axis. Of a
-// plane either is linear over the map: `plane` holds its value in the middle, and how it grows
-// with u and v in -1 .. 1.
+// plane either is linear over the map.
 struct ShadowsFlatReceiver {
     texel: vec2f,
-    plane: vec3f,
-    // The receiver's own depth: stands in for the plane's where a texel does not see the plane, so that
+    // How the plane's depth changes from texel to texel.
+    slope: vec2f,
+    // The plane's depth at the receiver. Stands in for that at a texel which does not see the plane, so that
     // nothing behind the receiver shadows it.
     own: f32,
     // No tap takes the plane for nearer to the light than this depth: a thirty-second of the
@@ -51,19 +25,31 @@ struct ShadowsFlatReceiver {
     scale: f32,
     perspective: f32,
     range: f32,
-    // 1: surely lit, 0: surely unlit, -1: ask the map.
-    known: f32,
+    // Whether the map says what the receiver sees, and if not, whether it is lit.
+    asks: bool,
+    lit: bool,
 }
 
-// `normal` is the geometric one, of any length and either sign; it is turned toward the light. `nearer`
-// says how much nearer to the light the receiver is taken to be: (1, 0) where the normal is known (see
-// pcf_derivatives.wgsl).
+// What is known of a receiver's plane.
+struct ShadowsFlatDerived {
+    // Geometric, of any length and either sign.
+    normal: vec3f,
+    // The receiver is taken to be nearer to its light: by a factor, and by so much along parallel rays.
+    nearer: vec2f,
+}
+
+// A normal that the host knows.
+fn shadows_flat_given(light: ShadowsFlatLight, position: vec3f, normal: vec3f) -> ShadowsFlatDerived {
+    return ShadowsFlatDerived(normal, vec2f(1.0, 0.0));
+}
+
 fn shadows_flat_receiver(
     light: ShadowsFlatLight,
     position: vec3f,
-    normal: vec3f,
-    nearer: vec2f,
+    derived: ShadowsFlatDerived,
 ) -> ShadowsFlatReceiver {
+    let normal = derived.normal;
+    let nearer = derived.nearer;
     let axes = mat3x3f(light.forward, light.right, light.down);
     let from_light = position - light.position;
     let own_local = from_light * axes;
@@ -76,12 +62,11 @@ fn shadows_flat_receiver(
     // Nothing here branches on the light alone, not even as && does: Mesa's lavapipe compiles a shader
     // anew at each draw for what a uniform buffer says, if that decides a branch.
     if spot & (reach > light.range) {
-        receiver.known = 0.0;
         return receiver;
     }
     // Behind a spot the map says nothing.
     if (light.quantum < 0.0) | (spot & (local.x <= 0.0)) {
-        receiver.known = 1.0;
+        receiver.lit = true;
         return receiver;
     }
     receiver.local = local;
@@ -107,21 +92,19 @@ fn shadows_flat_receiver(
     // A spot within the bias of the receiver's plane: nothing is between them. The plane seen from its
     // edge by a directional light: nothing of it is hidden. Nor where there is no plane.
     if (dot(normal, normal) == 0.0) | (select(n.x, plane_distance, spot) >= 0.0) {
-        receiver.known = 1.0;
+        receiver.lit = true;
         return receiver;
     }
-    receiver.known = -1.0;
+    receiver.asks = true;
     let near = light.near * light.depth_bias;
     let spot_plane = near / plane_distance * vec3f(n.x, across);
     let per_depth = 1.0 / (n.x * light.range);
     let middle = 1.0 - plane_distance * per_depth + light.depth_bias;
-    receiver.plane = select(vec3f(middle, across * per_depth), spot_plane, spot);
-    receiver.plane.x += light.quantum;
+    let plane = select(vec3f(middle, across * per_depth), spot_plane, spot);
     // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
-    let own = dot(receiver.plane, vec3f(1.0, uv));
-    let own_distance = max(local.x - dot(abs(light.forward), rounding), 0.03125 * local.x);
-    receiver.own = select(own, near / own_distance + light.quantum, spot);
-    let nearest = max(0.0, own + 32.0 / (light.scale * light.range));
+    receiver.own = dot(plane, vec3f(1.0, uv)) + light.quantum;
+    receiver.slope = plane.yz * (2.0 / light.size);
+    let nearest = max(0.0, receiver.own + 32.0 / (light.scale * light.range));
     receiver.bound = select(nearest, 32.0 * near / local.x + light.quantum, spot);
     receiver.horizon = select(-3e38, light.quantum, spot);
     return receiver;

@@ -14,7 +14,7 @@ fn shadows_flat_derived(
     let ray = select(light.forward, from_light, spot);
     let normal = cross(x, y);
     let facing = abs(dot(normal, ray));
-    let doubt = shadows_flat_doubt(position, x, y) * length(ray);
+    let doubt = sqrt(shadows_flat_doubt(position, x, y)) * length(ray);
     let away = select(1.0, dot(light.forward, from_light), spot);
     // As far as the derivatives' plane may be off where the kernel ends, against the distance.
     let end = reach.x * 2.0 * away / (light.size * light.scale) + reach.y;

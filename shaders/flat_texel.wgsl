@@ -1,7 +1,7 @@
 // One texel of a flat map.
 
 fn shadows_flat_plane(receiver: ShadowsFlatReceiver, size: f32, texel: vec2f) -> f32 {
-    return dot(receiver.plane, vec3f(1.0, 2.0 * (texel + 0.5) / size - 1.0));
+    return receiver.own + dot(receiver.slope, texel + 0.5 - receiver.texel);
 }
 
 // Depth of the receiver's plane at a texel (0 or less beyond the plane's horizon), and the depth

@@ -2,26 +2,19 @@
 // positions, their differences say nothing of the surface, and the map is asked for its slope: docs/numerics.md,
 // "Ulps of positions".
 
-struct ShadowsCubeDerived {
-    // Of any length and either sign.
-    normal: vec3f,
-    // The receiver is taken to be nearer to its light: by a factor, and by so much along parallel rays.
-    nearer: vec2f,
-}
-
 // How what is stored changes from texel to texel, and how much that differs from one side to the other.
 struct ShadowsCubeSlopes {
     slope: vec2f,
     bend: f32,
 }
 
-// How far rounding may move the end of the cross product of two differences of positions.
+// How far rounding may move the end of the cross product of two differences of positions, squared.
 fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
-    // As far as the difference of two positions side by side may be off.
+    // As far as the difference of two positions side by side may be off, times the root of 2.
     let a = abs(position);
-    let off = 1.2e-7 * max(a.x, max(a.y, a.z));
+    let off = 1.7e-7 * max(a.x, max(a.y, a.z));
     // With room for differences that are rounded to nothing.
-    return 1.42 * off * sqrt(dot(x, x) + dot(y, y) + off * off);
+    return off * off * (dot(x, x) + dot(y, y) + 0.5 * off * off);
 }
 
 // The slopes of the map around a texel, for a receiver that says which map. Along each axis the lesser

@@ -185,6 +185,7 @@ pub mod mesh;
 pub mod pcf;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod scene;
 mod shader;
 mod submissions;
 pub mod support;
@@ -203,7 +204,7 @@ pub use shader::rewriting;
 pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FacePasses, FaceState,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
     StillLayers, texture_from_clip,
 };

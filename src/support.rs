@@ -47,9 +47,6 @@ pub struct Support {
     pub depth_clip_control: bool,
     /// `Depth32FloatStencil8`: stencil beside float depth.
     pub depth32float_stencil8: bool,
-    /// Multiview with any mask of six views: the faces of a cube map in one pass
-    /// ([`FacePasses::Multiview`](crate::FacePasses)).
-    pub multiview: bool,
     /// Blending in `R32Float`: shadow volumes that count without wrapping
     /// ([`Counter::Exact`](crate::Counter::Exact)).
     pub float32_blending: bool,
@@ -94,9 +91,6 @@ const COMPUTE: DownlevelFlags =
 pub(crate) const STORAGE_BUFFERS: u32 = 6;
 
 impl Support {
-    /// The features that make sense together for six views at once.
-    pub(crate) const MULTIVIEW: Features = Features::MULTIVIEW.union(Features::SELECTIVE_MULTIVIEW);
-
     /// Asks an adapter, before the host creates its device.
     pub fn of_adapter(adapter: &wgpu::Adapter) -> Self {
         Self::new(
@@ -120,7 +114,6 @@ impl Support {
             cube_arrays: downlevel.contains(DownlevelFlags::CUBE_ARRAY_TEXTURES),
             depth_clip_control: features.contains(Features::DEPTH_CLIP_CONTROL),
             depth32float_stencil8: features.contains(Features::DEPTH32FLOAT_STENCIL8),
-            multiview: features.contains(Self::MULTIVIEW) && limits.max_multiview_view_count >= 6,
             float32_blending: features.contains(Features::FLOAT32_BLENDABLE),
             vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
                 && limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS,
@@ -147,7 +140,6 @@ impl Support {
         [
             (self.depth_clip_control, Features::DEPTH_CLIP_CONTROL),
             (self.depth32float_stencil8, Features::DEPTH32FLOAT_STENCIL8),
-            (self.multiview, Self::MULTIVIEW),
             (self.float32_blending, Features::FLOAT32_BLENDABLE),
             (self.clamp_to_border, Features::ADDRESS_MODE_CLAMP_TO_BORDER),
         ]
@@ -157,15 +149,13 @@ impl Support {
     }
 
     /// The limits to ask for: WebGPU's defaults (less where the adapter has less), with room for
-    /// large meshes and for six views at once where the adapter has it.
+    /// large meshes.
     pub fn limits(&self) -> Limits {
         let offered = &self.limits;
-        let views = if self.multiview { 6 } else { 0 };
         Limits {
             max_buffer_size: offered.max_buffer_size,
             max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
             max_texture_dimension_2d: offered.max_texture_dimension_2d,
-            max_multiview_view_count: views,
             ..Limits::defaults().or_worse_values_from(offered)
         }
     }
@@ -187,11 +177,6 @@ impl Support {
                 self.depth32float_stencil8,
                 "Depth32FloatStencil8",
                 "Depth24PlusStencil8 for the host's depth-stencil buffer, named in every descriptor of shadow volumes (Support::depth_stencil_format)",
-            ),
-            (
-                self.multiview,
-                "MULTIVIEW with SELECTIVE_MULTIVIEW",
-                "one pass for each cube face",
             ),
             (
                 self.float32_blending,
@@ -334,7 +319,7 @@ mod tests {
         let info = info(Backend::Gl, 0);
         let support = Support::new(Features::empty(), limits, DownlevelFlags::empty(), &info);
         assert_eq!(support.features(), Features::empty());
-        assert_eq!(support.fallbacks().len(), 10);
+        assert_eq!(support.fallbacks().len(), 9);
         let every_device_has_it = wgpu::TextureFormat::Depth24PlusStencil8;
         assert_eq!(support.depth_stencil_format(), every_device_has_it);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);
@@ -342,16 +327,10 @@ mod tests {
 
     #[test]
     fn a_full_adapter_lacks_nothing() {
-        let limits = Limits {
-            max_multiview_view_count: 32,
-            ..Limits::defaults()
-        };
-        let support = full(limits, &info(Backend::Vulkan, 0));
+        let support = full(Limits::defaults(), &info(Backend::Vulkan, 0));
         assert!(support.fallbacks().is_empty());
         let default = crate::ShadowVolumeDescriptor::default().depth_stencil_format;
         assert_eq!(support.depth_stencil_format(), default);
-        assert_eq!(support.limits().max_multiview_view_count, 6);
-        assert!(support.features().contains(Features::MULTIVIEW));
         assert!(!support.features().contains(Features::TIMESTAMP_QUERY));
     }
 
@@ -366,12 +345,5 @@ mod tests {
         };
         assert!(with(Limits::defaults()));
         assert!(!with(Limits::downlevel_webgl2_defaults()));
-    }
-
-    #[test]
-    fn multiview_needs_six_views() {
-        let support = full(Limits::defaults(), &info(Backend::Vulkan, 0));
-        assert!(!support.multiview);
-        assert!(!support.features().contains(Features::MULTIVIEW));
     }
 }

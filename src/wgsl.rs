@@ -5,7 +5,8 @@
 
 /// Vertex positions in the arithmetic that shadow volumes use, so that depths come out bit-equal:
 /// `shadows_clip_position(clip_from_world, world_from_object, position)`. Give the vertex
-/// output `@invariant @builtin(position)`.
+/// output `@invariant @builtin(position)`, in a struct that is not the fragment stage's input, too: GLSL ES
+/// has that word for outputs alone, and naga writes it wherever it stands.
 pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 
 /// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
@@ -45,12 +46,6 @@ pub(crate) const CUBE_CASTER: &str = concat!(
 pub(crate) const CUBE_CASTER_GL: &str = concat!(
     include_str!("../shaders/cube_caster.wgsl"),
     include_str!("../shaders/cube_caster_gl.wgsl"),
-);
-
-/// Depth of casters on several faces of a cube map at once.
-pub(crate) const CUBE_CASTER_VIEWS: &str = concat!(
-    include_str!("../shaders/cube_caster.wgsl"),
-    include_str!("../shaders/cube_caster_views.wgsl"),
 );
 
 /// A cube map unfolded as a cross.

@@ -54,7 +54,9 @@ fn variant(name: &str) -> Variant {
 }
 
 fn case(start: &str) -> Case {
-    cases::all().find(|case| case.name.starts_with(start)).unwrap()
+    cases::all()
+        .find(|case| case.name.starts_with(start))
+        .unwrap()
 }
 
 fn techniques(names: &[&str]) -> Vec<Technique> {
@@ -167,13 +169,19 @@ const EXPECTED: [(&str, usize, Sum); 16] = [
     ("as-written", 3, |[a, b, ..]| a / b),
     ("fma", 0, |[a, b, c, _]| a.mul_add(b, c)),
     ("fma", 1, |[a, b, c, d]| (-c).mul_add(d, a * b)),
-    ("fma", 4, |[a, b, c, d]| c.mul_add(2.3, b.mul_add(1.7, a * d))),
+    ("fma", 4, |[a, b, c, d]| {
+        c.mul_add(2.3, b.mul_add(1.7, a * d))
+    }),
     ("fma", 5, |[a, b, _, d]| d.mul_add(a, b * b)),
     ("fma-other", 0, |[a, b, c, _]| a.mul_add(b, c)),
     ("fma-other", 1, |[a, b, c, d]| a.mul_add(b, -(c * d))),
-    ("fma-other", 4, |[a, b, c, d]| a.mul_add(d, b.mul_add(1.7, c * 2.3))),
+    ("fma-other", 4, |[a, b, c, d]| {
+        a.mul_add(d, b.mul_add(1.7, c * 2.3))
+    }),
     ("reassociated", 2, |[a, b, c, _]| a + (b - c)),
-    ("reassociated", 4, |[a, b, c, d]| (c * 2.3 + b * 1.7) + a * d),
+    ("reassociated", 4, |[a, b, c, d]| {
+        (c * 2.3 + b * 1.7) + a * d
+    }),
     ("reciprocal", 3, |[a, b, ..]| a * (1.0 / b)),
     ("host-fma", 0, |[a, b, c, _]| c + a * b),
     ("caps-and-sides", 0, |[a, b, c, _]| c + a * b),
@@ -208,7 +216,10 @@ fn approximate_numbers_are_off_by_up_to_two_units() {
             i64::from(found) - i64::from(exact)
         });
         let units: Vec<i64> = units.collect();
-        assert!(units.iter().all(|units| (-2..=3).contains(units)), "{place}");
+        assert!(
+            units.iter().all(|units| (-2..=3).contains(units)),
+            "{place}"
+        );
         assert!(units.iter().filter(|units| **units != 0).count() > COUNT / 2);
     }
 }
@@ -226,10 +237,17 @@ fn written_again_a_picture_stays_the_same() {
     };
     let plain = trial.run(1, &progress::progress(1, "")).unwrap();
     let plain: Vec<Outcome> = plain.outcomes.into_iter().flatten().collect();
-    assert_eq!(tried(&gpu, variant("as-written"), &case, &techniques), plain);
+    assert_eq!(
+        tried(&gpu, variant("as-written"), &case, &techniques),
+        plain
+    );
     // Every error is counted the same; other arithmetic counts others.
     let others = ["fma", "reassociated", "snapped"].map(variant);
-    assert!(others.iter().any(|other| tried(&gpu, *other, &case, &techniques) != plain));
+    assert!(
+        others
+            .iter()
+            .any(|other| tried(&gpu, *other, &case, &techniques) != plain)
+    );
 }
 
 #[test]
@@ -249,7 +267,8 @@ fn no_shader_of_the_library_escapes() {
     let makes = |path: &&std::path::PathBuf| {
         let text = std::fs::read_to_string(path).unwrap();
         let code = text.lines().filter(|line| !line.starts_with("//"));
-        code.into_iter().any(|line| line.contains(".create_shader_module("))
+        code.into_iter()
+            .any(|line| line.contains(".create_shader_module("))
     };
     let mut makers: Vec<_> = found.iter().filter(makes).collect();
     makers.sort();
@@ -287,7 +306,12 @@ fn every_variant_stays_within_its_bounds() {
         for variant in ALL {
             for outcome in tried(&gpu, variant, &case, &techniques) {
                 let failures = &outcome.failures;
-                assert!(failures.is_empty(), "{}, {}: {failures:?}", variant.name, case.name);
+                assert!(
+                    failures.is_empty(),
+                    "{}, {}: {failures:?}",
+                    variant.name,
+                    case.name
+                );
             }
         }
     }
@@ -302,29 +326,9 @@ fn depth_of_snapped_corners_lights_the_ground_under_a_light_that_grazes_it() {
     let [snapped, plain] = ["snapped", "as-written"]
         .map(|name| tried(&gpu, variant(name), &case, &techniques).remove(0));
     assert!(snapped.failures.is_empty(), "{:?}", snapped.failures);
-    assert!(snapped.false_lit > 0 && snapped.false_shadow == 0, "{snapped:?}");
+    assert!(
+        snapped.false_lit > 0 && snapped.false_shadow == 0,
+        "{snapped:?}"
+    );
     assert_eq!(plain.interior(), 0);
-}
-
-#[test]
-fn explore() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    let env = |name: &str| std::env::var(name).unwrap_or_default();
-    let (cases, techs, variants, rounds) = (env("CASES"), env("TECHS"), env("VARIANTS"), env("ROUNDS").parse().unwrap_or(1));
-    let has = |list: &str, name: &str| list.is_empty() || list.split(',').any(|part| name.starts_with(part));
-    let techniques: Vec<_> = hard::techniques().unwrap().into_iter().filter(|t| has(&techs, &t.name)).map(|mut t| { if let (technique::Config::Volume(v), Ok(b)) = (&mut t.config, std::env::var("BIAS")) { v.cap_bias_ulps = b.parse().unwrap(); } t }).collect();
-    let bar = progress::progress(1, "");
-    for case in hard::cases::all().filter(|case| has(&cases, case.name)) {
-        for v in ALL.iter().chain(&WRONG).filter(|v| has(&variants, v.name)) {
-            let start = std::time::Instant::now();
-            let _i = v.install(hard::SIZE);
-            let row = hard::trial::Trial { gpu: &gpu, case: &case, techniques: &techniques, limits: arithmetic::bounds::of(v.name) }.run(rounds, &bar).unwrap();
-            print!("{:30} {:16} {:?}", case.name, v.name, start.elapsed());
-            for (t, o) in techniques.iter().zip(&row.outcomes) {
-                if let Some(o) = o { print!(" | {} {:.4} {}+{}{}", t.name, o.wrong_percent(), o.false_lit, o.false_shadow, if o.failures.is_empty() { "" } else { " FAILS" }); }
-            }
-            println!();
-            if std::env::var("SAY").is_ok() { for (t, o) in techniques.iter().zip(&row.outcomes) { for f in o.iter().flat_map(|o| &o.failures) { println!("    {}: {f}", t.name); } } }
-        }
-    }
 }

@@ -7,8 +7,8 @@ use common::{noop, noop_with, two_noop_devices};
 use glam::{Affine3A, Vec3};
 use shadows::error::{CasterError, CubeShadowMapError, LightError};
 use shadows::{
-    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, FacePasses,
-    PointLight, Radius, StillLayers, glam, wgpu,
+    Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, PointLight,
+    Radius, StillLayers, glam, wgpu,
 };
 
 fn descriptor(size: u32) -> CubeShadowMapDescriptor<'static> {
@@ -249,34 +249,22 @@ fn descriptors_out_of_range_are_refused() {
 
 #[test]
 fn layers_of_still_casters_are_refused_where_there_are_none() {
-    let multiview = wgpu::Features::MULTIVIEW | wgpu::Features::SELECTIVE_MULTIVIEW;
-    let limits = wgpu::Limits {
-        max_multiview_view_count: 6,
-        ..wgpu::Limits::defaults()
-    };
-    let (device, _) = noop_with(multiview, limits);
-    let new = |still_layers, cache, passes| {
+    let (device, _) = noop();
+    let new = |still_layers, cache| {
         let descriptor = CubeShadowMapDescriptor {
             still_layers,
             cache,
-            passes,
             ..descriptor(64)
         };
         CubeShadowMap::new(&device, &descriptor).map(drop)
     };
-    for (cache, passes) in [
-        (false, FacePasses::Separate),
-        (true, FacePasses::Multiview),
-        (false, FacePasses::Multiview),
-    ] {
-        let at_least = new(StillLayers::AtLeast(1), cache, passes);
-        assert_eq!(at_least, Err(CubeShadowMapError::NoStillLayers));
-        // What the message tells to pass.
-        for layers in [StillLayers::Auto, StillLayers::Never] {
-            assert_eq!(new(layers, cache, passes), Ok(()), "{layers:?}");
-        }
+    let at_least = new(StillLayers::AtLeast(1), false);
+    assert_eq!(at_least, Err(CubeShadowMapError::NoStillLayers));
+    // What the message tells to pass.
+    for layers in [StillLayers::Auto, StillLayers::Never] {
+        assert_eq!(new(layers, false), Ok(()), "{layers:?}");
     }
-    let effective = new(StillLayers::AtLeast(1), true, FacePasses::Separate);
+    let effective = new(StillLayers::AtLeast(1), true);
     assert_eq!(effective, Ok(()), "the broken twin: a map that has layers");
 }
 

@@ -56,29 +56,29 @@ fn direction(face: CubeFace, size: u32, x: f64, y: f64) -> DVec3 {
     }
 }
 
-/// Around a texel's centre: there, and as far to either side as a rasteriser that knows 1/256 of a pixel
-/// may have moved a vertex. Hardware takes depth from the vertices that it moved.
-const SNAPPED: [(f64, f64); 5] = {
-    const HALF: f64 = 1.0 / 512.0;
+/// Around a texel's centre: there, and as far to either side as the rasteriser may have moved a vertex.
+/// Hardware takes depth from the vertices that it moved.
+fn snapped(gpu: &Gpu) -> [(f64, f64); 5] {
+    let half = gpu.vertex_grid() / 2.0;
     [
         (0.0, 0.0),
-        (HALF, HALF),
-        (-HALF, HALF),
-        (HALF, -HALF),
-        (-HALF, -HALF),
+        (half, half),
+        (-half, half),
+        (half, -half),
+        (-half, -half),
     ]
-};
+}
 
 /// Share of texels whose depth is not what rays in f64 say, to one part in 1e6.
 fn wrong_share(gpu: &Gpu, map: &CubeShadowMap, light: &PointLight, truth: &Triangles) -> f64 {
     let size = map.size();
-    let mut wrong = 0;
+    let (mut wrong, snapped) = (0, snapped(gpu));
     for face in CubeFace::ALL {
         let near = f64::from(map.clip_from_world(0, face).unwrap().w_axis.z);
         let stored = texels(gpu, map, face);
         for (i, &depth) in stored.iter().enumerate() {
             let (x, y) = (i as u32 % size, i as u32 / size);
-            let expected = SNAPPED.map(|(right, down)| {
+            let expected = snapped.map(|(right, down)| {
                 let ray = direction(
                     face,
                     size,

@@ -341,14 +341,19 @@ fn box_at(place: Vec3) -> Scene {
 
 /// Falsely lit and falsely shadowed pixels in the interior, and all that are lit truly, of a cube map
 /// that is read by positions alone.
-fn errors_by_derivatives(gpu: &Gpu, scene: Scene, change: fn(String) -> String) -> [usize; 2] {
+fn errors_by_derivatives(
+    gpu: &Gpu,
+    scene: Scene,
+    kernel: Kernel,
+    change: fn(String) -> String,
+) -> [usize; 2] {
     let stage = Stage::new(gpu, scene, [320, 180]).unwrap();
     let reference = stage.reference(|_| ()).unwrap();
     let place = stage.scene.light.truncate();
     let light = PointLight::new(place, 10.0);
     let map = cube_map(gpu, 1024, light, &stage.scene_gpu.casters);
     let descriptor = PcfDescriptor {
-        kernel: Kernel::Weighted7,
+        kernel,
         map: MapKind::Cube,
         ..Default::default()
     };
@@ -387,10 +392,18 @@ fn normals_from_derivatives_have_no_acne_where_pixels_are_as_wide_as_rounding() 
         Vec3::new(45_889.0, 0.0, -54_444.0),
     ] {
         let scene = box_at(place);
-        let errors = errors_by_derivatives(&gpu, scene.clone(), |module| module);
-        assert_eq!(errors, [0, 0], "{place}");
+        let errors = |kernel, change| errors_by_derivatives(&gpu, scene.clone(), kernel, change);
+        assert_eq!(
+            errors(Kernel::Weighted7, |module| module),
+            [0, 0],
+            "{place}"
+        );
+        // The hardware's one depth makes up for what it does not know with light, of which this is the most.
+        let [lit, shadow] = errors(Kernel::HardwareBilinear, |module| module);
+        println!("{place}: {lit} lit by HardwareBilinear, {shadow} dark");
+        assert_eq!(shadow, 0, "{place}");
         // The broken twin: the bias in texels alone.
-        without += errors_by_derivatives(&gpu, scene, without_ulps)[1];
+        without += errors(Kernel::Weighted7, without_ulps)[1];
     }
     assert!(without > 100, "{without}");
 }
@@ -400,10 +413,10 @@ fn where_derivatives_say_nothing_the_map_does() {
     let Some(gpu) = Gpu::for_test() else { return };
     // Twice as far from number to number as from pixel to pixel.
     let scene = box_at(Vec3::new(300_000.0, 0.0, 195_000.0));
-    let asked = errors_by_derivatives(&gpu, scene.clone(), |module| module);
+    let asked = errors_by_derivatives(&gpu, scene.clone(), Kernel::Weighted7, |module| module);
     // The broken twin: normals from the derivatives in any case.
-    let never = errors_by_derivatives(&gpu, scene, |module| {
-        let doubtful = "doubt >= 0.25 * facing";
+    let never = errors_by_derivatives(&gpu, scene, Kernel::Weighted7, |module| {
+        let doubtful = "16.0 * doubt > facing * facing";
         assert!(module.contains(doubtful));
         module.replace(doubtful, "false")
     });

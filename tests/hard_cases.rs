@@ -26,8 +26,6 @@ mod table;
 #[path = "../examples/compare/technique.rs"]
 mod technique;
 
-use std::path::Path;
-
 use shadows::reference::{Class, Interior, ReferenceImage};
 
 use crate::hard::cases::{self, Case, Course, mesh};
@@ -56,7 +54,7 @@ const NOWHERE_EXACT: [&str; 2] = ["Far from the origin, plain f32", "24-bit dept
 #[test]
 fn one_round_passes() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hard_cases");
+    let dir = std::env::temp_dir().join(format!("shadows-hard-cases-{}", std::process::id()));
     assert_eq!(hard::run(&gpu, &dir, 1).unwrap(), 0);
     let table = std::fs::read_to_string(dir.join("hard-cases.md")).unwrap();
     for case in cases::all() {
@@ -74,6 +72,7 @@ fn one_round_passes() {
     }
     let asked = format!("--hard-cases --rounds 1 --out {}`", dir.display());
     assert!(table.contains(&asked), "{asked}");
+    std::fs::remove_dir_all(&dir).unwrap();
 }
 
 /// Limits that are as wrong as no shadow at all: a bias of 0.15 is more than the scene at x 1e-4.

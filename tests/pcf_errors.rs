@@ -175,6 +175,29 @@ fn textbook_receivers_of_another_encoding_are_refused() {
 }
 
 #[test]
+fn comparisons_in_hardware_of_another_encoding_are_refused() {
+    let (device, queue) = noop();
+    let made = |kernel: Kernel, encoding| {
+        let descriptor = PcfDescriptor {
+            kernel,
+            encoding,
+            ..Default::default()
+        };
+        PcfSampler::new(&device, &queue, &descriptor).map(drop)
+    };
+    let linear = DepthEncoding::LinearDistance;
+    for kernel in Kernel::ALL {
+        assert_eq!(made(kernel, DepthEncoding::MajorAxis), Ok(()));
+        let expected = match kernel {
+            Kernel::HardwareBilinear => Err(PcfError::HardwareEncoding(linear)),
+            _ => Ok(()),
+        };
+        assert_eq!(made(kernel, linear), expected);
+        assert_eq!(kernel.reads(linear), expected.is_ok());
+    }
+}
+
+#[test]
 fn settings_that_would_have_no_effect_are_refused() {
     let (device, queue) = noop();
     let made =
@@ -215,7 +238,7 @@ fn settings_that_would_have_no_effect_are_refused() {
     // Textbook receivers are one tap.
     for (kernel, taken) in Kernel::ALL
         .into_iter()
-        .zip([true, true].into_iter().chain([false; 7]))
+        .zip([true, true].into_iter().chain([false; 8]))
     {
         let textbook = PcfDescriptor {
             kernel,

@@ -71,8 +71,12 @@ fn functions_without_bindings_are_imported_too() {
         let sampler = made(&device, &queue, &descriptor);
         let module = wgsl::import_module("shadows::functions", &sampler.wgsl());
         let (kind, names, texture) = match descriptor.map {
-            MapKind::Flat => ("flat", "Flat", "texture_2d"),
-            _ => ("cube", "Cube", "texture_cube"),
+            MapKind::Flat => ("flat", "Flat", "2d"),
+            _ => ("cube", "Cube", "cube"),
+        };
+        let (texture, sampled) = match descriptor.kernel {
+            Kernel::HardwareBilinear => (format!("texture_depth_{texture}"), "sampler_comparison"),
+            _ => (format!("texture_{texture}<f32>"), "sampler"),
         };
         let function = descriptor.kernel.function().replace("cube", kind);
         let (bindings, kernel, pixel) = match descriptor.kernel.uses_pixel() {
@@ -88,8 +92,8 @@ fn functions_without_bindings_are_imported_too() {
         };
         let host = format!(
             "#import shadows::functions as functions
-             @group(0) @binding(0) var map: {texture}<f32>;
-             @group(0) @binding(1) var map_sampler: sampler;
+             @group(0) @binding(0) var map: {texture};
+             @group(0) @binding(1) var map_sampler: {sampled};
              @group(0) @binding(2) var<uniform> light: functions::Shadows{names}Light;
              {bindings}
              @fragment

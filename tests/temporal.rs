@@ -43,8 +43,8 @@ use host::gpu::Gpu;
 use host::scene::{LightKind, Scene, spheres};
 use shadow::Shadow;
 use shadows::HomogeneousLight;
-use shadows::glam::Vec4;
-use shadows::reference::{Flips, ReferenceImage};
+use shadows::glam::{Vec2, Vec4};
+use shadows::reference::{Class, Flips, ReferenceImage};
 use stage::Stage;
 use technique::Technique;
 use temporal::Path;
@@ -75,6 +75,87 @@ fn excess(flips: &[Flips]) -> usize {
     flips.iter().map(|flips| flips.excess).sum()
 }
 
+/// Parts of a pixel by which the picture is moved to see how near an edge of the truth is. GPUs move corners by
+/// up to 1/512 to each side; where a volume's side and the receiver are seen at like slopes, their edge moves
+/// by some times that.
+const PARTS: [u16; 3] = [256, 128, 64];
+
+/// A flip of a technique that the truth has not.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code)] // read where a test prints it
+struct Flip {
+    path: Path,
+    step: usize,
+    pixel: [usize; 2],
+    /// The part of a pixel that an edge of the truth is away, in one of the two frames; none if by more
+    /// than all of them.
+    edge: Option<u16>,
+}
+
+/// The truth at each place of a path, seen from this far aside in eight directions.
+fn around(gpu: &Gpu, stage: &mut Stage, path: Path, pixels: f32) -> Vec<[Vec<Class>; 8]> {
+    let (start, exact) = (stage.scene.clone(), stage.reference_scene().unwrap());
+    let mut seen_from = |step: u32, direction: usize| -> Vec<Class> {
+        let place = path.place(&start, SIZE[1], step, STEPS);
+        let aside = Vec2::from_angle(direction as f32 * std::f32::consts::FRAC_PI_4) * pixels;
+        let shift = (Vec2::from(place.shift) + aside).into();
+        let moved = stage.move_to(gpu, place.camera, place.light, shift);
+        moved.unwrap();
+        stage.reference_in(&exact).unwrap().classes().collect()
+    };
+    let all = (0..=STEPS)
+        .map(|step| std::array::from_fn(|direction| seen_from(step, direction)))
+        .collect();
+    let back = stage.move_to(gpu, start.camera, start.light, [0.0; 2]);
+    back.unwrap();
+    all
+}
+
+/// Each flip of each technique on each path, one by one.
+fn flips_of(gpu: &Gpu, kind: LightKind, names: [&str; 2]) -> [Vec<Flip>; 2] {
+    let (mut stage, references) = stage(gpu, kind);
+    let mut found = [const { Vec::new() }; 2];
+    for (path, references) in Path::ALL.into_iter().zip(&references) {
+        let truth: Vec<Vec<Class>> = references
+            .iter()
+            .map(|image| image.classes().collect())
+            .collect();
+        let around = PARTS.map(|part| around(gpu, &mut stage, path, 1.0 / f32::from(part)));
+        for (name, found) in names.iter().zip(&mut found) {
+            let mut shadow = Shadow::new(gpu, &stage.renderer, row(name)).unwrap();
+            let mut pictures = Vec::new();
+            temporal::watch_with(gpu, &mut stage, path, references, |stage, _| {
+                pictures.push(stage.picture(gpu, &mut shadow, &stage.inputs)?.visibility);
+                Ok(pictures.last().unwrap().clone())
+            })
+            .unwrap();
+            let (width, moved) = (SIZE[0] as usize, path.moved()[0] as usize);
+            for step in 1..truth.len() {
+                for pixel in (0..truth[step].len()).filter(|pixel| pixel % width >= moved) {
+                    let places = [(step - 1, pixel - moved), (step, pixel)];
+                    let [was, now] = places.map(|(step, at)| (truth[step][at], pictures[step][at]));
+                    let flips = was.0 == now.0 && (was.1 < 128) != (now.1 < 128);
+                    if !flips || !was.0.faces_light() {
+                        continue;
+                    }
+                    let differs = |(step, at): (usize, usize), seen: &Vec<[Vec<Class>; 8]>| {
+                        seen[step].iter().any(|seen| seen[at] != was.0)
+                    };
+                    let mut nearest = PARTS.into_iter().zip(&around);
+                    let edge = nearest.find(|(_, seen)| places.iter().any(|&at| differs(at, seen)));
+                    found.push(Flip {
+                        path,
+                        step,
+                        pixel: [pixel % width, pixel / width],
+                        edge: edge.map(|(part, _)| part),
+                    });
+                }
+            }
+        }
+    }
+    found
+}
+
 fn watched(gpu: &Gpu, kind: LightKind, names: &[&str]) -> Vec<[usize; 3]> {
     let (mut stage, references) = stage(gpu, kind);
     let flips = |name: &&str| {
@@ -88,18 +169,24 @@ fn watched(gpu: &Gpu, kind: LightKind, names: &[&str]) -> Vec<[usize; 3]> {
     names.iter().map(flips).collect()
 }
 
+/// Volumes know no texels: what is left is what moves an edge through a pixel's centre.
 #[test]
-fn volumes_hardly_flip_and_maps_that_stay_in_the_world_do_not_while_the_picture_pans() {
+fn volumes_flip_where_an_edge_is_within_what_corners_are_moved_by() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let found = watched(
-        &gpu,
-        LightKind::Point,
-        &["volume", "cube-hard", "cube-disk"],
-    );
-    let [volume, hard, disk] = [found[0], found[1], found[2]];
+    let [volume, hard] = flips_of(&gpu, LightKind::Point, ["volume", "cube-hard"]);
+    eprintln!("{volume:#?}");
+    assert!(volume.iter().all(|flip| flip.edge.is_some()), "{volume:#?}");
+    // The twin: a map's texels.
+    let far = hard.iter().filter(|flip| flip.edge.is_none()).count();
+    assert!(far > 100, "{far} of {}", hard.len());
+}
+
+#[test]
+fn maps_that_stay_in_the_world_do_not_flip_while_the_picture_pans() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let found = watched(&gpu, LightKind::Point, &["cube-hard", "cube-disk"]);
+    let [hard, disk] = [found[0], found[1]];
     eprintln!("{found:?}");
-    // Volumes know no texels: what is left is the last bit of an edge through a pixel's centre.
-    assert!(volume.iter().all(|&flips| flips <= 3), "{found:?}");
     // A cube map stands still in the world, so a pan shows the same of it; its texels' edges move
     // with the light, and over the pixels with the camera.
     assert!(hard[2] <= 3, "{found:?}");

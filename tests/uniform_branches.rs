@@ -3,18 +3,19 @@
 //! Mesa's lavapipe puts such a buffer's values into a copy of the shader at every draw and compiles
 //! it anew, and keeps all copies: most of a frame's time, and memory without bound.
 
-mod common;
+#[path = "common/modules.rs"]
+mod modules;
 #[path = "common/pcf.rs"]
 mod pcf;
 
 use std::collections::HashMap;
 
-use common::noop_with;
+use modules::{JOINED, PULLED, joined};
 use naga::{
     AddressSpace, Block, Expression, Function, Handle, LocalVariable, Module, Span, Statement,
 };
-use pcf::{descriptors, host, made};
-use shadows::{DepthEncoding, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+use pcf::{host, samplers, textbooks};
+use shadows::{MapKind, PcfDescriptor, PcfSampler};
 
 /// What a value depends on; the later takes in the earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -202,16 +203,6 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Files of `shaders/`, as the library joins them.
-fn joined(names: &[&str]) -> String {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/");
-    let texts = names.iter().map(|name| {
-        let path = format!("{folder}{name}.wgsl");
-        std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
-    });
-    texts.collect::<Vec<_>>().join("\n")
-}
-
 fn assert_none(what: &str, wgsl: &str) {
     assert_eq!(uniform_branches(wgsl), [""; 0], "{what}");
 }
@@ -224,30 +215,9 @@ fn assert_found(wgsl: &str, from: &str, to: &str, condition: &str) {
     assert!(found.iter().any(|text| text == condition), "{found:?}");
 }
 
-/// Every text a sampler may give, and what it is for: all configurations without any feature, and
-/// those that differ with borders or as textbooks have it.
+/// Every text a sampler may give, and what it is for.
 fn receivers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
-    let of = |features, descriptors: Vec<PcfDescriptor<'static>>| {
-        let (device, queue) = noop_with(features, wgpu::Limits::defaults());
-        let all = descriptors.into_iter();
-        all.map(move |descriptor| {
-            let sampler = made(&device, &queue, &descriptor);
-            (descriptor, sampler)
-        })
-    };
-    let textbook = PcfDescriptor {
-        kernel: Kernel::Hard,
-        encoding: DepthEncoding::LinearDistance,
-        textbook: true,
-        ..Default::default()
-    };
-    of(wgpu::Features::empty(), descriptors())
-        .chain(of(
-            wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER,
-            descriptors(),
-        ))
-        .chain(of(wgpu::Features::empty(), vec![textbook]))
-        .collect()
+    samplers().into_iter().chain(textbooks()).collect()
 }
 
 #[test]
@@ -255,7 +225,8 @@ fn receivers_of_maps_have_none() {
     for (descriptor, sampler) in receivers() {
         let wgsl = sampler.wgsl_module(0) + &host(&descriptor);
         assert_none(&format!("{descriptor:?}"), &wgsl);
-        if descriptor.map == MapKind::Flat {
+        let branches = descriptor.kernel != shadows::Kernel::HardwareBilinear;
+        if descriptor.map == MapKind::Flat && branches {
             let from = "if spot & (reach > light.range) {";
             assert_found(&wgsl, from, "if spot {", "light.perspective > 0.5");
         }
@@ -264,82 +235,15 @@ fn receivers_of_maps_have_none() {
 
 #[test]
 fn volumes_have_none() {
-    let pulled = joined(&[
-        "position",
-        "volume_depth_as_is",
-        "volume_extrude",
-        "volume_draw",
-    ]);
-    assert_none("pulled", &pulled);
+    let pulled = joined(PULLED);
     let condition = "caster.light.w == 0.0";
     let selected = format!("return select(from_point, -caster.light.xyz, {condition});");
     let branch = format!("if {condition} {{ return -caster.light.xyz; }} return from_point;");
     assert_found(&pulled, &selected, &branch, condition);
-    for names in VOLUMES {
+    for names in JOINED {
         assert_none(&names.join(", "), &joined(names));
     }
 }
-
-/// All but the shaders of a `PcfSampler`, as the library joins them.
-const VOLUMES: &[&[&str]] = &[
-    &[
-        "position",
-        "volume_depth_as_is",
-        "volume_extrude",
-        "volume_draw",
-    ],
-    &[
-        "position",
-        "volume_depth_steps",
-        "volume_extrude",
-        "volume_draw",
-    ],
-    &[
-        "position",
-        "volume_depth_as_is",
-        "volume_extrude",
-        "volume_light_side",
-        "volume_vertex",
-    ],
-    &["volume_batch", "volume_light_side", "volume_facing"],
-    &["volume_batch", "volume_edges"],
-    &[
-        "position",
-        "volume_depth_as_is",
-        "volume_extrude",
-        "volume_draw",
-        "volume_debug",
-    ],
-    &[
-        "position",
-        "volume_depth_as_is",
-        "volume_extrude",
-        "volume_draw",
-        "volume_debug_pulled",
-    ],
-    &[
-        "position",
-        "volume_depth_as_is",
-        "volume_extrude",
-        "volume_light_side",
-        "volume_vertex",
-        "volume_debug_records",
-    ],
-    &["volume_screen", "volume_join"],
-    &["volume_screen", "volume_join_samples"],
-    &["volume_screen", "volume_exact", "volume_mark"],
-    &[
-        "volume_screen",
-        "volume_exact_samples",
-        "volume_mark_samples",
-    ],
-    &["volume_count"],
-    &["volume_mask"],
-    &["cube_caster", "cube_caster_face"],
-    &["cube_caster", "cube_caster_gl"],
-    &["cube_caster", "cube_caster_views"],
-    &["cube_cross"],
-];
 
 #[test]
 fn no_shader_is_left_out() {
@@ -347,7 +251,7 @@ fn no_shader_is_left_out() {
     let files = std::fs::read_dir(folder).unwrap();
     let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
     let mut left: Vec<String> = names.map(|name| name.replace(".wgsl", "")).collect();
-    left.retain(|name| !VOLUMES.iter().any(|shader| shader.contains(&name.as_str())));
+    left.retain(|name| !JOINED.iter().any(|shader| shader.contains(&name.as_str())));
     // The rest is a sampler's, and stands in the text of some.
     let texts = receivers().into_iter().map(|(_, sampler)| sampler.wgsl());
     let texts: Vec<String> = texts.collect();

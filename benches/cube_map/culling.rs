@@ -1,15 +1,15 @@
 //! Three ways to find the casters that lights reach, by bounding spheres: the map's own tree, one by
 //! one, and by a compute shader as indirect draws would have them.
 
+#[allow(dead_code)] // no caster goes here
+#[path = "../../src/scene/caster_tree.rs"]
+mod caster_tree;
 #[path = "compute_culling.rs"]
 mod compute;
-#[allow(dead_code)] // no caster goes here
-#[path = "../../src/map/reach.rs"]
-mod reach;
 
 use std::time::{Duration, Instant};
 
-use reach::Reach;
+use caster_tree::CasterSpheres;
 use shadows::glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 use crate::host::gpu::Gpu;
@@ -27,8 +27,8 @@ pub fn culling(gpu: &Gpu, name: &str, count: usize, rounds: usize) {
     let mut spheres: Vec<DVec4> = (0..count)
         .map(|i| DVec4::new(i as f64 % side, 0.0, (i as f64 / side).floor(), 0.35))
         .collect();
-    let mut reach = Reach::default();
-    spheres.iter().for_each(|sphere| reach.push(*sphere));
+    let mut casters = CasterSpheres::default();
+    spheres.iter().for_each(|sphere| casters.push(*sphere));
     let compute = gpu
         .support
         .compute
@@ -45,9 +45,9 @@ pub fn culling(gpu: &Gpu, name: &str, count: usize, rounds: usize) {
 
         let by_tree = timed(|| {
             found.clear();
-            moved.iter().for_each(|&(i, to)| reach.set(i, to));
+            moved.iter().for_each(|&(i, to)| casters.set(i, to));
             for light in lights {
-                reach.within(*light, RANGE, &mut found);
+                casters.within(*light, RANGE, &mut found);
             }
         });
         let by_one = timed(|| {

@@ -1,11 +1,11 @@
 //! A cube map of 16 lights in a ring above the 64 spheres, 256 texels a face, and what is done with a
-//! frame of many faces: a budget, and one pass for six.
+//! frame of many faces: a budget.
 
 use std::f32::consts::TAU;
 
 use anyhow::Result;
 use shadows::glam::Vec3;
-use shadows::{Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FacePasses, PointLight};
+use shadows::{Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight};
 
 use crate::clock::Bench;
 use crate::host::gpu::Gpu;
@@ -76,21 +76,6 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     };
     let mut few = Many::new(stage, LIGHTS, budget)?;
     frames(bench, &mut few, "max_faces_per_frame 12 of 96", &[all]);
-    if !stage.gpu.support.multiview {
-        println!("FacePasses::Multiview: this device has no multiview");
-        return Ok(());
-    }
-    for (name, passes) in [
-        ("Multiview", FacePasses::Multiview),
-        ("Separate", FacePasses::Separate),
-    ] {
-        let options = CubeShadowMapDescriptor {
-            passes,
-            ..Default::default()
-        };
-        let mut one = Many::new(stage, 1, options)?;
-        frames(bench, &mut one, &format!("FacePasses::{name}"), &[all]);
-    }
     Ok(())
 }
 

@@ -1,7 +1,8 @@
 //! Lighting shaders: a Lambert shader whose light is shadowed in one way or another.
 
-use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{DepthEncoding, Gather, Kernel, MapKind};
 
+use crate::pcf::{WAYS, Way, made, textbooks};
 use crate::peers::PEERS;
 use crate::pipeline::Case;
 
@@ -54,61 +55,15 @@ pub fn lambert() -> Case {
     receiver("lambert".to_owned(), "", "1.0", Vec::new())
 }
 
-/// How a map is made and read.
-struct Way {
-    name: &'static str,
-    map: MapKind,
-    encoding: DepthEncoding,
-    many_lights: bool,
-    border: bool,
-    gather: Gather,
-}
-
-const CUBE: Way = Way {
-    name: "cube",
-    map: MapKind::Cube,
-    encoding: DepthEncoding::MajorAxis,
-    many_lights: false,
-    border: false,
-    gather: Gather::Always,
-};
-
-const FLAT: Way = Way {
-    name: "flat",
-    map: MapKind::Flat,
-    ..CUBE
-};
-
-const WAYS: [Way; 7] = [
-    CUBE,
-    Way {
-        name: "cube-linear",
-        encoding: DepthEncoding::LinearDistance,
-        ..CUBE
-    },
-    Way {
-        name: "cube-array",
-        many_lights: true,
-        ..CUBE
-    },
-    // Where gathers are not there, or wrong.
-    Way {
-        name: "cube-fetches",
-        gather: Gather::Never,
-        ..CUBE
-    },
-    FLAT,
-    Way {
-        name: "flat-fetches",
-        gather: Gather::Never,
-        ..FLAT
-    },
-    // What a device with the feature for it takes.
-    Way {
-        name: "flat-border",
-        border: true,
-        ..FLAT
-    },
+/// What is counted: no device of today wants the others.
+const COUNTED: [&str; 7] = [
+    "cube",
+    "cube-linear",
+    "cube-array",
+    "cube-fetches",
+    "flat",
+    "flat-fetches",
+    "flat-border",
 ];
 
 fn name(kernel: Kernel) -> &'static str {
@@ -118,48 +73,32 @@ fn name(kernel: Kernel) -> &'static str {
 /// The loops of a kernel's code: a square's is for the edges of the map alone.
 fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
     let linear = way.encoding == DepthEncoding::LinearDistance;
-    let fetches = way.map == MapKind::Cube && way.gather == Gather::Never;
+    let fetches = way.gather == Gather::Never;
     match kernel {
-        Kernel::Hard => Vec::new(),
+        // What stands in for a texel beyond the horizon of the plane.
+        Kernel::Hard if way.map == MapKind::Cube => vec![0],
+        Kernel::Hard | Kernel::HardwareBilinear => Vec::new(),
         // Nearly everywhere the first taps agree.
         Kernel::RandomDisk(disk) => vec![disk.around * disk.rings / 2],
         Kernel::Vogel(disk) => vec![disk.taps / 2],
         Kernel::ContactHardening(contact) => vec![contact.search_taps, contact.taps / 2],
         // What is too long for the compiler to unroll, a row of gathers at a time.
-        Kernel::Weighted5 if linear || fetches => vec![3, 0],
-        Kernel::Weighted7 => vec![4, 0],
+        Kernel::Weighted7 if linear || fetches => vec![4, 0],
         _ => vec![0],
     }
-}
-
-fn sampler(way: &Way, kernel: Kernel) -> PcfSampler {
-    let border = wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER;
-    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor {
-        required_features: if way.border {
-            border
-        } else {
-            wgpu::Features::empty()
-        },
-        ..Default::default()
-    });
-    let descriptor = PcfDescriptor {
-        kernel,
-        map: way.map,
-        encoding: way.encoding,
-        many_lights: way.many_lights,
-        gather: way.gather,
-        ..Default::default()
-    };
-    PcfSampler::new(&device, &queue, &descriptor).expect("every kernel reads every map")
 }
 
 /// Every kernel on every kind of map, with the plane's normal from derivatives and from the host, and
 /// other engines' receivers.
 pub fn all() -> Vec<Case> {
     let mut cases = Vec::new();
-    for way in &WAYS {
-        for kernel in Kernel::ALL {
-            let sampler = sampler(way, kernel);
+    for way in WAYS.iter().filter(|way| COUNTED.contains(&way.name)) {
+        let (device, queue) = way.device();
+        for kernel in Kernel::ALL
+            .into_iter()
+            .filter(|kernel| kernel.reads(way.encoding))
+        {
+            let sampler = made(&device, &queue, &way.descriptor(kernel));
             let index = if way.many_lights { "0u, " } else { "" };
             let flat = if way.map == MapKind::Flat {
                 "_flat"
@@ -173,7 +112,10 @@ pub fn all() -> Vec<Case> {
             };
             let text = sampler.wgsl_module(1);
             // The first loop of derivatives reads the map where they say nothing.
-            let derived = || [vec![0], trips(way, kernel)].concat();
+            let derived = || match kernel {
+                Kernel::HardwareBilinear => Vec::new(),
+                _ => [vec![0], trips(way, kernel)].concat(),
+            };
             for (suffix, given, normal, trips) in [
                 ("", "", "", derived()),
                 ("/normal", "_flat", ", normal", trips(way, kernel)),
@@ -200,13 +142,7 @@ pub fn all() -> Vec<Case> {
 
 /// This crate's own rendition of the textbook, which its reports measure everything against.
 fn textbook() -> Case {
-    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
-    let descriptor = PcfDescriptor {
-        textbook: true,
-        encoding: DepthEncoding::LinearDistance,
-        ..Default::default()
-    };
-    let sampler = PcfSampler::new(&device, &queue, &descriptor).expect("the textbook's encoding");
+    let (_, sampler) = textbooks().remove(0);
     let text = sampler.wgsl_module(1);
     let call = "shadows_visibility(vertex.world)";
     receiver("cube-linear/textbook".to_owned(), &text, call, Vec::new())

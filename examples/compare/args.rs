@@ -137,8 +137,10 @@ pub struct Args {
     pub growth: Option<f64>,
 
     /// Instead, draw the scenes and the hard cases with the shaders' arithmetic as drivers may choose it:
-    /// names, separated by commas, or all. Exits with 1 if a hard case fails that should not.
-    #[arg(long, value_name = "NAME,..|all", value_delimiter = ',', group = "mode")]
+    /// names, separated by commas, or all, as where none is given. Exits with 1 if a hard case fails that
+    /// should not.
+    #[arg(long, value_name = "NAME,..|all", num_args = 0..=1, default_missing_value = "all",
+          value_delimiter = ',', group = "mode")]
     pub arithmetic: Option<Vec<String>>,
 
     /// Directory for all that is written; made where it is missing.

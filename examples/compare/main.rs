@@ -158,14 +158,22 @@ fn other_arithmetic(args: &Args, names: &[String]) -> Result<ExitCode> {
         scenes: scenes
             .map(|name| asked_scene(args, name, args.size))
             .collect::<Result<_>>()?,
-        techniques: args.techniques.0.iter().map(|row| row.at(args.face)).collect(),
+        techniques: args
+            .techniques
+            .0
+            .iter()
+            .map(|row| row.at(args.face))
+            .collect(),
         size: args.size,
         rounds: args.rounds,
         variants,
     };
     let gpu = opened(args, [&args.out])?;
     let given: Vec<String> = std::env::args().skip(1).collect();
-    let command = format!("cargo run --release --example compare -- {}", given.join(" "));
+    let command = format!(
+        "cargo run --release --example compare -- {}",
+        given.join(" ")
+    );
     Ok(match arithmetic::run(&gpu, &plan, &command, &args.out)? {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,

@@ -72,7 +72,6 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
         cache,
         sides,
         max_faces_per_frame: budget,
-        passes,
         still_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
@@ -98,7 +97,6 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
             budget,
             &default.max_faces_per_frame,
         )
-        .field("passes", "FacePasses::", passes, &default.passes)
         .field(
             "still_layers",
             "StillLayers::",

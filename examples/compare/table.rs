@@ -1,8 +1,8 @@
 //! The techniques that have a name. A new one is one more row.
 
 use shadows::{
-    ContactHardening, Counter, CubeShadowMapDescriptor, FacePasses, Kernel, MapKind, Method,
-    PcfDescriptor, RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
+    ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
+    RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
 use crate::technique::{Config, Technique};
@@ -55,6 +55,7 @@ pub static ROWS: &[Row] = &[
     usual("cube-hard", |side| cube(side, Kernel::Hard)),
     usual("cube-2x2", |side| cube(side, Kernel::Bilinear)),
     usual("cube-16", |side| cube(side, Kernel::FourTaps)),
+    row("cube-hw", |side| cube(side, Kernel::HardwareBilinear)),
     row("cube-3x3", |side| cube(side, Kernel::Weighted3)),
     row("cube-5x5", |side| cube(side, Kernel::Weighted5)),
     row("cube-7x7", |side| cube(side, Kernel::Weighted7)),
@@ -64,11 +65,11 @@ pub static ROWS: &[Row] = &[
     row("cube-pcss", |side| cube(side, contact())),
     usual("cube-1024", |_| cube(1024, Kernel::default())),
     usual("cube-cached", cube_cached),
-    row("cube-multiview", cube_multiview),
     usual("cube-textbook", cube_textbook),
     usual("flat-hard", |side| flat(side, Kernel::Hard)),
     usual("flat-2x2", |side| flat(side, Kernel::Bilinear)),
     usual("flat-16", |side| flat(side, Kernel::FourTaps)),
+    row("flat-hw", |side| flat(side, Kernel::HardwareBilinear)),
     row("flat-3x3", |side| flat(side, Kernel::Weighted3)),
     row("flat-5x5", |side| flat(side, Kernel::Weighted5)),
     row("flat-7x7", |side| flat(side, Kernel::Weighted7)),
@@ -120,19 +121,6 @@ fn cube_cached(side: u32) -> Config {
     Config::Cube {
         map: CubeShadowMapDescriptor {
             size: side,
-            ..Default::default()
-        },
-        sampler: PcfDescriptor::default(),
-    }
-}
-
-/// All faces of a frame in one pass, on devices that have multiview.
-fn cube_multiview(side: u32) -> Config {
-    Config::Cube {
-        map: CubeShadowMapDescriptor {
-            size: side,
-            cache: false,
-            passes: FacePasses::Multiview,
             ..Default::default()
         },
         sampler: PcfDescriptor::default(),

@@ -5,7 +5,7 @@ use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use shadows::{
     Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
-    FacePasses, StillLayers,
+    StillLayers,
 };
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
@@ -26,7 +26,6 @@ struct Settings {
     at_once: bool,
     reach: Reach,
     format: u8,
-    passes: u8,
     still_layers: Still,
     /// Whether the first lights stay and every frame is encoded: what is drawn again and again shows
     /// only then what is kept under it.
@@ -78,11 +77,6 @@ impl Settings {
             },
             reach: self.reach.radius(),
             format: map::format(self.format),
-            passes: [
-                FacePasses::Auto,
-                FacePasses::Separate,
-                FacePasses::Multiview,
-            ][usize::from(self.passes % 3)],
             still_layers: match self.still_layers {
                 Still::Auto => StillLayers::Auto,
                 Still::Never => StillLayers::Never,

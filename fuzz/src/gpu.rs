@@ -6,11 +6,9 @@ use shadows::wgpu;
 
 static DEVICE: OnceLock<(wgpu::Device, wgpu::Queue)> = OnceLock::new();
 
-/// For every depth convention, `Counter::Exact` and `FacePasses::Multiview`.
-const FEATURES: wgpu::Features = wgpu::Features::DEPTH_CLIP_CONTROL
-    .union(wgpu::Features::FLOAT32_BLENDABLE)
-    .union(wgpu::Features::MULTIVIEW)
-    .union(wgpu::Features::SELECTIVE_MULTIVIEW);
+/// For every depth convention and `Counter::Exact`.
+const FEATURES: wgpu::Features =
+    wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::FLOAT32_BLENDABLE);
 
 /// The device that all runs share.
 pub fn device() -> &'static (wgpu::Device, wgpu::Queue) {
@@ -29,10 +27,6 @@ pub fn device() -> &'static (wgpu::Device, wgpu::Queue) {
             let adapter = instance.request_adapter(&Default::default()).await.unwrap();
             let descriptor = wgpu::DeviceDescriptor {
                 required_features: FEATURES,
-                required_limits: wgpu::Limits {
-                    max_multiview_view_count: 6,
-                    ..Default::default()
-                },
                 ..Default::default()
             };
             adapter.request_device(&descriptor).await.unwrap()

@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use super::CasterError;
 use super::LightError;
-use super::names::names;
 
 /// A field of [`Bias`](crate::Bias) that is out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -84,7 +83,7 @@ pub enum CubeShadowMapError {
     StillLayers,
     /// Layers of still casters where there are none.
     #[error(
-        "StillLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false) or several faces at once (FacePasses::Multiview); pass StillLayers::Auto or Never"
+        "StillLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false); pass StillLayers::Auto or Never"
     )]
     NoStillLayers,
     /// A view of one cube of a cube array, on a back end that has none.
@@ -117,17 +116,6 @@ pub enum CubeShadowMapError {
         lights: usize,
         /// Lights the map was made for.
         slots: usize,
-    },
-    /// Faces are to be drawn in one pass on a device that cannot.
-    #[error(
-        "FacePasses::Multiview needs a device with {} and max_multiview_view_count of at least 6 (this one has {views}); ask for what Support::features and Support::limits give, or pass FacePasses::Auto",
-        names(*missing)
-    )]
-    Multiview {
-        /// The features that the device lacks.
-        missing: wgpu::Features,
-        /// Its `max_multiview_view_count`.
-        views: u32,
     },
     /// A pinned light that is not in the frame.
     #[error("light {pinned} is pinned, but the frame has {lights} lights, counted from 0")]
@@ -317,6 +305,16 @@ pub enum PcfError {
         /// Lights the map was made for.
         lights: usize,
     },
+    /// A hardware comparison of depths of which a plane's are not linear.
+    #[error(
+        "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass encoding: MajorAxis, or another kernel"
+    )]
+    HardwareEncoding(crate::DepthEncoding),
+    /// A hardware comparison of cube arrays on a back end that has none.
+    #[error(
+        "wgpu's GL back end compares no cube arrays in hardware; pass many_lights: false, or another kernel"
+    )]
+    HardwareArray,
     /// Textbook receivers of depths that they cannot read.
     #[error(
         "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"

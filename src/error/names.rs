@@ -23,7 +23,7 @@ impl Named for wgpu::TextureUsages {
     }
 }
 
-/// As they are written in a host's code: `MULTIVIEW | SELECTIVE_MULTIVIEW`.
+/// As they are written in a host's code: `STORAGE | VERTEX`.
 pub(super) fn names(flags: impl Named) -> String {
     match &flags.each()[..] {
         [] => "none".to_owned(),
@@ -34,11 +34,9 @@ pub(super) fn names(flags: impl Named) -> String {
 #[cfg(test)]
 mod tests {
     use super::names;
-    use crate::Support;
 
     #[test]
     fn flags_are_named_as_a_host_writes_them() {
-        assert_eq!(names(Support::MULTIVIEW), "MULTIVIEW | SELECTIVE_MULTIVIEW");
         let feature = wgpu::Features::DEPTH_CLIP_CONTROL | wgpu::Features::FLOAT32_BLENDABLE;
         assert_eq!(names(feature), "DEPTH_CLIP_CONTROL | FLOAT32_BLENDABLE");
         assert_eq!(names(wgpu::BufferUsages::STORAGE), "STORAGE");

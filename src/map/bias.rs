@@ -6,8 +6,9 @@ use crate::error::BiasError;
 ///
 /// Every tap is compared with the depth of the receiver's own plane in that tap's direction (see
 /// [`PcfSampler`](crate::PcfSampler)), so a bias has nothing to do with slope or kernel width. What
-/// is left for it is rounding, the rasteriser's snapping of vertices to 1/256 of a texel, and the
-/// bend from one triangle of a concave surface to the next. The first two fields are in texels: one texel is
+/// is left for it is rounding, the rasteriser's snapping of vertices to 1/256 of a texel (to 1/16 on
+/// SwiftShader: docs/numerics.md says what of the defaults is left there), and the bend from one
+/// triangle of a concave surface to the next. The first two fields are in texels: one texel is
 /// `2 d / size` wide at a distance `d` along the major axis. A scene at another scale needs no
 /// other numbers.
 ///

@@ -1,8 +1,8 @@
 //! A cube map unfolded, for a host to look at.
 
 use super::cube::CubeShadowMap;
-use super::descriptor::DepthEncoding;
-use super::light::LightUniform;
+use super::encoding::DepthEncoding;
+use super::gpu::LightUniform;
 use crate::error::CubeShadowMapError;
 
 /// How to make a [`CubeCross`].

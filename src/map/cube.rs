@@ -1,27 +1,19 @@
 //! Omnidirectional shadow maps.
 
-use std::collections::HashMap;
-
 use glam::Mat4;
 
-use super::assign::assign;
-use super::descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor, DepthEncoding};
-use super::draws::DrawLists;
-use super::face::CubeFace;
-use super::joint::Joint;
-use super::light::LightUniform;
-use super::near::NearPlane;
-use super::plan::SlotPlan;
-use super::resources::{self, PipelineKey, PipelineKind, UNIFORM_STRIDE};
-use super::scene::Scene;
-use super::slot::Slot;
-use super::statistics::{Clock, CubeStatistics};
-use super::still_layer::StillLayer;
-use super::texture::Textures;
+use super::cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
+use super::encoding::DepthEncoding;
+use super::gpu::{CubeGpu, Draw, TooLarge, most_tiles};
+use super::plan::{
+    Rules, Slot, SlotPlan, Slots, casters_drawn, choose_faces, follow, longest_wait, tally,
+};
+use super::projection::CubeFace;
+use super::statistics::{Clock, CubeStatistics, FaceStatistics};
+use crate::Radius;
 use crate::error::CubeShadowMapError;
+use crate::scene::Casters;
 use crate::submissions::Submissions;
-use crate::uploads::Uploads;
-use crate::{Bias, PointLight, Radius};
 
 /// Omnidirectional depth maps for point lights: six faces each, drawn only where a caster is, and
 /// only when it has changed.
@@ -69,46 +61,21 @@ use crate::{Bias, PointLight, Radius};
 /// an outline.
 #[derive(Debug)]
 pub struct CubeShadowMap {
-    pub(super) size: u32,
-    pub(super) bias: Bias,
+    size: u32,
     pub(crate) reach: Radius,
-    pub(super) label: String,
-    pub(super) array: bool,
-    pub(super) format: wgpu::TextureFormat,
-    pub(super) encoding: DepthEncoding,
-    pub(super) near_plane: NearPlane,
-    pub(super) allocation: Allocation,
-    pub(super) cache: bool,
-    pub(super) budget: Option<u32>,
-    pub(super) textures: Textures,
-    pub(super) kind: PipelineKind,
-    pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    pub(super) face_uniforms: wgpu::Buffer,
-    pub(super) face_group: wgpu::BindGroup,
-    /// For a map that draws several faces in one pass.
-    pub(super) joint: Option<Joint>,
-    pub(super) lights: resources::Lights,
-    /// The [`texture_revision`](Self::texture_revision) for which those buffers are.
-    pub(super) lights_revision: u64,
-    pub(super) instances: wgpu::Buffer,
-    pub(super) scene: Scene,
-    /// Kept only for its memory: the casters that a light reaches.
-    reached: Vec<u32>,
-    pub(super) slots: Vec<Slot>,
-    /// For each light of the frame its slot.
-    pub(super) order: Vec<usize>,
-    pub(super) plans: Vec<SlotPlan>,
-    pub(super) draws: DrawLists,
-    /// The layers of what stands still, by slot and face, and the fewest triangles worth one.
-    pub(super) still: Vec<[Option<StillLayer>; 6]>,
-    pub(super) still_least: Option<u64>,
-    // What the uniforms hold once the uploads are recorded, by light and by slot.
-    pub(super) written_lights: Vec<Option<LightUniform>>,
-    pub(super) written_faces: Vec<Option<[f32; 2]>>,
-    pub(super) uploads: Uploads,
-    pub(super) submissions: Submissions,
-    pub(super) statistics: CubeStatistics,
-    pub(super) reordered: u64,
+    array: bool,
+    encoding: DepthEncoding,
+    allocation: Allocation,
+    cache: bool,
+    budget: Option<u32>,
+    /// The fewest triangles that are worth a static layer.
+    layer_least: Option<u64>,
+    casters: Casters,
+    slots: Slots,
+    plans: Vec<SlotPlan>,
+    gpu: CubeGpu,
+    submissions: Submissions,
+    statistics: CubeStatistics,
 }
 
 impl CubeShadowMap {
@@ -120,83 +87,29 @@ impl CubeShadowMap {
         device: &wgpu::Device,
         descriptor: &CubeShadowMapDescriptor<'_>,
     ) -> Result<Self, CubeShadowMapError> {
-        descriptor.validate(device)?;
-        let &CubeShadowMapDescriptor {
-            size,
-            bias,
-            cube_array,
-            format,
-            encoding,
-            ..
-        } = descriptor;
+        descriptor.validate(device, most_tiles(&device.limits()))?;
         let slots = descriptor.lights as usize;
-        let label = match descriptor.label {
-            Some(label) => format!("shadows cube map {label}"),
-            None => "shadows cube map".to_owned(),
-        };
-        let (face_uniforms, layout, face_group) = resources::faces(device, &label, slots as u64);
-        let kind = PipelineKind {
-            layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(&label),
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            }),
-            shader: resources::caster_shader(device, &label),
-            depth_written: resources::writes_depth(device),
-            format,
-            encoding,
-            slope_scale: bias.slope_scale,
-            unclipped_depth: resources::can_pull_casters(device),
-            constants: &[],
-        };
-        let joint = descriptor
-            .passes
-            .joint()
-            .then(|| Joint::new(device, &label, &face_uniforms, &kind));
-        let mut textures = Textures::new(device, &label, size, format, slots, cube_array);
+        let mut gpu = CubeGpu::new(device, descriptor);
         if descriptor.allocation == Allocation::AtOnce {
             for slot in 0..slots {
-                textures.allocate(device, slot);
+                gpu.allocate(device, slot);
             }
         }
-        let textures_revision = textures.revision();
         Ok(Self {
-            size,
-            bias,
+            size: descriptor.size,
             reach: descriptor.reach,
-            array: cube_array,
-            format,
-            encoding,
-            near_plane: NearPlane::new(format, encoding),
+            array: descriptor.cube_array,
+            encoding: descriptor.encoding,
             allocation: descriptor.allocation,
             cache: descriptor.cache,
             budget: descriptor.max_faces_per_frame,
-            textures,
-            kind,
-            pipelines: HashMap::new(),
-            face_uniforms,
-            face_group,
-            lights: resources::lights(device, &label, slots as u64, cube_array),
-            lights_revision: textures_revision,
-            instances: resources::instances(device, &label, 1),
-            uploads: Uploads::new(device),
-            submissions: Submissions::default(),
-            label,
-            scene: Scene::new(descriptor.sides),
-            reached: Vec::new(),
-            slots: (0..slots)
-                .map(|_| Slot::new(descriptor.cull_casters))
-                .collect(),
-            order: Vec::new(),
+            layer_least: descriptor.layer_least(device),
+            casters: Casters::default(),
+            slots: Slots::new(slots, descriptor.cull_casters),
             plans: Vec::new(),
-            draws: DrawLists::new(slots, joint.as_ref()),
-            joint,
-            still: (0..slots).map(|_| Default::default()).collect(),
-            still_least: descriptor.still_least(device),
-            written_lights: vec![None; slots],
-            written_faces: vec![None; slots],
+            gpu,
+            submissions: Submissions::default(),
             statistics: CubeStatistics::default(),
-            reordered: 0,
         })
     }
 
@@ -214,38 +127,102 @@ impl CubeShadowMap {
     ) -> Result<(), CubeShadowMapError> {
         let clock = Clock::start();
         frame.validate(self.slots.len())?;
-        self.scene.compare(frame.casters, device)?;
+        self.casters.compare(frame.casters, device)?;
         let encoder_dropped = self.submissions.take_dropped();
         if encoder_dropped {
             self.invalidate();
         }
-        self.take_over(frame);
+        self.slots
+            .take_over(frame.lights, &mut self.casters, frame.casters);
         self.allocate(device);
-        self.replace_lights(device, queue);
+        let revision = self.texture_revision();
+        self.gpu.replace_lights(device, queue, revision);
         let plans = self.plan(frame);
         self.reserve(device, &plans)?;
         let not_encoded = self.is_pending();
         if not_encoded {
-            self.forget_uploads();
+            self.gpu.forget_uploads();
         }
-        self.follow(&plans);
+        follow(&plans, &mut self.slots);
         self.record_draws(device, &plans, frame);
-        self.write_lights(frame.lights);
+        let lazy = self.allocation == Allocation::WithFirstCaster;
+        self.gpu.write_lights(frame.lights, &self.slots, lazy);
 
-        let mut statistics = self.tally(&plans);
-        self.count_draws(&mut statistics, &plans);
-        statistics.bytes = self.bytes();
-        statistics.uploaded = self.uploads.bytes();
-        statistics.not_encoded = not_encoded;
-        statistics.encoder_dropped = encoder_dropped;
-        statistics.prepare = clock.elapsed();
-        self.statistics = statistics;
+        let draws = self.gpu.draws();
+        let statistics = CubeStatistics {
+            draws: draws.iter().count() as u32,
+            triangles: draws.iter().map(Draw::triangles).sum(),
+            bytes: self.gpu.bytes(),
+            uploaded: self.gpu.uploaded(),
+            not_encoded,
+            encoder_dropped,
+            ..tally(&plans, &self.slots, self.casters.records().len())
+        };
+        self.statistics = CubeStatistics {
+            prepare: clock.elapsed(),
+            ..statistics
+        };
+        self.plans = plans;
         Ok(())
     }
 
-    /// Whether an `encode` would record anything.
-    fn is_pending(&self) -> bool {
-        self.uploads.bytes() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
+    /// Records what the last [`prepare`](Self::prepare) found necessary: its passes, and what it tells
+    /// receivers of the lights. Once: a second call before the next `prepare` records nothing.
+    ///
+    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
+    /// lights as they were; of a map that was never drawn they see all lights dark. What is recorded
+    /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
+    /// ([`CubeStatistics::encoder_dropped`](crate::CubeStatistics)).
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let mut recorded = self.gpu.upload(encoder);
+        recorded |= self.gpu.clear_placeholder(encoder);
+        for (index, slot) in self.slots.iter_mut().enumerate() {
+            recorded |= slot.pending != 0;
+            self.gpu.encode(encoder, index, slot);
+            slot.encoded(slot.pending);
+        }
+        if recorded {
+            self.submissions.watch(encoder);
+        }
+    }
+
+    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has every face drawn again that the
+    /// view shows, whatever the budget. What the last one found is forgotten.
+    ///
+    /// For a host that has written to the map's textures, or has lost what was recorded in a way that
+    /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
+    pub fn invalidate(&mut self) {
+        self.slots.iter_mut().for_each(Slot::doubt_texels);
+        self.gpu.doubt();
+    }
+
+    /// Begins a pass that clears one face of a light, for a host that draws its own geometry
+    /// (skinned, alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format,
+    /// one sample, the comparison and clear depth of its [`DepthEncoding`](crate::DepthEncoding), and
+    /// unclipped depth where the device has it, so that what is nearer than the near plane casts. On
+    /// wgpu's GL back end, let the fragment shader write clip z times its position's w as `frag_depth`:
+    /// the rasteriser's own depth has too few digits there (see [`Support`](crate::Support)).
+    /// `None` if the light has no texels (see [`Allocation::AtOnce`](crate::Allocation::AtOnce)) or
+    /// the last frame had no such light.
+    ///
+    /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew on this face
+    /// is cleared, so pass such a host's other casters through its own draws too. The next
+    /// `prepare` takes the face's content for unknown and draws it again.
+    pub fn begin_face<'encoder>(
+        &mut self,
+        encoder: &'encoder mut wgpu::CommandEncoder,
+        light: usize,
+        face: CubeFace,
+    ) -> Option<wgpu::RenderPass<'encoder>> {
+        let index = self.slots.of_light(light)?;
+        // A host that calls this instead of `encode` tells receivers of the light through it.
+        if self.gpu.upload(encoder) {
+            self.submissions.watch(encoder);
+        }
+        let clear = self.gpu.clear();
+        let pass = self.gpu.begin_face(encoder, index, face, clear)?;
+        self.slots[index].touched(face);
+        Some(pass)
     }
 
     /// The matrix of a face for a light of the last [`prepare`](Self::prepare), world space to clip
@@ -253,9 +230,9 @@ impl CubeShadowMap {
     /// counter-clockwise seen from the light are clockwise on the face. While a light that moved
     /// waits for its faces, this is still the matrix of where it was.
     pub fn clip_from_world(&self, light: usize, face: CubeFace) -> Option<Mat4> {
-        let slot = &self.slots[*self.order.get(light)?];
+        let slot = &self.slots[self.slots.of_light(light)?];
         let light = slot.shown.or(slot.light)?;
-        let near = self.near_plane.of_point(&light);
+        let near = self.gpu.near_plane().of_point(&light);
         Some(face.clip_from_light(near) * Mat4::from_translation(-light.position))
     }
 
@@ -263,7 +240,7 @@ impl CubeShadowMap {
     /// if it has no texels. On wgpu's GL back end a cube array for one light has six more layers, which
     /// nothing is drawn into.
     pub fn texture(&self, light: usize) -> Option<(&wgpu::Texture, u32)> {
-        let slot = self.textures.slot(*self.order.get(light)?)?;
+        let slot = self.gpu.textures().slot(self.slots.of_light(light)?)?;
         Some((&slot.texture, slot.first_layer))
     }
 
@@ -274,13 +251,13 @@ impl CubeShadowMap {
     /// [`CubeShadowMapError::CubeView`] if the map is a cube array on wgpu's GL back end, which reads
     /// no cube out of an array.
     pub fn view(&self, light: usize) -> Result<&wgpu::TextureView, CubeShadowMapError> {
-        let view = self.textures.cube(self.slot_of(light));
+        let view = self.gpu.textures().cube(self.slot_of(light));
         view.ok_or(CubeShadowMapError::CubeView)
     }
 
     /// One face of a light's map as a 2D texture; `None` if it has no texels.
     pub fn face_view(&self, light: usize, face: CubeFace) -> Option<&wgpu::TextureView> {
-        let slot = self.textures.slot(*self.order.get(light)?)?;
+        let slot = self.gpu.textures().slot(self.slots.of_light(light)?)?;
         Some(&slot.faces[face.layer() as usize])
     }
 
@@ -290,7 +267,7 @@ impl CubeShadowMap {
     /// again all lights are dark, so that nobody takes it for right.
     #[must_use]
     pub fn texture_revision(&self) -> u64 {
-        self.textures.revision() + self.reordered
+        self.gpu.textures().revision() + self.slots.reordered()
     }
 
     /// Whether all lights are in one binding, so that one bind group serves them all.
@@ -309,7 +286,7 @@ impl CubeShadowMap {
     /// position of their light, are drawn at once, outside the budget.
     pub fn max_age(&self) -> Option<u32> {
         let budget = self.budget?;
-        Some(super::schedule::longest_wait(self.slots.len(), budget))
+        Some(longest_wait(self.slots.len(), budget))
     }
 
     /// Texels along each side of a face.
@@ -327,73 +304,106 @@ impl CubeShadowMap {
         self.statistics
     }
 
+    /// What became of one face of the light at place `light` of the last prepared frame; `None` if
+    /// the frame had no such light.
+    pub fn face_statistics(&self, light: usize, face: CubeFace) -> Option<FaceStatistics> {
+        let index = self.slots.of_light(light)?;
+        let slot = &self.slots[index];
+        let of = &slot.faces[face.layer() as usize];
+        Some(FaceStatistics {
+            state: self.plans.get(index)?.state(slot, face),
+            casters: of.content.casters,
+            triangles: of.content.triangles,
+            age: of.age,
+        })
+    }
+
     /// How many lights it was made for.
     pub(crate) fn most_lights(&self) -> usize {
         self.slots.len()
     }
 
     pub(crate) fn light_uniform(&self, light: usize) -> wgpu::BindingResource<'_> {
-        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &self.lights.uniforms,
-            offset: light.min(self.slots.len() - 1) as u64 * UNIFORM_STRIDE,
-            size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
-        })
+        self.gpu.lights().one(light)
     }
 
     /// The array of all cubes and the buffer of all lights, where they share a binding.
     pub(crate) fn array(&self) -> Option<(&wgpu::TextureView, &wgpu::Buffer)> {
-        Some((self.textures.array()?, self.lights.all.as_ref()?))
+        Some((self.gpu.textures().array()?, self.gpu.lights().all()?))
     }
 
     fn slot_of(&self, light: usize) -> usize {
         let same_place = light.min(self.slots.len() - 1);
-        self.order.get(light).copied().unwrap_or(same_place)
+        self.slots.of_light(light).unwrap_or(same_place)
     }
 
-    fn bytes(&self) -> u64 {
-        let all = self.lights.all.as_ref().map_or(0, wgpu::Buffer::size);
-        self.textures.bytes()
-            + self.layer_bytes()
-            + self.instances.size()
-            + self.face_uniforms.size()
-            + self.lights.uniforms.size()
-            + all
+    /// Whether an `encode` would record anything.
+    fn is_pending(&self) -> bool {
+        self.gpu.uploaded() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
     }
 
-    /// Takes over the frame's lights and casters.
-    fn take_over(&mut self, frame: &CubeFrame<'_>) {
-        let order = assign(frame.lights, &self.slots, &self.order);
-        let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
-        self.reordered += u64::from(moved);
-        let mut wanted = vec![None; self.slots.len()];
-        for (light, &slot) in frame.lights.iter().zip(&order) {
-            wanted[slot] = Some(*light);
-        }
-        self.order = order;
-        // Lights that change are sorted out once, after the casters.
-        let changes = |slot: &Slot, light: &Option<PointLight>| slot.light != *light;
-        let mut changed = vec![false; self.slots.len()];
-        for ((slot, light), changed) in self.slots.iter_mut().zip(&wanted).zip(&mut changed) {
-            *changed = changes(slot, light);
-            if *changed {
-                let shown = slot.shown;
-                slot.set_light(None, &self.scene, &[]);
-                slot.shown = shown.filter(|_| light.is_some());
+    /// Makes the texels that this frame's lights need, and gives back those that none needs any more.
+    fn allocate(&mut self, device: &wgpu::Device) {
+        let lazy = self.allocation == Allocation::WithFirstCaster;
+        if lazy {
+            for index in self.slots.idle(self.array) {
+                if self.gpu.free(index) {
+                    self.slots[index].texels_freed();
+                }
             }
         }
-        if !self.scene.is_still(frame.casters) {
-            self.scene.update(frame.casters, &mut self.slots);
-        }
-        for ((slot, light), changed) in self.slots.iter_mut().zip(wanted).zip(changed) {
-            let Some(light) = light.filter(|_| changed) else {
-                continue;
-            };
-            self.reached.clear();
-            match slot.cull {
-                true => self.scene.within(&light, &mut self.reached),
-                false => self.reached.extend(0..self.scene.records().len() as u32),
+        for place in 0..self.slots.order().len() {
+            let index = self.slots.order()[place];
+            if self.slots[index].casting > 0 || !lazy {
+                for new in self.gpu.allocate(device, index) {
+                    self.slots[new].forget_texels();
+                }
             }
-            slot.set_light(Some(light), &self.scene, &self.reached);
         }
+    }
+
+    /// Chooses the faces to draw. Changes nothing.
+    fn plan(&self, frame: &CubeFrame<'_>) -> Vec<SlotPlan> {
+        let rules = Rules {
+            view: frame.view,
+            reach: self.reach,
+            size: self.size,
+            cache: self.cache,
+            budget: self.budget,
+            pinned: frame.pinned,
+        };
+        choose_faces(&self.slots, &rules, |slot| {
+            self.gpu.textures().slot(slot).is_some()
+        })
+    }
+
+    /// Makes the instance buffer large enough.
+    fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        plans: &[SlotPlan],
+    ) -> Result<(), CubeShadowMapError> {
+        let instances = casters_drawn(plans, &self.slots);
+        let reserved = self.gpu.reserve(device, instances);
+        reserved.map_err(
+            |TooLarge { size, limit }| CubeShadowMapError::TooManyCasters {
+                instances,
+                size,
+                limit,
+            },
+        )
+    }
+
+    /// Lists what the faces of a plan show, and stages what drawing that needs.
+    fn record_draws(&mut self, device: &wgpu::Device, plans: &[SlotPlan], frame: &CubeFrame<'_>) {
+        self.gpu.clear_draws();
+        let casters = (&self.casters, frame.casters);
+        for (index, (slot, plan)) in self.slots.iter_mut().zip(plans).enumerate() {
+            if plan.drawn != 0 {
+                let (slot, least) = ((index, slot), self.layer_least);
+                self.gpu.add_faces(device, slot, plan.drawn, least, casters);
+            }
+        }
+        self.gpu.finish_draws(device);
     }
 }

@@ -1,23 +1,24 @@
 //! Flat shadow maps for spot and directional lights.
 
-use std::collections::HashMap;
-
 use glam::{Mat4, Vec4};
-use wgpu::util::DeviceExt as _;
 
-use super::descriptor::DepthEncoding;
-use super::draws::Draw;
-use super::flat_content::{Asked, Content, Texels};
-use super::flat_descriptor::{FlatLightUniform, ShadowMapDescriptor, ShadowMapStatistics};
-use super::flat_frame::{FlatFrame, LightBox};
-use super::near::NearPlane;
-use super::resources::{self, FaceUniform, PipelineKey, PipelineKind};
-use super::scene::Scene;
-use super::texture;
+use super::encoding::{DepthEncoding, texel_bytes};
+use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
+use super::gpu::{
+    Draw, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, FlatLightUniform, INSTANCE_SIZE,
+    Instances, PipelineKind, Pipelines, TooLarge, begin_depth_pass, can_pull_casters,
+    create_texture, draws_of_flat,
+};
+use super::plan::{Content, FlatPlace, Signature, Texels};
+use super::projection::{FlatFrame, NearPlane};
+use super::sides::CasterSides;
+use super::statistics::ShadowMapStatistics;
 use crate::error::ShadowMapError;
+use crate::mesh::Caster;
+use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
-use crate::{Bias, DirectionalLight, Radius};
+use crate::{Bias, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
 /// over because rows of a texture count down, and z left as it is because WebGPU's clip space has
@@ -51,39 +52,29 @@ pub fn texture_from_clip() -> Mat4 {
 /// are read, and nothing is uploaded.
 #[derive(Debug)]
 pub struct ShadowMap {
-    pub(super) size: u32,
-    pub(super) bias: Bias,
+    label: String,
+    size: u32,
+    bias: Bias,
     pub(crate) reach: Radius,
-    pub(super) label: String,
-    pub(super) cache: bool,
-    pub(super) texture: wgpu::Texture,
+    sides: CasterSides,
+    cache: bool,
+    texture: wgpu::Texture,
     view: wgpu::TextureView,
-    pub(super) kind: PipelineKind,
-    pub(super) near_plane: NearPlane,
-    pub(super) pipelines: HashMap<PipelineKey, wgpu::RenderPipeline>,
-    pub(super) face: wgpu::Buffer,
-    face_group: wgpu::BindGroup,
-    pub(super) light: wgpu::Buffer,
-    pub(super) instances: wgpu::Buffer,
-    pub(super) scene: Scene,
-    /// What the last frame asked for, where the map lies for it and what it is to show.
-    pub(super) asked: Option<Asked>,
-    pub(super) frame: Option<FlatFrame>,
-    pub(super) width: Option<f64>,
-    /// The box around all casters, as a light sees them.
-    pub(super) caster_box: Option<(DirectionalLight, Option<LightBox>)>,
-    pub(super) wanted: Content,
-    /// What the texels show.
-    pub(super) texels: Texels,
+    pipelines: Pipelines,
+    uniforms: FaceUniforms,
+    light: FlatLightBuffer,
+    instances: Instances,
+    casters: Casters,
+    place: FlatPlace,
+    /// What the texels are to show, and what they do.
+    wanted: Signature<FlatFrame>,
+    texels: Texels<FlatFrame>,
     /// Whether the next encode draws, and what.
-    pub(super) pending: bool,
-    pub(super) draws: Vec<Draw>,
-    // What the uniforms hold once the uploads are recorded.
-    pub(super) written_light: Option<FlatLightUniform>,
-    pub(super) written_face: Option<FaceUniform>,
-    pub(super) uploads: Uploads,
-    pub(super) submissions: Submissions,
-    pub(super) statistics: ShadowMapStatistics,
+    pending: bool,
+    draws: Vec<Draw>,
+    uploads: Uploads,
+    submissions: Submissions,
+    statistics: ShadowMapStatistics,
 }
 
 impl ShadowMap {
@@ -100,60 +91,89 @@ impl ShadowMap {
             Some(label) => format!("shadows map {label}"),
             None => "shadows map".to_owned(),
         };
-        let (size, bias) = (descriptor.size, descriptor.bias);
-        let texture = texture::create(device, &label, size, descriptor.format, 1);
-        let (face, layout, face_group) = resources::faces(device, &label, 1);
+        let (size, bias, reach) = (descriptor.size, descriptor.bias, descriptor.reach);
+        let texture = create_texture(device, &label, size, descriptor.format, 1);
+        let uniforms = FaceUniforms::new(device, &label, 1);
         let kind = PipelineKind {
-            layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(&label),
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            }),
-            shader: resources::caster_shader(device, &label),
-            depth_written: resources::writes_depth(device),
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
-            unclipped_depth: descriptor.unclipped_depth && resources::can_pull_casters(device),
-            constants: &[],
+            unclipped_depth: descriptor.unclipped_depth && can_pull_casters(device),
         };
+        let near_plane = NearPlane::new(kind.format, kind.encoding);
         Ok(Self {
             size,
             bias,
-            reach: descriptor.reach,
+            reach,
+            sides: descriptor.sides,
             cache: descriptor.cache,
             view: texture.create_view(&wgpu::TextureViewDescriptor {
                 label: Some(&label),
                 ..Default::default()
             }),
-            near_plane: NearPlane::new(kind.format, kind.encoding),
             texture,
-            kind,
-            pipelines: HashMap::new(),
-            face,
-            face_group,
-            light: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(&format!("{label} light")),
-                contents: bytemuck::bytes_of(&FlatLightUniform::DARK),
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            }),
-            instances: resources::instances(device, &label, 1),
-            scene: Scene::new(descriptor.sides),
-            asked: None,
-            frame: None,
-            width: None,
-            caster_box: None,
-            wanted: Content::default(),
-            texels: Texels::Unknown,
+            place: FlatPlace::new(size, reach, near_plane, kind.unclipped_depth),
+            pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
+            uniforms,
+            light: FlatLightBuffer::new(device, &label),
+            instances: Instances::new(device, &label),
+            casters: Casters::default(),
+            wanted: Signature::new(None, Content::default()),
+            texels: Texels::UNKNOWN,
             pending: false,
             draws: Vec::new(),
-            written_light: None,
-            written_face: None,
             uploads: Uploads::new(device),
             submissions: Submissions::default(),
             statistics: ShadowMapStatistics::default(),
             label,
         })
+    }
+
+    /// Finds where the map lies, decides which casters go on it and stages what drawing them needs.
+    /// (Nothing goes through the queue, which is there as in every other `prepare`: it has its place in
+    /// the order of the encoder, see [`encode`](Self::encode).)
+    ///
+    /// # Errors
+    /// [`ShadowMapError`] if the light, a caster, the view's distance or the receivers' bounds are
+    /// out of range, each by itself or all together in `f32`; the map is then as it was.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        _: &wgpu::Queue,
+        frame: &ShadowFrame<'_>,
+    ) -> Result<(), ShadowMapError> {
+        frame.validate()?;
+        self.validate_reach(&frame.light)?;
+        self.validate_count(device, frame.casters.len())?;
+        self.casters.compare(frame.casters, device)?;
+        if self.place.take_over(frame, &mut self.casters)? {
+            self.wanted = self.content();
+        }
+
+        let encoder_dropped = self.submissions.take_dropped();
+        if encoder_dropped {
+            self.invalidate();
+        }
+        let not_encoded = self.pending || self.uploads.bytes() > 0;
+        if not_encoded {
+            self.forget_uploads();
+        }
+        let again = !self.cache && !self.wanted.content().is_empty();
+        self.pending = again || !self.texels.show(&self.wanted);
+        self.texels.schedule(self.wanted);
+        self.draws.clear();
+        if self.pending {
+            self.record_draws(device, frame.casters)?;
+        }
+        let (size, format) = (self.size, self.texture.format());
+        let light = FlatLightUniform::new(self.place.frame(), &self.bias, size, format);
+        self.light.write(&mut self.uploads, light);
+        self.statistics = ShadowMapStatistics {
+            not_encoded,
+            encoder_dropped,
+            ..self.count(frame.casters.len())
+        };
+        Ok(())
     }
 
     /// Records what the last [`prepare`](Self::prepare) found necessary: its pass, and what it tells
@@ -171,13 +191,13 @@ impl ShadowMap {
         if !std::mem::take(&mut self.pending) {
             return;
         }
-        let mut pass = self.pass(encoder);
-        pass.set_bind_group(0, &self.face_group, &[0]);
-        for draw in &self.draws {
-            draw.record(&mut pass, &self.pipelines, &self.instances);
-        }
-        drop(pass);
-        self.texels = self.wanted.on_texels();
+        let drawing = Drawing {
+            uniforms: &self.uniforms,
+            pipelines: &self.pipelines,
+            instances: &self.instances,
+        };
+        drawing.record(&mut self.pass(encoder), 0, &self.draws);
+        self.texels.encoded();
     }
 
     /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the map drawn again. What the
@@ -187,7 +207,7 @@ impl ShadowMap {
     /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
     pub fn invalidate(&mut self) {
         self.pending = false;
-        self.texels = Texels::Unknown;
+        self.texels.forget();
         self.forget_uploads();
     }
 
@@ -207,7 +227,7 @@ impl ShadowMap {
             self.submissions.watch(encoder);
         }
         self.pending = false;
-        self.texels = Texels::Unknown;
+        self.texels.forget();
         self.pass(encoder)
     }
 
@@ -215,7 +235,7 @@ impl ShadowMap {
     /// where nothing casts. The frame is left-handed: triangles that are counter-clockwise seen
     /// from the light are clockwise on the map.
     pub fn clip_from_world(&self) -> Option<Mat4> {
-        Some(self.frame?.clip_from_world())
+        Some(self.place.frame()?.clip_from_world())
     }
 
     /// World space to texture coordinates (x and y in 0 .. 1 on the map) and depth, after division
@@ -245,24 +265,98 @@ impl ShadowMap {
     }
 
     pub(crate) fn light_uniform(&self) -> &wgpu::Buffer {
-        &self.light
+        self.light.buffer()
     }
 
     fn pass<'encoder>(
         &self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(&self.label),
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.view,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
+        begin_depth_pass(encoder, &self.label, &self.view, wgpu::LoadOp::Clear(0.0))
+    }
+
+    /// A directional light's map is made wider by what kernels reach beside what is seen; of texels, a
+    /// small map has not that many.
+    fn validate_reach(&self, light: &FlatLight) -> Result<(), ShadowMapError> {
+        let ((reach, _), size) = (self.reach.reach(), self.size);
+        match light {
+            FlatLight::Directional(_) if 4.0 * (reach + 1.0) > size as f32 => {
+                Err(ShadowMapError::ReachOfSize { reach, size })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn validate_count(&self, device: &wgpu::Device, casters: usize) -> Result<(), ShadowMapError> {
+        let limit = device.limits().max_buffer_size;
+        let size = casters as u64 * INSTANCE_SIZE;
+        match size > limit {
+            true => Err(ShadowMapError::TooManyCasters {
+                casters,
+                size,
+                limit,
             }),
+            false => Ok(()),
+        }
+    }
+
+    /// What the map is to show.
+    fn content(&self) -> Signature<FlatFrame> {
+        let Some(frame) = self.place.frame() else {
+            return Signature::new(None, Content::default());
+        };
+        let frustum = frame.frustum();
+        let on_map = self.casters.records().iter();
+        let on_map = on_map.filter(|record| frustum.holds(record));
+        Signature::new(Some(*frame), Content::of(on_map))
+    }
+
+    /// Lists the draws of the casters on the map, and stages what they need.
+    fn record_draws(
+        &mut self,
+        device: &wgpu::Device,
+        casters: &[Caster],
+    ) -> Result<(), ShadowMapError> {
+        let Some(frame) = self.place.frame() else {
+            return Ok(());
+        };
+        let (draws, instances) = draws_of_flat(frame, self.sides, &self.casters, casters);
+        self.draws = draws;
+        let reserved = self.instances.reserve(device, instances.len());
+        reserved.map_err(|TooLarge { size, limit }| ShadowMapError::TooManyCasters {
+            casters: instances.len(),
+            size,
+            limit,
+        })?;
+        self.instances.write(&mut self.uploads, &instances);
+        self.pipelines
+            .make(device, self.draws.iter().map(Draw::key));
+        let uniform = FaceUniform::new(&frame.clip_from_light(), frame.range, self.size);
+        self.uniforms.write(&mut self.uploads, 0, uniform);
+        Ok(())
+    }
+
+    /// Forgets what was to be written, and what has been.
+    fn forget_uploads(&mut self) {
+        self.uploads.clear();
+        self.light.forget();
+        self.uniforms.forget();
+    }
+
+    fn count(&self, casters: usize) -> ShadowMapStatistics {
+        let drawn = self.wanted.content().casters;
+        ShadowMapStatistics {
+            rendered: self.pending,
+            casters_drawn: drawn,
+            casters_outside: casters as u32 - drawn,
+            draws: self.draws.len() as u32,
+            triangles: self.draws.iter().map(Draw::triangles).sum(),
+            bytes: u64::from(self.size).pow(2) * texel_bytes(self.texture.format())
+                + self.instances.bytes()
+                + self.uniforms.bytes()
+                + self.light.buffer().size(),
+            uploaded: self.uploads.bytes(),
             ..Default::default()
-        })
+        }
     }
 }

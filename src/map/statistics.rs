@@ -78,8 +78,36 @@ pub struct FaceStatistics {
     pub age: u32,
 }
 
+/// What the last [`ShadowMap::prepare`](crate::ShadowMap::prepare) found and the next `encode` will
+/// do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ShadowMapStatistics {
+    /// Whether the map will be drawn or cleared; false where it shows all that it must already.
+    pub rendered: bool,
+    /// Casters on the map.
+    pub casters_drawn: u32,
+    /// Casters that cannot be on it.
+    pub casters_outside: u32,
+    /// Draw calls.
+    pub draws: u32,
+    /// Triangles in those draws.
+    pub triangles: u64,
+    /// GPU memory held: texture and buffers, without the staging buffers in which `uploaded` waits:
+    /// these are kept, of powers of two from 64 KB on, as many as frames wait for the GPU.
+    pub bytes: u64,
+    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    pub uploaded: u64,
+    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
+    /// again. Of a host that prepares and encodes once a frame, always false.
+    pub not_encoded: bool,
+    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
+    /// the last `prepare`: the map is drawn again.
+    pub encoder_dropped: bool,
+}
+
 impl CubeStatistics {
-    pub(super) fn count(&mut self, state: FaceState) {
+    pub(crate) fn count(&mut self, state: FaceState) {
         *match state {
             FaceState::Rendered => &mut self.faces_rendered,
             FaceState::Kept => &mut self.faces_kept,
@@ -91,7 +119,7 @@ impl CubeStatistics {
 }
 
 /// Measures `prepare` where there is a clock.
-pub(super) struct Clock {
+pub(crate) struct Clock {
     #[cfg(not(target_arch = "wasm32"))]
     start: std::time::Instant,
 }

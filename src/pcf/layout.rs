@@ -44,10 +44,20 @@ pub(super) fn create_layout(
         ty,
         count: None,
     };
-    let texture = |view_dimension| wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    let float = wgpu::TextureSampleType::Float { filterable: false };
+    let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
+        sample_type,
         view_dimension,
         multisampled: false,
+    };
+    let (depths, sampler) = match kernel {
+        Kernel::HardwareBilinear => (
+            wgpu::TextureSampleType::Depth,
+            wgpu::SamplerBindingType::Comparison,
+        ),
+        // A float texture rather than a depth texture: depths are compared here, texel by texel,
+        // and GL reads depth textures only through its own single comparison.
+        _ => (float, wgpu::SamplerBindingType::NonFiltering),
     };
     let buffer = |ty, size: usize| wgpu::BindingType::Buffer {
         ty,
@@ -55,19 +65,14 @@ pub(super) fn create_layout(
         min_binding_size: wgpu::BufferSize::new(size as u64),
     };
     let mut entries = vec![
-        // A float texture rather than a depth texture: depths are compared here, texel by texel,
-        // and GL reads depth textures only through its own single comparison.
-        entry(0, texture(map.dimension)),
-        entry(
-            1,
-            wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
-        ),
+        entry(0, texture(depths, map.dimension)),
+        entry(1, wgpu::BindingType::Sampler(sampler)),
         entry(2, buffer(map.lights, map.light_size)),
     ];
     if kernel.uses_pixel() {
         let ty = wgpu::BufferBindingType::Uniform;
         entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
-        entries.push(entry(4, texture(wgpu::TextureViewDimension::D3)));
+        entries.push(entry(4, texture(float, wgpu::TextureViewDimension::D3)));
     }
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),

@@ -1,6 +1,9 @@
 //! The kinds of shadow map that a sampler can read.
 
+use super::text::TEXEL;
 use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowMap};
+
+const CUBE_TAP: &str = include_str!("../../shaders/cube_tap.wgsl");
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -68,14 +71,20 @@ pub(super) struct Reads {
 /// The files that a kind of map brings along.
 pub(super) struct MapWgsl {
     reads: Reads,
+    pub light: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
+    pub edge: &'static str,
     pub fetch: &'static str,
     pub gather: &'static str,
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
+    /// All that [`Kernel::Hard`](super::Kernel::Hard) takes.
+    pub hard: [&'static str; 2],
     pub slope: &'static str,
+    pub compare: &'static str,
+    pub hardware: &'static str,
 }
 
 impl MapWgsl {
@@ -89,20 +98,25 @@ impl MapWgsl {
     fn flat(reads: Reads) -> Self {
         Self {
             reads,
+            light: include_str!("../../shaders/flat_light.wgsl"),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
-            depth: match reads.border {
+            depth: "",
+            edge: match reads.border {
                 false => include_str!("../../shaders/flat_edge_test.wgsl"),
                 true => include_str!("../../shaders/flat_edge_border.wgsl"),
             },
             fetch: include_str!("../../shaders/flat_texel.wgsl"),
-            gather: "",
-            texel: "",
-            four: match reads.gather {
+            gather: match reads.gather {
                 true => include_str!("../../shaders/flat_four.wgsl"),
                 false => include_str!("../../shaders/flat_four_fetches.wgsl"),
             },
+            texel: "",
+            four: include_str!("../../shaders/flat_compare.wgsl"),
             tap: include_str!("../../shaders/flat_tap.wgsl"),
+            hard: [TEXEL, include_str!("../../shaders/flat_hard.wgsl")],
             slope: include_str!("../../shaders/flat_slope.wgsl"),
+            compare: "",
+            hardware: include_str!("../../shaders/flat_hardware.wgsl"),
         }
     }
 
@@ -123,17 +137,25 @@ impl MapWgsl {
         };
         Self {
             reads,
+            light: include_str!("../../shaders/cube_light.wgsl"),
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
             depth: match reads.encoding {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
                 DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
             },
+            edge: "",
             fetch,
             gather,
             texel: include_str!("../../shaders/cube_texel.wgsl"),
             four: include_str!("../../shaders/cube_four.wgsl"),
-            tap: include_str!("../../shaders/cube_tap.wgsl"),
+            tap: CUBE_TAP,
+            hard: [CUBE_TAP, include_str!("../../shaders/cube_hard.wgsl")],
             slope: include_str!("../../shaders/cube_slope.wgsl"),
+            compare: match reads.many_lights {
+                false => include_str!("../../shaders/cube_compare.wgsl"),
+                true => include_str!("../../shaders/cube_array_compare.wgsl"),
+            },
+            hardware: include_str!("../../shaders/cube_hardware.wgsl"),
         }
     }
 
@@ -147,9 +169,13 @@ impl MapWgsl {
     pub fn adapt(&self, wgsl: &str) -> String {
         match (self.reads.map, self.reads.many_lights) {
             (MapKind::Cube, false) => wgsl.to_owned(),
-            (MapKind::Cube, true) => wgsl.replace("texture_cube<f32>", "texture_cube_array<f32>"),
+            (MapKind::Cube, true) => wgsl
+                .replace("texture_cube<f32>", "texture_cube_array<f32>")
+                .replace("texture_depth_cube,", "texture_depth_cube_array,")
+                .replace("texture_depth_cube;", "texture_depth_cube_array;"),
             (MapKind::Flat, _) => wgsl
                 .replace("texture_cube<f32>", "texture_2d<f32>")
+                .replace("texture_depth_cube", "texture_depth_2d")
                 .replace("ShadowsCube", "ShadowsFlat")
                 .replace("shadows_cube_", "shadows_flat_"),
         }

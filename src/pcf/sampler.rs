@@ -48,7 +48,10 @@ impl PcfDescriptor<'_> {
             }
         }
         if !self.textbook {
-            return Ok(());
+            return match self.kernel.reads(self.encoding) {
+                true => Ok(()),
+                false => Err(PcfError::HardwareEncoding(self.encoding)),
+            };
         }
         if self.encoding != DepthEncoding::LinearDistance {
             return Err(PcfError::Textbook(self.encoding));
@@ -95,7 +98,8 @@ impl PcfSampler {
     ///
     /// # Errors
     /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
-    /// many lights or no gathers for [`Gather::Always`], textbook receivers are to read another encoding
+    /// many lights or no gathers for [`Gather::Always`], its back end or the encoding does not go with
+    /// [`Kernel::HardwareBilinear`], textbook receivers are to read another encoding
     /// than theirs, or a setting would have no effect.
     pub fn new(
         device: &wgpu::Device,
@@ -116,6 +120,10 @@ impl PcfSampler {
         if many_lights && !crate::support::has_cube_arrays(device) {
             return Err(PcfError::CubeArray);
         }
+        let hardware = kernel == Kernel::HardwareBilinear;
+        if hardware && many_lights && crate::gl::is_gl(device) {
+            return Err(PcfError::HardwareArray);
+        }
         let border = map == MapKind::Flat
             && device
                 .features()
@@ -131,6 +139,10 @@ impl PcfSampler {
             border,
             gather: gather.on(device, map)?,
         };
+        let filter = match hardware {
+            false => wgpu::FilterMode::Nearest,
+            true => wgpu::FilterMode::Linear,
+        };
         let label = match label {
             Some(label) => format!("shadows pcf {label}"),
             None => "shadows pcf".to_owned(),
@@ -140,9 +152,13 @@ impl PcfSampler {
             reads,
             textbook,
             layout: create_layout(device, &label, kernel, reads),
-            // Nearest: texels are compared one by one, never blended as depths.
+            // Nearest: texels are compared one by one, never blended as depths. In hardware it is what
+            // comparisons say that is blended.
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(&label),
+                mag_filter: filter,
+                min_filter: filter,
+                compare: hardware.then_some(wgpu::CompareFunction::GreaterEqual),
                 address_mode_u: address_mode,
                 address_mode_v: address_mode,
                 border_color: border.then_some(wgpu::SamplerBorderColor::TransparentBlack),
@@ -182,7 +198,9 @@ impl PcfSampler {
     }
 
     /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
-    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering),
+    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering); for
+    /// [`Kernel::HardwareBilinear`] a `texture_depth_cube`, `texture_depth_cube_array` or
+    /// `texture_depth_2d` and a comparison sampler;
     /// 2 the light (uniform buffer of 48 bytes, for flat maps 96; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
     /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.

@@ -3,15 +3,15 @@
 use super::Kernel;
 use super::map_kind::MapWgsl;
 
-const HARD: &str = include_str!("../../shaders/pcf_hard.wgsl");
 const SQUARE: &str = include_str!("../../shaders/pcf_square.wgsl");
 const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
 const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
 const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
-const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
+pub(super) const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
 const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
 const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
 const DERIVATIVES: &str = include_str!("../../shaders/pcf_derivatives.wgsl");
+const HARDWARE: &str = include_str!("../../shaders/pcf_hardware.wgsl");
 const TEXTBOOK: &str = include_str!("../../shaders/cube_textbook.wgsl");
 
 /// Name of the textbook's function.
@@ -47,8 +47,12 @@ impl Extra {
 
 /// The functions of a kernel, and no other's.
 pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
+    if kernel == Kernel::HardwareBilinear {
+        let text = [own.light, own.edge, own.compare, own.hardware, HARDWARE];
+        return own.adapt(&text.join("\n"));
+    }
     let (weights, last) = match kernel {
-        Kernel::Hard => (None, vec![HARD]),
+        Kernel::Hard => (None, own.hard.to_vec()),
         Kernel::RandomDisk(_) => (None, vec![DISK, RANDOM_DISK]),
         Kernel::Vogel(_) => (None, vec![DISK, NOISE, VOGEL]),
         Kernel::ContactHardening(_) => (None, vec![DISK, NOISE, CONTACT]),
@@ -56,13 +60,15 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     };
     let map: &[&str] = match (kernel.uses_pixel(), &weights) {
         (true, _) => &[own.tap],
-        (false, None) => &[own.texel, TEXEL],
+        (false, None) => &[],
         (false, Some(_)) => &[own.texel, TEXEL, own.gather, own.four],
     };
     let weights = weights.map(|weights| weights.wgsl());
     let entry = entry(kernel);
-    let text = [own.receiver, own.depth, own.fetch, DERIVATIVES, own.slope]
+    let shared = [own.light, own.receiver, own.depth, own.edge, own.fetch];
+    let text = shared
         .into_iter()
+        .chain([DERIVATIVES, own.slope])
         .chain(map.iter().copied())
         .chain(weights.as_deref())
         .chain(last)
@@ -74,7 +80,7 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
 
 /// The textbook's receiver.
 pub(super) fn textbook(own: &MapWgsl) -> String {
-    own.adapt(&[own.receiver, own.fetch, TEXTBOOK].join("\n"))
+    own.adapt(&[own.light, own.receiver, own.depth, own.fetch, TEXTBOOK].join("\n"))
 }
 
 /// The function that hosts call: what every kernel does before its first tap.
@@ -95,23 +101,22 @@ fn {function}(
     position: vec3f,
     normal: vec3f{pixel_parameter}
 ) -> f32 {{
-    let nearer = vec2f(1.0, 0.0);
-    return {function}_nearer(
-        map, map_sampler, light{arguments}, position, normal, nearer{pixel}
+    let derived = shadows_cube_given(light, position, normal);
+    return {function}_derived(
+        map, map_sampler, light{arguments}, position, derived{pixel}
     );
 }}
 
-fn {function}_nearer(
+fn {function}_derived(
     map: texture_cube<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,{parameters}
     position: vec3f,
-    normal: vec3f,
-    nearer: vec2f{pixel_parameter}
+    derived: ShadowsCubeDerived{pixel_parameter}
 ) -> f32 {{
-    let receiver = shadows_cube_receiver(light, position, normal, nearer);
-    if receiver.known >= 0.0 {{
-        return receiver.known;
+    let receiver = shadows_cube_receiver(light, position, derived);
+    if !receiver.asks {{
+        return select(0.0, 1.0, receiver.lit);
     }}
     return shadows_cube_filter(map, map_sampler, receiver, light.size{arguments}{pixel});
 }}
@@ -124,6 +129,14 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
     let Some(kernel) = kernel else {
         return format!("    return shadows_visibility_flat({index}position, cross(x, y));\n");
     };
+    if kernel == Kernel::HardwareBilinear {
+        return format!(
+            "    return shadows_cube_hardware_derived(
+        shadows_map, shadows_map_sampler, {light}, position, x, y
+    );
+"
+        );
+    }
     let (disk, pixel) = match kernel.uses_pixel() {
         false => ("", ""),
         true => (", shadows_kernel, shadows_offsets", ", pixel"),
@@ -141,8 +154,8 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
         "    let derived = shadows_cube_derived(
         shadows_map, shadows_map_sampler, {light}, position, x, y, {reach}
     );
-    return {function}_nearer(
-        shadows_map, shadows_map_sampler, {light}{disk}, position, derived.normal, derived.nearer{pixel}
+    return {function}_derived(
+        shadows_map, shadows_map_sampler, {light}{disk}, position, derived{pixel}
     );
 "
     )
@@ -174,11 +187,15 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
             ", shadows_kernel, shadows_offsets",
         ),
     };
+    let (map, sampler) = match kernel {
+        Some(Kernel::HardwareBilinear) => ("texture_depth_cube", "sampler_comparison"),
+        _ => ("texture_cube<f32>", "sampler"),
+    };
     let derived = derived(kernel, &format!("shadows_light{element}"), light);
     own.adapt_module(&format!(
         "
-@group({group}) @binding(0) var shadows_map: texture_cube<f32>;
-@group({group}) @binding(1) var shadows_map_sampler: sampler;
+@group({group}) @binding(0) var shadows_map: {map};
+@group({group}) @binding(1) var shadows_map_sampler: {sampler};
 @group({group}) @binding(2) var<{lights};
 {disk_bindings}
 fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{

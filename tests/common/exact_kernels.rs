@@ -14,7 +14,7 @@ pub const TEXEL: f64 = 2.0 * 3.0 / SIZE as f64;
 /// Castano, "Shadow Mapping Summary", The Witness, 2013. `s` is the place between texels.
 fn published(kernel: Kernel, s: f64) -> Vec<(f64, f64)> {
     match kernel {
-        Kernel::Bilinear => vec![(s, 1.0)],
+        Kernel::Bilinear | Kernel::HardwareBilinear => vec![(s, 1.0)],
         Kernel::FourTaps => vec![(s - 1.0, 0.5), (s + 1.0, 0.5)],
         Kernel::Weighted3 => {
             let w = [3.0 - 2.0 * s, 1.0 + 2.0 * s];

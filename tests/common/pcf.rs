@@ -21,36 +21,168 @@ pub const SQUARES: [Kernel; 5] = [
     Kernel::Weighted7,
 ];
 
-/// All kernels, and once more without gathers those that else have them.
-fn kernels() -> impl Iterator<Item = (Kernel, Gather)> {
-    let all = Kernel::ALL.map(|kernel| (kernel, Gather::Auto));
-    all.into_iter()
-        .chain(SQUARES.map(|kernel| (kernel, Gather::Never)))
+/// How a map is made and read: all that a sampler's text depends on but its kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    pub name: &'static str,
+    pub map: MapKind,
+    pub encoding: DepthEncoding,
+    pub many_lights: bool,
+    pub gather: Gather,
+    /// Whether the device's samplers have borders.
+    pub border: bool,
 }
 
-/// All that a sampler can be made for.
-pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
-    let mut all = Vec::new();
-    for (kernel, gather) in kernels() {
-        for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
-            for many_lights in [false, true] {
-                all.push(PcfDescriptor {
-                    kernel,
-                    encoding,
-                    many_lights,
-                    gather,
-                    ..Default::default()
-                });
-            }
-        }
-        all.push(PcfDescriptor {
-            kernel,
-            map: MapKind::Flat,
-            gather,
+const CUBE: Way = Way {
+    name: "cube",
+    map: MapKind::Cube,
+    encoding: DepthEncoding::MajorAxis,
+    many_lights: false,
+    gather: Gather::Auto,
+    border: false,
+};
+
+const LINEAR: Way = Way {
+    name: "cube-linear",
+    encoding: DepthEncoding::LinearDistance,
+    ..CUBE
+};
+
+const FLAT: Way = Way {
+    name: "flat",
+    map: MapKind::Flat,
+    ..CUBE
+};
+
+/// All of them.
+pub const WAYS: [Way; 12] = [
+    CUBE,
+    LINEAR,
+    Way {
+        name: "cube-array",
+        many_lights: true,
+        ..CUBE
+    },
+    Way {
+        name: "cube-linear-array",
+        many_lights: true,
+        ..LINEAR
+    },
+    // Where gathers are not there, or wrong.
+    Way {
+        name: "cube-fetches",
+        gather: Gather::Never,
+        ..CUBE
+    },
+    Way {
+        name: "cube-linear-fetches",
+        gather: Gather::Never,
+        ..LINEAR
+    },
+    Way {
+        name: "cube-array-fetches",
+        gather: Gather::Never,
+        many_lights: true,
+        ..CUBE
+    },
+    Way {
+        name: "cube-linear-array-fetches",
+        gather: Gather::Never,
+        many_lights: true,
+        ..LINEAR
+    },
+    FLAT,
+    Way {
+        name: "flat-fetches",
+        gather: Gather::Never,
+        ..FLAT
+    },
+    // What a device with the feature for it takes.
+    Way {
+        name: "flat-border",
+        border: true,
+        ..FLAT
+    },
+    Way {
+        name: "flat-border-fetches",
+        gather: Gather::Never,
+        border: true,
+        ..FLAT
+    },
+];
+
+impl Way {
+    pub fn device(&self) -> (wgpu::Device, wgpu::Queue) {
+        let required_features = match self.border {
+            true => wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER,
+            false => wgpu::Features::empty(),
+        };
+        wgpu::Device::noop(&wgpu::DeviceDescriptor {
+            required_features,
             ..Default::default()
-        });
+        })
     }
-    all
+
+    pub fn descriptor(&self, kernel: Kernel) -> PcfDescriptor<'static> {
+        PcfDescriptor {
+            kernel,
+            map: self.map,
+            encoding: self.encoding,
+            many_lights: self.many_lights,
+            gather: self.gather,
+            ..Default::default()
+        }
+    }
+
+    /// The kernels whose text is not that of another way.
+    pub fn kernels(&self) -> impl Iterator<Item = Kernel> {
+        let all: &[Kernel] = match self.gather {
+            Gather::Never => &SQUARES,
+            _ => &Kernel::ALL,
+        };
+        let encoding = self.encoding;
+        let read = move |kernel: &Kernel| kernel.reads(encoding);
+        all.iter().copied().filter(read)
+    }
+}
+
+/// What a sampler can be made for, on a device without any feature.
+pub fn descriptors() -> Vec<PcfDescriptor<'static>> {
+    let ways = WAYS.iter().filter(|way| !way.border);
+    ways.flat_map(|way| way.kernels().map(|kernel| way.descriptor(kernel)))
+        .collect()
+}
+
+/// The samplers of all configurations, but for the textbook's.
+pub fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
+    let of = |way: &Way| {
+        let (device, queue) = way.device();
+        let descriptors = way.kernels().map(|kernel| way.descriptor(kernel));
+        descriptors
+            .map(|descriptor| {
+                let sampler = made(&device, &queue, &descriptor);
+                (descriptor, sampler)
+            })
+            .collect::<Vec<_>>()
+    };
+    WAYS.iter().flat_map(of).collect()
+}
+
+/// The textbook's, for one light and for several.
+pub fn textbooks() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
+    let (device, queue) = CUBE.device();
+    let of = |many_lights| {
+        let descriptor = PcfDescriptor {
+            kernel: Kernel::Hard,
+            encoding: DepthEncoding::LinearDistance,
+            textbook: true,
+            many_lights,
+            ..Default::default()
+        };
+        let sampler = made(&device, &queue, &descriptor);
+        (descriptor, sampler)
+    };
+    vec![of(false), of(true)]
 }
 
 /// A fragment shader that asks for the visibility at its position; `module` is what stands before
@@ -75,6 +207,31 @@ fn host(@builtin(position) pixel: vec4f, @location(0) position: vec3f) -> @locat
 /// The same where the module is pasted.
 pub fn host(descriptor: &PcfDescriptor<'_>) -> String {
     host_of(descriptor, "")
+}
+
+/// Another that knows its normal, and asks in a branch.
+pub fn given_host(descriptor: &PcfDescriptor<'_>) -> String {
+    let pixel = match descriptor.kernel.uses_pixel() && !descriptor.textbook {
+        true => ", pixel.xy",
+        false => "",
+    };
+    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let name = visibility_name(descriptor.map);
+    format!(
+        "
+@fragment
+fn given_host(
+    @builtin(position) pixel: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+) -> @location(0) vec4f {{
+    if normal.z < 0.0 {{
+        return vec4f(0.0);
+    }}
+    return vec4f({name}_flat({light}position, normal{pixel}));
+}}
+"
+    )
 }
 
 pub fn visibility_name(map: MapKind) -> &'static str {

@@ -220,6 +220,25 @@ fn cube_arrays_of_any_number_of_lights_are_read_as_cubes_are() {
 }
 
 #[test]
+fn a_comparison_in_hardware_of_a_cube_array_is_refused() {
+    let Some(gpu) = gl() else { return };
+    if !gpu.support.cube_arrays {
+        eprintln!("skipped: no cube arrays");
+        return;
+    }
+    let made = |many_lights| {
+        let descriptor = PcfDescriptor {
+            kernel: Kernel::HardwareBilinear,
+            many_lights,
+            ..Default::default()
+        };
+        PcfSampler::new(&gpu.device, &gpu.queue, &descriptor).map(drop)
+    };
+    assert_eq!(made(true), Err(PcfError::HardwareArray));
+    assert_eq!(made(false), Ok(()));
+}
+
+#[test]
 fn a_single_cube_of_an_array_is_refused() {
     let Some(gpu) = gl() else { return };
     if !gpu.support.cube_arrays {

@@ -104,6 +104,7 @@ fn shaded_camera(light: HomogeneousLight, sheet: Vec3) -> Stage {
 #[test]
 fn a_caster_between_near_plane_and_light_is_counted_behind_and_forced_z_pass_is_wrong() {
     let Some(gpu) = Gpu::for_test() else { return };
+    let mut forced_and_wrong = Vec::new();
     for light in [
         HomogeneousLight::point(Vec3::new(0.3, 6.0, 4.5)),
         HomogeneousLight::directional(Vec3::new(0.3, 1.0, 0.2)),
@@ -132,10 +133,15 @@ fn a_caster_between_near_plane_and_light_is_counted_behind_and_forced_z_pass_is_
                 let (wrong, statistics) = draw(&gpu, &stage, forced);
                 assert_eq!(statistics.casters_z_fail, 0);
                 let wrong = stage.truth().errors(&wrong).wrong;
-                assert!(wrong > 300, "{what}: {wrong}");
+                forced_and_wrong.push((what, wrong));
             }
         }
     }
+    eprintln!("{forced_and_wrong:#?}");
+    assert!(
+        forced_and_wrong.iter().all(|(_, wrong)| *wrong > 300),
+        "{forced_and_wrong:#?}"
+    );
 }
 
 #[test]

@@ -222,19 +222,22 @@ fn a_host_of_other_arithmetic_sees_no_fighting() {
             let picture = away(stage).draw(&gpu);
             compare(&inner, &picture, &picture).0
         };
-        assert_eq!(own(&stage), 0, "{method:?}");
+        let with_bias = own(&stage);
         // Without the bias, the caps fight with the surface they lie in.
         let unbiased = Stage {
             cap_bias_ulps: 0,
             ..stage
         };
-        let fought = [Arithmetic::Premultiplied, Arithmetic::OneByOne].map(|arithmetic| {
+        // Which order shows it is a matter of the rasteriser's own rounding.
+        let without = [Arithmetic::Premultiplied, Arithmetic::OneByOne].map(|arithmetic| {
             own(&Stage {
                 arithmetic,
                 ..unbiased.clone()
             })
         });
-        assert!(fought[0] + fought[1] > 100, "{method:?}: {fought:?}");
+        eprintln!("{method:?}: {with_bias} pixels with the bias, {without:?} without");
+        assert_eq!(with_bias, 0, "{method:?}");
+        assert!(without[0] + without[1] > 100, "{method:?}: {without:?}");
     }
 }
 

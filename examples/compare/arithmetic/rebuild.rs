@@ -278,7 +278,9 @@ pub fn operands(expression: &mut Expression, each: &mut dyn FnMut(&mut Value)) {
             depth_ref,
             ..
         } => {
-            [image, sampler, coordinate].into_iter().for_each(&mut *each);
+            [image, sampler, coordinate]
+                .into_iter()
+                .for_each(&mut *each);
             let optional = [array_index, offset, depth_ref];
             optional.into_iter().flatten().for_each(&mut *each);
             match level {

@@ -119,8 +119,14 @@ impl Arithmetic {
         let (a, b) = (work.type_of(left).clone(), work.type_of(right).clone());
         match (a, b) {
             (TypeInner::Matrix { columns, .. }, TypeInner::Vector { .. }) => {
-                if let (true, E::Binary { op: Op::Multiply, left: m, right: v }) =
-                    (self.matrices_first, work.old(right).clone())
+                if let (
+                    true,
+                    E::Binary {
+                        op: Op::Multiply,
+                        left: m,
+                        right: v,
+                    },
+                ) = (self.matrices_first, work.old(right).clone())
                     && matches!(work.type_of(m), TypeInner::Matrix { .. })
                 {
                     let [m, v] = [m, v].map(|value| work.of(value));
@@ -326,7 +332,9 @@ fn factors(product: Value, work: &mut Work<'_>) -> Option<[Value; 2]> {
             };
             Some([as_wide(left)?, as_wide(right)?])
         }
-        E::AccessIndex { base, index } if matches!(work.type_of(base), TypeInner::Vector { .. }) => {
+        E::AccessIndex { base, index }
+            if matches!(work.type_of(base), TypeInner::Vector { .. }) =>
+        {
             let both = factors(base, work)?;
             Some(both.map(|factor| part(factor, index, work)))
         }
@@ -406,11 +414,14 @@ fn off_by_units(value: Value, like: Value, work: &mut Work<'_>) -> Value {
     };
     let cast = |expr, kind, work: &mut Work<'_>| {
         let convert = None;
-        work.add(E::As { expr, kind, convert })
+        work.add(E::As {
+            expr,
+            kind,
+            convert,
+        })
     };
     let bits = cast(value, ScalarKind::Uint, work);
-    let [three, one, exponent, none] =
-        [3, 1, 0x7f80_0000, 0].map(|number| word(number, work));
+    let [three, one, exponent, none] = [3, 1, 0x7f80_0000, 0].map(|number| word(number, work));
     let shifted = binary(Op::ShiftRight, bits, three, work);
     let units = binary(Op::And, shifted, three, work);
     let more = binary(Op::Add, bits, units, work);
@@ -444,7 +455,11 @@ fn vector_type(size: VectorSize, work: &Work<'_>) -> Option<Handle<naga::Type>> 
     named(TypeInner::Vector { size, scalar }, work)
 }
 
-fn matrix_type(columns: VectorSize, rows: VectorSize, work: &Work<'_>) -> Option<Handle<naga::Type>> {
+fn matrix_type(
+    columns: VectorSize,
+    rows: VectorSize,
+    work: &Work<'_>,
+) -> Option<Handle<naga::Type>> {
     let scalar = naga::Scalar::F32;
     named(
         TypeInner::Matrix {

@@ -49,7 +49,10 @@ impl Rules for Snap {
         for index in 0..members.len() {
             let base = value;
             let index32 = u32::try_from(index).expect("few members");
-            let member = work.add(E::AccessIndex { base, index: index32 });
+            let member = work.add(E::AccessIndex {
+                base,
+                index: index32,
+            });
             components.push(match index == position {
                 true => self.snapped(member, work),
                 false => member,
@@ -103,13 +106,15 @@ impl Snap {
         let [across, down] = [0, 1].map(|index| work.add(E::AccessIndex { base: size, index }));
         let mut binary = |op, left, right| work.add(E::Binary { op, left, right });
         let near = [across, down].map(|part| binary(Op::Less, part, last));
-        let xy = [ahead, near[0], near[1]].into_iter().fold(moved, |accept, condition| {
-            work.add(E::Select {
-                condition,
-                accept,
-                reject: xy,
-            })
-        });
+        let xy = [ahead, near[0], near[1]]
+            .into_iter()
+            .fold(moved, |accept, condition| {
+                work.add(E::Select {
+                    condition,
+                    accept,
+                    reject: xy,
+                })
+            });
         let ty = named(VectorSize::Quad, work);
         work.add(E::Compose {
             ty,

@@ -22,7 +22,9 @@ impl Table {
     pub fn failures(&self) -> Vec<String> {
         let lines = self.rows.iter().flat_map(|row| {
             let name = row.variant.name;
-            row.failures.iter().map(move |what| format!("{name}: {what}"))
+            row.failures
+                .iter()
+                .map(move |what| format!("{name}: {what}"))
         });
         lines.collect()
     }
@@ -58,7 +60,12 @@ impl Table {
         for row in &self.rows {
             let cells: Vec<String> = row.scenes.iter().flatten().map(cell).collect();
             let failed = row.failures.len();
-            let _ = writeln!(text, "| `{}` | {} | {failed} |", row.variant.name, cells.join(" | "));
+            let _ = writeln!(
+                text,
+                "| `{}` | {} | {failed} |",
+                row.variant.name,
+                cells.join(" | ")
+            );
         }
         text.push('\n');
         for row in &self.rows {
@@ -101,9 +108,8 @@ impl Table {
     /// For machines.
     pub fn json(&self) -> Value {
         let kinds = |kinds: &Kinds| {
-            let [maps, volumes] = kinds.map(|wrong| {
-                json!({ "wrong_percent": wrong.percent, "interior": wrong.interior })
-            });
+            let [maps, volumes] = kinds
+                .map(|wrong| json!({ "wrong_percent": wrong.percent, "interior": wrong.interior }));
             json!({ "maps": maps, "volumes": volumes })
         };
         let row = |row: &Row| {

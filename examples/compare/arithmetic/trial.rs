@@ -4,8 +4,8 @@ use anyhow::Result;
 use indicatif::ProgressBar;
 use shadows::reference::ReferenceImage;
 
-use super::{Plan, bounds};
 use super::variant::Variant;
+use super::{Plan, bounds};
 use crate::hard;
 use crate::hard::cases::Case;
 use crate::hard::trial::Trial;
@@ -107,7 +107,8 @@ impl<'a> Trials<'a> {
                     });
                 }
                 let failures = outcome.failures.iter();
-                let named = failures.map(|what| format!("{}, {}: {what}", case.name, technique.name));
+                let named =
+                    failures.map(|what| format!("{}, {}: {what}", case.name, technique.name));
                 row.failures.extend(named);
             }
             row.cases.push((case.name, kinds));

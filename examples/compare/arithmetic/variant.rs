@@ -246,7 +246,9 @@ fn with_types(mut module: Module) -> Module {
                 scalar,
             },
         ] {
-            module.types.insert(Type { name: None, inner }, Span::UNDEFINED);
+            module
+                .types
+                .insert(Type { name: None, inner }, Span::UNDEFINED);
         }
     }
     module
@@ -271,7 +273,10 @@ fn made_anew(
     let mut entry_points = module.entry_points.clone();
     for (place, entry) in entry_points.iter_mut().enumerate() {
         if is_about(entry) {
-            let old = (&module.entry_points[place].function, info.get_entry_point(place));
+            let old = (
+                &module.entry_points[place].function,
+                info.get_entry_point(place),
+            );
             entry.function = rebuild(&module, old, rules, &callee);
         }
     }
@@ -282,5 +287,7 @@ fn made_anew(
 
 fn validated(module: &Module) -> ModuleInfo {
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
-    validator.validate(module).unwrap_or_else(|error| panic!("{error:?}"))
+    validator
+        .validate(module)
+        .unwrap_or_else(|error| panic!("{error:?}"))
 }

@@ -1,5 +1,7 @@
 //! What came out, against what is expected.
 
+use std::fmt::Write as _;
+
 use anyhow::Result;
 use shadows::glam::DVec3;
 use shadows::reference::{Class, Comparison, Interior, ReferenceImage, Verdict as PixelVerdict};
@@ -53,11 +55,38 @@ pub fn judge(
     };
     match excuse {
         Some(why) => outcome.limits.push(why),
-        None => outcome
-            .failures
-            .push(format!("{what}: {interior} interior pixels are wrong")),
+        None => outcome.failures.push(format!(
+            "{what}: {interior} interior pixels are wrong{}",
+            places(reference, &found)
+        )),
     }
     Ok(outcome)
+}
+
+/// The first few wrong interior pixels: where in the picture, and what is seen there.
+fn places(reference: &ReferenceImage, found: &Comparison) -> String {
+    let mut places = String::new();
+    let interior = found.verdicts.iter().enumerate().filter(|(_, verdict)| {
+        matches!(
+            verdict,
+            PixelVerdict::FalseLitInterior | PixelVerdict::FalseShadowInterior
+        )
+    });
+    for (pixel, verdict) in interior.take(6) {
+        let (x, y) = (
+            pixel as u32 % reference.width(),
+            pixel as u32 / reference.width(),
+        );
+        let lit = match verdict {
+            PixelVerdict::FalseLitInterior => "lit",
+            _ => "dark",
+        };
+        let _ = write!(places, "; {lit} at {x},{y}");
+        if let Some(hit) = reference.hit(x, y) {
+            let _ = write!(places, " (object {}, {:.6})", hit.object, hit.position);
+        }
+    }
+    places
 }
 
 /// A count that wraps reads 0, which is lit; it makes no shadow, and nothing of nothing.

@@ -26,6 +26,7 @@ pub fn of_hardware(case: &str, technique: &str) -> Option<Limit> {
 }
 
 /// A known limit, and what has it. The first that fits counts.
+#[derive(Clone, Copy)]
 pub struct Known {
     /// A case's name, or `*` for all of them.
     pub case: &'static str,
@@ -83,12 +84,11 @@ const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels
 const TWENTY_FOUR_BITS: &str =
     "steps of 2^-24, where depth is near / distance: 0.7 m at 500 m from a near plane of 2 cm";
 
-const SNAPPED: &str =
-    "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L 1e-5 the ground is nearer \
+const SNAPPED: &str = "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L 1e-5 the ground is nearer \
      than that to the sides of a volume whose caster stands on it";
 
 /// Those of hardware alone. Bounds are of the arithmetic `snapped` on a software driver.
-pub const ON_HARDWARE: &[Known] = &[known("Grazing light", "volume*", SNAPPED, [2.8, 0.0, 2.9])];
+pub const ON_HARDWARE: [Known; 1] = [known("Grazing light", "volume*", SNAPPED, [2.8, 0.0, 2.9])];
 
 /// All of them.
 pub const ALL: &[Known] = &[

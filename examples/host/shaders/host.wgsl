@@ -26,6 +26,13 @@ struct HostVaryings {
     @location(1) normal: vec3f,
 }
 
+// The same without `@invariant`, which GLSL ES has for outputs alone.
+struct HostFragment {
+    @builtin(position) clip: vec4f,
+    @location(0) world: vec3f,
+    @location(1) normal: vec3f,
+}
+
 // Whether a vertex is multiplied by one matrix, not by two.
 override host_premultiplied: bool = false;
 
@@ -53,7 +60,7 @@ fn host_flat_normal(world: vec3f) -> vec3f {
 }
 
 @fragment
-fn host_ambient(in: HostVaryings) -> @location(0) vec4f {
+fn host_ambient(in: HostFragment) -> @location(0) vec4f {
     let flat_normal = host_flat_normal(in.world);
     let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
     // More light from above than from below, so that what lies in shadow keeps its form.
@@ -71,7 +78,7 @@ struct HostLit {
 
 // Diffuse light: zero at the range with no step there (Karis, "Real Shading in Unreal Engine 4",
 // 2013), and bounded by 1 however near the light is.
-fn host_light(in: HostVaryings, visibility: f32) -> HostLit {
+fn host_light(in: HostFragment, visibility: f32) -> HostLit {
     let flat_normal = host_flat_normal(in.world);
     let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
     let toward_light = host_frame.light.xyz - host_frame.light.w * in.world;

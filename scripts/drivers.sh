@@ -1,0 +1,256 @@
+#!/bin/sh
+# The tests on other drivers than the system's first, and WGSL in other compilers than naga. Everything goes into
+# a folder of its own, SHADOWS_DRIVERS (~/.cache/shadows-drivers): nothing is installed into the system, no root
+# is needed.
+#
+#   scripts/drivers.sh install [PART...]          swiftshader mesa tint validators (all; Debian and Ubuntu, npm)
+#   scripts/drivers.sh run [DRIVER...] [-- SUITE...]   a table of suites by drivers, of those that are there
+#   scripts/drivers.sh short                      what CI runs: some suites of seconds, on what is installed
+#   scripts/drivers.sh validate SUITE...          under Vulkan's validation layer, with synchronisation
+#
+# Drivers: lavapipe (the system's Mesa), mesa (Debian trixie's), swiftshader, gl (the system's Mesa on wgpu's GL).
+# What a suite printed is in target/drivers/DRIVER/SUITE.txt. docs/drivers.md says what came out and why; `run` fails
+# if other tests fail than those that stand there, or if one of them passes.
+set -eu
+cd "$(dirname "$0")/.."
+. scripts/driver.sh
+
+folder=${SHADOWS_DRIVERS:-${XDG_CACHE_HOME:-$HOME/.cache}/shadows-drivers}
+out=target/drivers
+chromium=$folder/swiftshader/usr/lib/chromium
+# One test may compile shaders for minutes on a software driver; none takes so long that works.
+limit=900
+
+# $1: a folder there; the rest: packages of this system's release, unpacked into it without their dependencies.
+unpack() {
+    into=$folder/$1
+    shift
+    rm -rf "$into" && mkdir -p "$into/packages"
+    (cd "$into/packages" && apt-get download -qq "$@")
+    for package in "$into"/packages/*.deb; do dpkg -x "$package" "$into"; done
+    rm -rf "$into/packages"
+}
+
+# Chromium has SwiftShader, and a validation layer newer than Debian's.
+install_swiftshader() {
+    unpack swiftshader chromium-common
+    # The rest of Chromium is not of use.
+    find "$chromium" -type f ! -name '*vk_swiftshader*' ! -name '*VkLayer*' -delete
+    cat >"$chromium/VkLayer_khronos_validation.json" <<EOF
+{"file_format_version": "1.2.0", "layer": {"name": "VK_LAYER_KHRONOS_validation", "type": "GLOBAL",
+"library_path": "./libVkLayer_khronos_validation.so", "api_version": "1.3.0", "implementation_version": "1",
+"description": "Khronos Validation Layer", "instance_extensions": [
+{"name": "VK_EXT_debug_report", "spec_version": "10"}, {"name": "VK_EXT_debug_utils", "spec_version": "1"},
+{"name": "VK_EXT_validation_features", "spec_version": "6"}, {"name": "VK_EXT_layer_settings", "spec_version": "2"}]}}
+EOF
+}
+
+# A newer Mesa with all that it is linked with, down to the C library: run by that one's own loader.
+install_mesa() {
+    root=$folder/mesa
+    apt=$folder/mesa-apt
+    rm -rf "$root" "$apt" && mkdir -p "$root" "$apt/lists/partial" "$apt/archives/partial"
+    : >"$apt/status"
+    keys=/usr/share/keyrings/debian-archive-keyring.gpg
+    echo "deb [signed-by=$keys] http://deb.debian.org/debian trixie main" >"$apt/sources.list"
+    # As if nothing were installed, so that nothing is left out.
+    set -- -qq -o Dir::Etc::SourceList="$apt/sources.list" -o Dir::Etc::SourceParts=/dev/null \
+        -o Dir::State::Lists="$apt/lists" -o Dir::State::status="$apt/status" \
+        -o Dir::Cache::Archives="$apt/archives" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= \
+        -o APT::Install-Recommends=false
+    apt-get "$@" update
+    apt-get "$@" -y --download-only install mesa-vulkan-drivers libvulkan1
+    for package in "$apt"/archives/*.deb; do dpkg -x "$package" "$root"; done
+    rm -rf "$apt"
+}
+
+# Dawn, prebuilt for node.
+install_tint() {
+    mkdir -p "$folder/tint"
+    (cd "$folder/tint" && npm install --silent --no-audit --no-fund webgpu)
+}
+
+install_validators() {
+    unpack validators glslang-tools spirv-tools
+}
+
+# Where a driver's own files are; nothing where it is not.
+manifest() {
+    case $1 in
+    lavapipe) ls /usr/share/vulkan/icd.d/lvp_icd.*.json 2>/dev/null ;;
+    mesa) ls "$folder"/mesa/usr/share/vulkan/icd.d/lvp_icd*.json 2>/dev/null ;;
+    swiftshader) ls "$chromium/vk_swiftshader_icd.json" 2>/dev/null ;;
+    gl) ldconfig -p | grep -o '/.*libEGL_mesa\.so\.0$' ;;
+    *)
+        echo "no driver $1; see the head of scripts/drivers.sh" >&2
+        exit 2
+        ;;
+    esac
+}
+
+# $1: a driver; the rest: a command, run on it.
+on() {
+    driver=$1
+    shift
+    files=$(manifest "$driver" | head -n 1)
+    adapter=llvmpipe
+    case $driver in
+    swiftshader) adapter=swiftshader ;;
+    gl) files=/none adapter='(gl,' ;;
+    mesa)
+        libraries=$(echo "$folder"/mesa/usr/lib/*-linux-gnu)
+        set -- "$(ls "$folder"/mesa/usr/lib*/ld-linux-*.so.* | head -n 1)" --library-path "$libraries" "$@"
+        ;;
+    esac
+    SHADOWS_REQUIRE_GPU=1 SHADOWS_TEST_ADAPTER=$adapter VK_DRIVER_FILES=$files VK_ICD_FILENAMES=$files \
+        XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-/tmp}" timeout "$limit" "$@"
+}
+
+# The tests that draw, or those of them that are named: `SUITE BINARY` for each.
+suites() {
+    if [ $# -eq 0 ]; then
+        # compare_cli starts a program, which would not be loaded by a newer Mesa's loader.
+        set -- lib $(grep -lE 'host/(mod|gpu)\.rs' tests/*.rs | grep -v compare_ | sed 's#tests/\(.*\)\.rs#\1#')
+    fi
+    targets=
+    for suite in "$@"; do
+        case $suite in
+        lib) targets="$targets --lib" ;;
+        *) targets="$targets --test $suite" ;;
+        esac
+    done
+    cargo test --no-run --all-features $targets 2>&1 | sed -n \
+        -e 's#.*Executable unittests src/lib.rs (\(.*\))#lib \1#p' \
+        -e 's#.*Executable tests/\(.*\)\.rs (\(.*\))#\1 \2#p'
+}
+
+# Tests that are known to fail there: the rows `| DRIVER | `SUITE` | `TEST` | cause |` of the page.
+known() {
+    awk -F ' *[|] *' -v driver="$1" -v suite="\`$2\`" '$2 == driver && $3 == suite { print $4 }' docs/drivers.md |
+        tr -d '`' | tr ',' '\n' | tr -d ' ' | sort
+}
+
+# What a suite's output comes to, in a cell. $3: how it ended.
+cell() {
+    failed=$(sed -n 's/^test \(.*\) \.\.\. FAILED$/\1/p' "$out/$1/$2.txt" | sort)
+    passed=$(grep -c '^test .* \.\.\. ok$' "$out/$1/$2.txt" || true)
+    count=$(printf '%s' "$failed" | grep -c . || true)
+    if [ "$3" -eq 124 ]; then
+        echo "stopped after $limit s"
+    elif [ "$failed" != "$(known "$1" "$2")" ]; then
+        echo "**$passed of $((passed + count))**, not as known: $(echo $failed)"
+    elif [ "$3" -ne 0 ] && [ "$count" -eq 0 ]; then
+        echo "**ended with $3**"
+    elif [ "$count" -gt 0 ]; then
+        echo "$passed of $((passed + count))"
+    else
+        echo "$passed"
+    fi
+}
+
+# A column of the table; $1: a driver.
+column() {
+    driver=$1
+    mkdir -p "$out/$driver"
+    while read -r suite binary; do
+        code=0
+        on "$driver" "$binary" >"$out/$driver/$suite.txt" 2>&1 </dev/null || code=$?
+        cell "$driver" "$suite" "$code" >"$out/$driver/$suite.cell"
+        echo "$driver: $suite: $(cat "$out/$driver/$suite.cell")" >&2
+    done <"$out/suites"
+}
+
+table() {
+    printf '| suite |'
+    for driver in "$@"; do printf ' %s |' "$driver"; done
+    printf '\n|---|'
+    for driver in "$@"; do printf -- '---|'; done
+    echo
+    while read -r suite _; do
+        printf '| `%s` |' "$suite"
+        for driver in "$@"; do printf ' %s |' "$(cat "$out/$driver/$suite.cell")"; done
+        echo
+    done <"$out/suites"
+}
+
+# Fails if any suite did.
+run() {
+    drivers=
+    while [ $# -gt 0 ] && [ "$1" != -- ]; do
+        drivers="$drivers $1"
+        shift
+    done
+    [ $# -eq 0 ] || shift
+    [ -n "$drivers" ] || drivers='lavapipe mesa swiftshader gl'
+    mkdir -p "$out"
+    suites "$@" >"$out/suites"
+    [ -s "$out/suites" ]
+    there=
+    for driver in $drivers; do
+        if [ -z "$(manifest "$driver")" ]; then
+            echo "$driver: not here; see scripts/drivers.sh install" >&2
+            continue
+        fi
+        column "$driver"
+        there="$there $driver"
+    done
+    table $there
+    while read -r suite _; do
+        for driver in $there; do ! grep -qE '[*]|stopped' "$out/$driver/$suite.cell" || return 1; done
+    done <"$out/suites"
+}
+
+# Mesa's and SwiftShader's rasterisers on depths, samplers on whole numbers, and every call once.
+short() {
+    if [ -z "$(manifest mesa)$(manifest swiftshader)" ]; then
+        echo 'no other driver is installed here (scripts/drivers.sh install): not run' >&2
+        return 0
+    fi
+    run mesa swiftshader -- depth_planes cube_formats pcf_gather map_calls
+}
+
+# Vulkan's own rules, hazards between passes included, on lavapipe.
+validate() {
+    if [ ! -e "$chromium/VkLayer_khronos_validation.json" ]; then
+        echo 'no validation layer here; scripts/drivers.sh install swiftshader' >&2
+        return 1
+    fi
+    mkdir -p "$out/validate"
+    suites "$@" >"$out/suites"
+    said=0
+    for suite in "$@"; do
+        log=$PWD/$out/validate/$suite.txt
+        rm -f "$log"
+        cat >"$out/validate/vk_layer_settings.txt" <<EOF
+khronos_validation.debug_action = VK_DBG_LAYER_ACTION_LOG_MSG
+khronos_validation.log_filename = $log
+khronos_validation.report_flags = error,warn,perf
+khronos_validation.validate_sync = true
+khronos_validation.enable_message_limit = false
+EOF
+        binary=$(sed -n "s/^$suite //p" "$out/suites")
+        VK_LAYER_PATH=$chromium VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation \
+            VK_LAYER_SETTINGS_PATH=$PWD/$out/validate on lavapipe "$binary" >"$log.out" 2>&1 || said=1
+        messages=$(grep -c '^Validation' "$log" || true)
+        echo "$suite: $(grep 'test result' "$log.out"), $messages messages"
+        [ "$messages" -eq 0 ] || said=1
+    done
+    return $said
+}
+
+[ $# -gt 0 ] || set -- help
+command=$1
+shift
+case $command in
+install)
+    [ $# -gt 0 ] || set -- swiftshader mesa tint validators
+    for part in "$@"; do "install_$part"; done
+    ;;
+run) run "$@" ;;
+short) short ;;
+validate) validate "$@" ;;
+*)
+    sed -n '2,15s/^# \{0,1\}//p' scripts/drivers.sh >&2
+    exit 2
+    ;;
+esac

@@ -1,0 +1,23 @@
+// What receivers know of a light, as the map writes it.
+
+struct ShadowsCubeLight {
+    // World space.
+    position: vec3f,
+    near: f32,
+    range: f32,
+    // Texels along a face.
+    size: f32,
+    // Biases; a texel at distance 1 along the major axis is 2 / size wide.
+    normal_offset: f32,
+    depth_scale: f32,
+    // One step of the map's format.
+    quantum: f32,
+    // Which cube of the array; -1: no caster in range, -2: not drawn yet.
+    cube: i32,
+    // Coordinates of receivers are off by at most this part of themselves: docs/numerics.md, "Ulps of
+    // positions".
+    rounding: f32,
+    // Where texel centres are between whole numbers, counted in texels from the middle of a face: 0.5 if
+    // the size is even, else 0.
+    centre: f32,
+}

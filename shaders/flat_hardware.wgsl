@@ -1,0 +1,48 @@
+// One depth for four texels of a flat map: the nearest to the light that the receiver's plane has at any of
+// them, so that a plane never shadows itself.
+//
+// Depth is linear over the map, so that is at one of the corners of the square between the texels' centres:
+// along each axis at the one that the plane rises toward.
+//
+// `normal` is of any length and either sign, and its end may be off by `doubt`.
+fn shadows_flat_hardware(
+    map: texture_depth_2d,
+    map_sampler: sampler_comparison,
+    light: ShadowsFlatLight,
+    position: vec3f,
+    normal: vec3f,
+    doubt: f32,
+) -> f32 {
+    let axes = mat3x3f(light.forward, light.right, light.down);
+    let from_light = position - light.position;
+    let local = from_light * axes;
+    let n = normal * axes;
+    let spot = light.perspective > 0.5;
+    let squared = dot(local, local);
+    let away = select(1.0, local.x, spot);
+    let facing = select(n.x, dot(n, local), spot);
+    // How far rounding may move the receiver off its plane, and with it the plane of a spot.
+    let rounding = light.rounding * dot(abs(normal), abs(position));
+    let moved = select(doubt, rounding + doubt * sqrt(squared), spot);
+    // How depth changes along the normal. Where there is no plane it is as steep as can be.
+    let slope = light.depth_per / max(abs(facing) - moved, 1e-37);
+    let gradient = light.texel * select(-slope, slope, facing > 0.0) * n.yz;
+    let place = (local.yz * (light.scale / away)) * 0.5 + 0.5;
+    let between = fract(place * light.size - 0.5);
+    let rise = max(gradient, vec2f(0.0)) - gradient * between;
+    let inverse = 1.0 / away;
+    let own = select(1.0 - local.x * light.depth_per + light.depth_bias, light.depth_per * inverse, spot);
+    // No nearer than a thirty-second of the receiver's distance, or sixteen widths of the map before it.
+    let bound = own + 31.0 * light.depth_per * select(1.0 / light.scale, inverse, spot);
+    // The bias along the normal is one more share of a texel.
+    let steepness = abs(gradient.x) + abs(gradient.y);
+    let unknown = rounding * inverse + light.texel * (1.5 * doubt + 1e-30);
+    let nearest = own + rise.x + rise.y + light.normal_offset * steepness + slope * unknown;
+    let reference = clamp(nearest, 0.0, max(bound, 0.0)) + light.quantum;
+    let share = textureSampleCompareLevel(map, map_sampler, place, reference);
+    // Exactly 0 or 1 where all texels agree, however a sampler rounds the sum of their weights.
+    let lit = saturate(share * (1.0 + 0x1p-16) - 0x1p-17);
+    let on_map = shadows_flat_inside(light.size, place * light.size) & ((away > 0.0) & (light.quantum >= 0.0));
+    let seen = select(1.0, lit, on_map);
+    return select(seen, 0.0, spot & (squared > light.range * light.range));
+}

@@ -1,0 +1,189 @@
+//! What receivers are told of the lights of a cube map.
+
+use super::buffers::buffer;
+use super::uniforms::UNIFORM_STRIDE;
+use crate::map::encoding::quantum;
+use crate::uploads::Uploads;
+use crate::{Bias, PointLight};
+
+/// Where a light's depths are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Depths {
+    /// In this cube of the array (0 if each light has a texture of its own).
+    Cube(i32),
+    /// Nowhere: no caster is in range, so receivers in range are lit.
+    NoCaster,
+    /// Not drawn yet: receivers are unlit.
+    NotYet,
+}
+
+/// `ShadowsCubeLight` in WGSL.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct LightUniform {
+    pub position: [f32; 3],
+    pub near: f32,
+    pub range: f32,
+    pub size: f32,
+    pub normal_offset: f32,
+    pub depth_scale: f32,
+    pub quantum: f32,
+    pub cube: i32,
+    pub rounding: f32,
+    pub centre: f32,
+}
+
+impl LightUniform {
+    pub(crate) fn new(
+        light: &PointLight,
+        near: f32,
+        depths: Depths,
+        size: u32,
+        bias: &Bias,
+        format: wgpu::TextureFormat,
+    ) -> Self {
+        let texel = 2.0 / size as f32;
+        Self {
+            position: light.position.to_array(),
+            near,
+            range: light.range,
+            size: size as f32,
+            normal_offset: bias.normal_offset * texel,
+            depth_scale: 1.0 + bias.constant * texel,
+            quantum: quantum(format).unwrap_or(0.0),
+            cube: match depths {
+                Depths::Cube(index) => index,
+                Depths::NoCaster => -1,
+                Depths::NotYet => -2,
+            },
+            rounding: bias.rounding(),
+            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
+        }
+    }
+}
+
+/// The lights one by one and all together.
+#[derive(Debug)]
+pub(crate) struct CubeLights {
+    label: String,
+    buffers: Buffers,
+    /// What they hold once the uploads are recorded, by place.
+    written: Vec<Option<LightUniform>>,
+    /// The revision of the bind groups that they are in.
+    revision: u64,
+}
+
+#[derive(Debug)]
+struct Buffers {
+    /// One every [`UNIFORM_STRIDE`] bytes.
+    uniforms: wgpu::Buffer,
+    /// One after the other; only for maps that are cube arrays.
+    all: Option<wgpu::Buffer>,
+}
+
+impl Buffers {
+    fn new(device: &wgpu::Device, label: &str, count: u64, array: bool) -> Self {
+        let make = |stride, usage| buffer(device, label, count * stride, usage);
+        let size = size_of::<LightUniform>() as u64;
+        Self {
+            uniforms: make(UNIFORM_STRIDE, wgpu::BufferUsages::UNIFORM),
+            all: array.then(|| make(size, wgpu::BufferUsages::STORAGE)),
+        }
+    }
+}
+
+impl CubeLights {
+    pub fn new(
+        device: &wgpu::Device,
+        label: &str,
+        count: usize,
+        array: bool,
+        revision: u64,
+    ) -> Self {
+        let label = format!("{label} lights");
+        Self {
+            buffers: Buffers::new(device, &label, count as u64, array),
+            label,
+            written: vec![None; count],
+            revision,
+        }
+    }
+
+    /// Gives the lights other buffers, once bind groups of the old ones must be made again. Those that
+    /// are not read a light without range, which is dark, for good: better that than shadows that are
+    /// not there, or are somebody else's.
+    pub fn replace(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, revision: u64) {
+        if std::mem::replace(&mut self.revision, revision) == revision {
+            return;
+        }
+        let Buffers { uniforms, all } = &self.buffers;
+        for old in std::iter::once(uniforms).chain(all) {
+            queue.write_buffer(old, 0, &vec![0; old.size() as usize]);
+        }
+        let (count, array) = (self.written.len(), all.is_some());
+        self.buffers = Buffers::new(device, &self.label, count as u64, array);
+        self.forget();
+    }
+
+    /// Uploads one, if it is not what it was.
+    pub fn write(&mut self, uploads: &mut Uploads, place: usize, uniform: LightUniform) {
+        if self.written[place].replace(uniform) == Some(uniform) {
+            return;
+        }
+        let bytes = bytemuck::bytes_of(&uniform);
+        uploads.write(&self.buffers.uniforms, place as u64 * UNIFORM_STRIDE, bytes);
+        if let Some(all) = &self.buffers.all {
+            uploads.write(all, (place * bytes.len()) as u64, bytes);
+        }
+    }
+
+    /// Takes nothing for written.
+    pub fn forget(&mut self) {
+        self.written.fill(None);
+    }
+
+    /// The light at a place, or the last.
+    pub fn one(&self, place: usize) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.buffers.uniforms,
+            offset: place.min(self.written.len() - 1) as u64 * UNIFORM_STRIDE,
+            size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+        })
+    }
+
+    /// All of them, of a cube array.
+    pub fn all(&self) -> Option<&wgpu::Buffer> {
+        self.buffers.all.as_ref()
+    }
+
+    pub fn bytes(&self) -> u64 {
+        let all = self.all().map_or(0, wgpu::Buffer::size);
+        self.buffers.uniforms.size() + all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LightUniform;
+    use crate::wgsl_layout::assert_layout;
+
+    #[test]
+    fn the_light_lies_in_memory_as_wgsl_has_it() {
+        let text = include_str!("../../../shaders/cube_light.wgsl");
+        assert_layout!(
+            text,
+            "ShadowsCubeLight",
+            LightUniform,
+            position,
+            near,
+            range,
+            size,
+            normal_offset,
+            depth_scale,
+            quantum,
+            cube,
+            rounding,
+            centre
+        );
+    }
+}

@@ -1,0 +1,123 @@
+//! Where a flat map lies, found anew only when what it is asked for has changed.
+
+use crate::error::ShadowMapError;
+use crate::map::flat_descriptor::{FlatLight, ShadowFrame};
+use crate::map::projection::{Fit, FlatFrame, LightBox, NearPlane, fit_directional, fit_spot};
+use crate::mesh::Bounds;
+use crate::scene::{Casters, Record};
+use crate::{DirectionalLight, Radius, View};
+
+/// All of a frame but its casters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Asked {
+    light: FlatLight,
+    view: Option<(View, f32)>,
+    receivers: Option<Bounds>,
+}
+
+impl Asked {
+    fn of(frame: &ShadowFrame<'_>) -> Self {
+        Self {
+            light: frame.light,
+            view: frame.view.map(|(view, distance)| (*view, distance)),
+            receivers: frame.receivers,
+        }
+    }
+}
+
+/// The place of a map in the world.
+#[derive(Debug)]
+pub(crate) struct FlatPlace {
+    size: u32,
+    reach: Radius,
+    near_plane: NearPlane,
+    unclipped_depth: bool,
+    /// What the last frame asked for, and where the map lies for it.
+    asked: Option<Asked>,
+    frame: Option<FlatFrame>,
+    width: Option<f64>,
+    /// The box around all casters, as a light sees them.
+    caster_box: Option<(DirectionalLight, Option<LightBox>)>,
+}
+
+impl FlatPlace {
+    /// `unclipped_depth`: whether casters before the near plane are pulled onto it.
+    pub fn new(size: u32, reach: Radius, near_plane: NearPlane, unclipped_depth: bool) -> Self {
+        Self {
+            size,
+            reach,
+            near_plane,
+            unclipped_depth,
+            asked: None,
+            frame: None,
+            width: None,
+            caster_box: None,
+        }
+    }
+
+    /// The frame of the map; `None` where nothing casts.
+    pub fn frame(&self) -> Option<&FlatFrame> {
+        self.frame.as_ref()
+    }
+
+    /// Takes over a frame's light and casters, after the casters were compared. Whether what the map
+    /// shows may be something else now.
+    pub fn take_over(
+        &mut self,
+        frame: &ShadowFrame<'_>,
+        casters: &mut Casters,
+    ) -> Result<bool, ShadowMapError> {
+        let asked = Asked::of(frame);
+        let unchanged = casters.are_unchanged(frame.casters);
+        if unchanged && self.asked == Some(asked) {
+            return Ok(false);
+        }
+        // Until all of it has succeeded, nothing is known to be what it was.
+        let known = self.asked.take().is_some() && unchanged;
+        if !unchanged {
+            casters.update(frame.casters).for_each(drop);
+            self.caster_box = None;
+        }
+        let before = self.frame;
+        self.place(frame, casters.records())?;
+        self.asked = Some(asked);
+        Ok(!known || self.frame != before)
+    }
+
+    fn place(&mut self, frame: &ShadowFrame<'_>, casters: &[Record]) -> Result<(), ShadowMapError> {
+        let (placed, width) = match &frame.light {
+            FlatLight::Spot(light) => {
+                let near = self.near_plane.of_spot(light);
+                (Some(fit_spot(light, near)), self.width)
+            }
+            FlatLight::Directional(light) => fit_directional(&Fit {
+                light,
+                view: frame.view,
+                receivers: frame.receivers,
+                size: self.size,
+                reach: self.reach,
+                unclipped_depth: self.unclipped_depth,
+                last_width: self.width,
+                casters: self.caster_box(light, casters),
+            })
+            .unzip(),
+        };
+        if placed.is_some_and(|frame| !frame.fits_f32()) {
+            return Err(ShadowMapError::BeyondF32);
+        }
+        (self.frame, self.width) = (placed, width);
+        Ok(())
+    }
+
+    /// The box around all casters as a light sees them, which a camera that moves does not change.
+    fn caster_box(&mut self, light: &DirectionalLight, casters: &[Record]) -> Option<LightBox> {
+        match self.caster_box {
+            Some((of, known)) if of == *light => known,
+            _ => {
+                let found = LightBox::of_casters(light, casters);
+                self.caster_box = Some((*light, found));
+                found
+            }
+        }
+    }
+}

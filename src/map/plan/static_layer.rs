@@ -1,0 +1,242 @@
+//! What is static on a face, and whether to keep it in a layer of its own.
+
+use super::content::Content;
+use crate::PointLight;
+
+/// Draws of a face in which its casters must have been the same before they are thought static: the
+/// third is the one that makes a layer of them.
+const LEAST_PATIENCE: u32 = 2;
+
+/// The longest wait after layers that were of no use: at worst one copy in so many draws is wasted.
+const MOST_PATIENCE: u32 = 64;
+
+/// Copies after which a layer has repaid its making, by the rule of
+/// [`StillLayers::Auto`](crate::StillLayers).
+const REPAID: u32 = 8;
+
+/// How a face is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum DrawMode {
+    /// All casters, on a face that is cleared.
+    #[default]
+    Whole,
+    /// The casters that have not changed after a frame are copied from the layer, the others drawn
+    /// over them.
+    Copy(u64),
+    /// The same after drawing the layer.
+    Build(u64),
+}
+
+/// The casters on a face that have not changed after a frame, for a light.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    light: PointLight,
+    until: u64,
+    content: Content,
+}
+
+/// Draws of a face that are looked over for what does not change in them.
+#[derive(Clone, Copy, Debug)]
+struct Watch {
+    light: PointLight,
+    /// The frame of the first of them.
+    from: u64,
+    draws: u32,
+}
+
+/// The layer under one face. Casters belong to it by the frame in which they last changed, so that
+/// one that changes leaves it, and is missed in its sum.
+#[derive(Clone, Debug)]
+pub(crate) struct StaticLayer {
+    /// What the layer's texels show.
+    holds: Option<Held>,
+    /// What they will show once the pending pass is encoded.
+    scheduled: Option<Held>,
+    watch: Option<Watch>,
+    patience: u32,
+    copies: u32,
+    mode: DrawMode,
+}
+
+impl Default for StaticLayer {
+    fn default() -> Self {
+        Self {
+            holds: None,
+            scheduled: None,
+            watch: None,
+            patience: LEAST_PATIENCE,
+            copies: 0,
+            mode: DrawMode::Whole,
+        }
+    }
+}
+
+impl StaticLayer {
+    pub fn mode(&self) -> DrawMode {
+        self.mode
+    }
+
+    /// Learns that the layer was drawn.
+    pub fn encoded(&mut self) {
+        if let Some(held) = self.scheduled.take() {
+            self.holds = Some(held);
+            self.copies = 0;
+        }
+    }
+
+    /// Chooses how the face is drawn in frame `now`. `since` sums up the casters that have not
+    /// changed after a frame; a layer of fewer triangles than `least` is not worth its copy.
+    pub fn choose(
+        &mut self,
+        light: &PointLight,
+        now: u64,
+        least: u64,
+        since: impl Fn(u64) -> Content,
+    ) {
+        self.scheduled = None;
+        let from = self.ripe(light, now);
+        let right = |held: &Held| held.light == *light && since(held.until) == held.content;
+        self.mode = match self.holds {
+            Some(held) if right(&held) => {
+                self.copies += 1;
+                // What stopped since then joins it if that is worth a layer by itself.
+                self.build(light, from, least + held.content.triangles, since)
+                    .unwrap_or(DrawMode::Copy(held.until))
+            }
+            Some(_) => {
+                self.holds = None;
+                self.patience = match self.copies < REPAID {
+                    true => (2 * self.patience).min(MOST_PATIENCE),
+                    false => LEAST_PATIENCE,
+                };
+                self.watch = None;
+                DrawMode::Whole
+            }
+            None => self
+                .build(light, from, least, since)
+                .unwrap_or(DrawMode::Whole),
+        };
+    }
+
+    /// Counts a draw. Gives the first of those watched if there were enough of them, and begins to
+    /// watch anew.
+    fn ripe(&mut self, light: &PointLight, now: u64) -> Option<u64> {
+        let watched = self.watch.filter(|watch| watch.light == *light);
+        if let Some(watch) = watched
+            && watch.draws + 1 < self.patience
+        {
+            self.watch = Some(Watch {
+                draws: watch.draws + 1,
+                ..watch
+            });
+            return None;
+        }
+        self.watch = Some(Watch {
+            light: *light,
+            from: now,
+            draws: 0,
+        });
+        watched.map(|watch| watch.from)
+    }
+
+    fn build(
+        &mut self,
+        light: &PointLight,
+        from: Option<u64>,
+        least: u64,
+        since: impl Fn(u64) -> Content,
+    ) -> Option<DrawMode> {
+        let until = from?;
+        let content = since(until);
+        if content.triangles < least {
+            return None;
+        }
+        let light = *light;
+        self.scheduled = Some(Held {
+            light,
+            until,
+            content,
+        });
+        Some(DrawMode::Build(until))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    fn light() -> PointLight {
+        PointLight::new(Vec3::ZERO, 10.0)
+    }
+
+    /// Draws a face of casters of 100 triangles each, given by the frames in which they last changed.
+    fn draw(layer: &mut StaticLayer, now: u64, casters: &[u64]) -> DrawMode {
+        let since = |frame: u64| Content::of_frames(casters.iter().filter(|&&at| at <= frame));
+        layer.choose(&light(), now, 150, since);
+        layer.encoded();
+        layer.mode()
+    }
+
+    #[test]
+    fn casters_that_were_drawn_in_vain_twice_get_a_layer() {
+        let mut layer = StaticLayer::default();
+        let modes = (1..7).map(|now| draw(&mut layer, now, &[0, 0, now]));
+        let expected = [
+            DrawMode::Whole,
+            DrawMode::Whole,
+            DrawMode::Build(1),
+            DrawMode::Copy(1),
+            DrawMode::Copy(1),
+            DrawMode::Copy(1),
+        ];
+        assert_eq!(modes.collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn where_all_move_or_too_little_stands_there_is_none() {
+        for static_ones in [&[][..], &[0]] {
+            let mut layer = StaticLayer::default();
+            for now in 1..200 {
+                let casters = [static_ones, &[now; 9]].concat();
+                assert_eq!(draw(&mut layer, now, &casters), DrawMode::Whole);
+            }
+        }
+    }
+
+    #[test]
+    fn what_stops_joins_and_what_starts_leaves() {
+        let mut layer = StaticLayer::default();
+        let mut casters = vec![0, 0, 0, 0];
+        for now in 1..5 {
+            casters[2] = now;
+            casters[3] = now;
+            draw(&mut layer, now, &casters);
+        }
+        // Two of them stop in frame 4; something else goes on.
+        let modes: Vec<DrawMode> = (5..12)
+            .map(|now| draw(&mut layer, now, &[&casters[..], &[now]].concat()))
+            .collect();
+        assert!(modes.contains(&DrawMode::Copy(1)));
+        assert!(matches!(modes[..], [.., DrawMode::Copy(until)] if until >= 4));
+        casters[0] = 12;
+        assert_eq!(draw(&mut layer, 12, &casters), DrawMode::Whole);
+    }
+
+    #[test]
+    fn layers_that_never_repay_become_rare() {
+        // A hundred casters take turns in moving: each layer is out of date when it is looked for.
+        let mut casters = [0; 100];
+        let mut layer = StaticLayer::default();
+        let mut built = 0;
+        for now in 1..1000 {
+            casters[now as usize * 37 % 100] = now;
+            built += usize::from(matches!(
+                draw(&mut layer, now, &casters),
+                DrawMode::Build(_)
+            ));
+        }
+        assert!((2..25).contains(&built), "{built}");
+    }
+}

@@ -1,0 +1,314 @@
+//! The casters as the last frame had them, so that what changed is found by looking.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use glam::{Affine3A, DVec3};
+
+use super::bounds::CasterBounds;
+use super::caster_tree::CasterSpheres;
+use crate::error::CasterError;
+use crate::mesh::{Caster, CasterMesh, MeshKind};
+
+/// All that comparing one caster with its predecessor reads, side by side in memory.
+#[derive(Clone, Copy, PartialEq)]
+struct Compared {
+    mesh: u64,
+    revision: u64,
+    transform: Affine3A,
+}
+
+impl Compared {
+    fn of(caster: &Caster) -> Self {
+        Self {
+            mesh: caster.mesh.id(),
+            revision: caster.mesh.revision(),
+            transform: caster.world_from_object,
+        }
+    }
+}
+
+/// What a light needs to know of a caster; nothing here depends on any light or map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Record {
+    /// In world space.
+    pub bounds: CasterBounds,
+    /// Stands for mesh, revision and transform; see [`digest`].
+    pub digest: u128,
+    pub triangles: u32,
+    /// Its mesh's place: see [`Casters::mesh`].
+    pub mesh: u32,
+    /// Whether its mesh is closed, and each of its surfaces encloses a positive volume.
+    pub closed: bool,
+    pub solid: bool,
+    /// Whether its transform turns windings over.
+    pub mirrored: bool,
+    /// The frame in which it became what it is.
+    pub since: u64,
+}
+
+impl Record {
+    /// Whether it casts at all.
+    pub fn casts(&self) -> bool {
+        self.triangles > 0
+    }
+}
+
+/// One caster that is not what it was at this place of the host's list: new, another, or gone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Change<'a> {
+    pub index: usize,
+    pub old: Option<&'a Record>,
+    pub new: Option<&'a Record>,
+}
+
+/// A mesh and how many casters have it: those can go out in one draw call.
+#[derive(Clone, Debug)]
+struct Shared {
+    mesh: CasterMesh,
+    casters: usize,
+}
+
+/// The casters of the last frame.
+#[derive(Default)]
+pub(crate) struct Casters {
+    compared: Vec<Compared>,
+    records: Vec<Record>,
+    /// Centre and radius of each record: what a light that moved looks through.
+    spheres: CasterSpheres,
+    meshes: Vec<Option<Shared>>,
+    place_of_mesh: HashMap<u64, u32>,
+    /// Found by the last [`compare`](Self::compare).
+    different: Vec<u32>,
+    // Kept only for its memory: what the last update replaced, by index.
+    replaced: Vec<(u32, Option<Record>)>,
+    /// Counts the updates.
+    frame: u64,
+}
+
+impl std::fmt::Debug for Casters {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Casters")
+            .field("count", &self.compared.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Casters {
+    pub fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    /// Appends the casters whose spheres reach into a sphere, in any order.
+    pub fn within(&mut self, centre: DVec3, range: f64, found: &mut Vec<u32>) {
+        self.spheres.within(centre, range, found);
+    }
+
+    /// The last frame in which anything changed.
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
+    /// The mesh at a place that a record names.
+    pub fn mesh(&self, place: u32) -> Option<&CasterMesh> {
+        Some(&self.meshes.get(place as usize)?.as_ref()?.mesh)
+    }
+
+    /// Finds the casters that are not what they were and checks those. Changes nothing that counts.
+    pub fn compare(
+        &mut self,
+        casters: &[Caster],
+        device: &wgpu::Device,
+    ) -> Result<(), CasterError> {
+        self.different.clear();
+        for (index, caster) in casters.iter().enumerate() {
+            if self.compared.get(index) != Some(&Compared::of(caster)) {
+                caster.validate(index, device)?;
+                self.different.push(index as u32);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the last [`compare`](Self::compare) found the casters as they were.
+    pub fn are_unchanged(&self, casters: &[Caster]) -> bool {
+        self.different.is_empty() && casters.len() == self.compared.len()
+    }
+
+    /// Takes over what [`compare`](Self::compare) found. Gives what that changes: those that are gone
+    /// from the end of the list first, the last of them before the others.
+    pub fn update(&mut self, casters: &[Caster]) -> impl Iterator<Item = Change<'_>> {
+        if !self.are_unchanged(casters) {
+            self.take_over(casters);
+        } else {
+            self.replaced.clear();
+        }
+        let records = &self.records;
+        self.replaced.iter().map(|(index, old)| Change {
+            index: *index as usize,
+            old: old.as_ref(),
+            new: records.get(*index as usize),
+        })
+    }
+
+    fn take_over(&mut self, casters: &[Caster]) {
+        self.frame += 1;
+        self.replaced.clear();
+        let leaving = self.leaving(casters.len());
+        for index in (casters.len()..self.records.len()).rev() {
+            let old = self.records[index];
+            self.replaced.push((index as u32, Some(old)));
+            self.leave_mesh(old.mesh);
+        }
+        self.records.truncate(casters.len());
+        self.spheres.truncate(casters.len());
+        self.compared.truncate(casters.len());
+        let different = std::mem::take(&mut self.different);
+        for &place in &different {
+            let index = place as usize;
+            let caster = &casters[index];
+            let mut new = self.record(caster);
+            if let Some(&since) = leaving.get(&new.digest) {
+                new.since = since;
+            }
+            let old = self.records.get(index).copied();
+            self.replaced.push((place, old));
+            let sphere = new.bounds.centre.extend(new.bounds.radius);
+            match old {
+                Some(old) => {
+                    self.leave_mesh(old.mesh);
+                    self.records[index] = new;
+                    self.spheres.set(index, sphere);
+                    self.compared[index] = Compared::of(caster);
+                }
+                None => {
+                    self.records.push(new);
+                    self.spheres.push(sphere);
+                    self.compared.push(Compared::of(caster));
+                }
+            }
+        }
+        // Given back for its memory.
+        self.different = different;
+        self.different.clear();
+    }
+
+    /// The casters that are no longer where they were in the host's list, which may only have
+    /// changed their order: since when each has been what it was.
+    fn leaving(&self, count: usize) -> HashMap<u128, u64, BuildHasherDefault<DigestHasher>> {
+        let different = self.different.iter().map(|&index| index as usize);
+        let gone = different
+            .filter(|&index| index < count)
+            .chain(count..self.records.len())
+            .filter_map(|index| self.records.get(index));
+        // Of two that are alike the younger counts: what was drawn since then holds both.
+        let mut leaving = HashMap::default();
+        for record in gone {
+            let since = leaving.entry(record.digest).or_insert(record.since);
+            *since = record.since.max(*since);
+        }
+        leaving
+    }
+
+    fn record(&mut self, caster: &Caster) -> Record {
+        Record {
+            bounds: CasterBounds::of(caster),
+            digest: digest(&Compared::of(caster)),
+            triangles: caster.mesh.triangle_count(),
+            mesh: self.join_mesh(caster),
+            closed: caster.mesh.kind() == MeshKind::Closed,
+            solid: caster.mesh.is_solid(),
+            // In f64, where no scale underflows.
+            mirrored: caster.transform().matrix3.determinant() < 0.0,
+            since: self.frame,
+        }
+    }
+
+    fn join_mesh(&mut self, caster: &Caster) -> u32 {
+        let meshes = &mut self.meshes;
+        let place = *self
+            .place_of_mesh
+            .entry(caster.mesh.id())
+            .or_insert_with(|| {
+                let shared = Some(Shared {
+                    mesh: caster.mesh.clone(),
+                    casters: 0,
+                });
+                match meshes.iter().position(Option::is_none) {
+                    Some(free) => {
+                        meshes[free] = shared;
+                        free as u32
+                    }
+                    None => {
+                        meshes.push(shared);
+                        meshes.len() as u32 - 1
+                    }
+                }
+            });
+        if let Some(shared) = &mut self.meshes[place as usize] {
+            shared.casters += 1;
+        }
+        place
+    }
+
+    /// A mesh that no caster has any more is let go.
+    fn leave_mesh(&mut self, place: u32) {
+        let place = &mut self.meshes[place as usize];
+        let Some(shared) = place else { return };
+        shared.casters -= 1;
+        if shared.casters == 0 {
+            self.place_of_mesh.remove(&shared.mesh.id());
+            *place = None;
+        }
+    }
+}
+
+/// Digests are hashes already.
+#[derive(Default)]
+struct DigestHasher(u64);
+
+impl Hasher for DigestHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.0 ^= u64::from_ne_bytes(word);
+        }
+    }
+
+    fn write_u128(&mut self, digest: u128) {
+        self.0 = digest as u64;
+    }
+}
+
+/// 128 bits that stand for one caster: mesh, revision and transform. A tile's content is the sum
+/// over its casters, so that their order means nothing and one can be taken out again (an additive
+/// multiset hash: Clarke et al., "Incremental Multiset Hash Functions and Their Application to
+/// Memory Integrity Checking", 2003). Two contents that differ have the same sum with a chance of
+/// about 2^-128.
+fn digest(of: &Compared) -> u128 {
+    let transform = of.transform.to_cols_array();
+    let mut lanes = [0x9e37_79b9_7f4a_7c15_u64, 0xc2b2_ae3d_27d4_eb4f];
+    let mut take = |word: u64| {
+        for (lane, key) in lanes
+            .iter_mut()
+            .zip([0xa076_1d64_78bd_642f_u64, 0xe703_7ed1_a0b4_28db])
+        {
+            // Multiply and fold, as wyhash does (Wang Yi, 2019).
+            let product = u128::from(*lane ^ word) * u128::from(key);
+            *lane = (product as u64) ^ ((product >> 64) as u64) ^ word.rotate_left(32);
+        }
+    };
+    take(of.mesh);
+    take(of.revision);
+    for pair in transform.chunks_exact(2) {
+        take(u64::from(pair[0].to_bits()) << 32 | u64::from(pair[1].to_bits()));
+    }
+    take(0);
+    take(0);
+    u128::from(lanes[0]) << 64 | u128::from(lanes[1])
+}

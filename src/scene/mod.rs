@@ -1,0 +1,10 @@
+//! The casters of a frame, and what of the world a view shows: nothing here knows any map.
+
+mod bounds;
+mod caster_tree;
+mod casters;
+mod frustum;
+
+pub(crate) use bounds::{CasterBounds, HalfSpace};
+pub(crate) use casters::{Casters, Change, Record};
+pub(crate) use frustum::{Frustum, Region};

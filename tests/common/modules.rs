@@ -1,0 +1,93 @@
+//! The modules that the library joins of the files in `shaders/`, but for those of a `PcfSampler`.
+#![allow(dead_code)] // each test uses its own part
+
+/// What `PcfSampler` has not, in the order in which it is joined.
+pub const JOINED: &[&[&str]] = &[
+    &["position"],
+    &["volume_mask"],
+    &["volume_exact"],
+    &["volume_exact_samples"],
+    FACE,
+    &["cube_caster", "cube_caster_gl"],
+    &["cube_cross"],
+    PULLED,
+    PULLED_STEPS,
+    RECORDS,
+    &[
+        "position",
+        "volume_depth_steps",
+        "volume_extrude",
+        "volume_light_side",
+        "volume_vertex",
+    ],
+    &[
+        "position",
+        "volume_depth_as_is",
+        "volume_extrude",
+        "volume_draw",
+        "volume_debug_pulled",
+        "volume_debug",
+    ],
+    &[
+        "position",
+        "volume_depth_steps",
+        "volume_extrude",
+        "volume_light_side",
+        "volume_vertex",
+        "volume_debug_records",
+        "volume_debug",
+    ],
+    FACING,
+    EDGES,
+    &["volume_count"],
+    &["volume_screen"],
+    &["volume_screen", "volume_debug"],
+    &["volume_screen", "volume_join"],
+    &["volume_screen", "volume_join_samples"],
+    &["volume_screen", "volume_exact", "volume_mark"],
+    &[
+        "volume_screen",
+        "volume_exact_samples",
+        "volume_mark_samples",
+    ],
+];
+
+pub const FACE: &[&str] = &["cube_caster", "cube_caster_face"];
+
+/// Volumes whose silhouettes are found before they are drawn.
+pub const PULLED: &[&str] = &[
+    "position",
+    "volume_depth_as_is",
+    "volume_extrude",
+    "volume_draw",
+];
+
+/// The same for the depth conventions that round far depths apart.
+pub const PULLED_STEPS: &[&str] = &[
+    "position",
+    "volume_depth_steps",
+    "volume_extrude",
+    "volume_draw",
+];
+
+/// Volumes whose vertices decide by themselves.
+pub const RECORDS: &[&str] = &[
+    "position",
+    "volume_depth_as_is",
+    "volume_extrude",
+    "volume_light_side",
+    "volume_vertex",
+];
+
+pub const FACING: &[&str] = &["volume_batch", "volume_light_side", "volume_facing"];
+
+pub const EDGES: &[&str] = &["volume_batch", "volume_edges"];
+
+pub fn joined(names: &[&str]) -> String {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/");
+    let texts = names.iter().map(|name| {
+        let path = format!("{folder}{name}.wgsl");
+        std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+    });
+    texts.collect::<Vec<_>>().join("\n")
+}
