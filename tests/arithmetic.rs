@@ -290,18 +290,12 @@ fn arithmetic_that_no_driver_may_choose_is_found() {
 }
 
 /// Few of the hard cases, which `compare --arithmetic all` tries all.
-const CASES: [&str; 5] = [
-    "Equal-depth light pass",
-    "Light 1e-6 from a tilted caster",
-    "Touching",
-    "Slivers",
-    "Mirrored",
-];
+const CASES: [&str; 2] = ["Equal-depth light pass", "Light 1e-6 from a tilted caster"];
 
 #[test]
 fn every_variant_stays_within_its_bounds() {
     let Some(gpu) = gpu() else { return };
-    let techniques = techniques(&["cube-hard", "flat-2x2", "volume-compute", "volume-zfail"]);
+    let techniques = techniques(&["cube-hard", "volume-compute", "volume-zfail"]);
     for case in CASES.map(case) {
         for variant in ALL {
             for outcome in tried(&gpu, variant, &case, &techniques) {
