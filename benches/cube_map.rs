@@ -24,7 +24,7 @@
 //! - `static_layer_vs_redraw_SIZE_TRIANGLES`: the same by size of face and triangles that stand
 //!   still on it, all in one small mesh.
 //! - `texels_a_triangle`: how many texels are copied in the time in which a small triangle is drawn,
-//!   which is what `StillLayers::Auto` decides by.
+//!   which is what `StaticLayers::Auto` decides by.
 //!
 //! Each line `ratio NAME VALUE` is the median, over rounds in which both sides take turns, of one over
 //! the other in the same round, so that a machine that slows down slows both. `--quick` takes fewer
@@ -42,8 +42,8 @@ mod host;
 mod shapes;
 #[path = "shared/mod.rs"]
 mod shared;
-#[path = "cube_map/still_layers.rs"]
-mod still_layers;
+#[path = "cube_map/static_layers.rs"]
+mod static_layers;
 
 use std::time::{Duration, Instant};
 
@@ -62,7 +62,7 @@ fn main() {
     };
     println!("adapter {}, clock wall", host::gpu::describe(&gpu.info));
     spheres(&gpu, if quick { 15 } else { 75 });
-    still_layers::run(&gpu, if quick { 5 } else { 25 });
+    static_layers::run(&gpu, if quick { 5 } else { 25 });
     prepare(&gpu, if quick { 15 } else { 75 });
     flat::prepare(&gpu, if quick { 15 } else { 75 });
     for (name, count) in [("1e2", 100), ("1e4", 10_000), ("1e5", 100_000)] {

@@ -43,7 +43,7 @@ fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
     if !receiver.asks {
         return select(0.0, 1.0, receiver.lit);
     }
-    let middle = floor(receiver.texel);
+    let middle = shadows_cube_floor(receiver, receiver.texel);
     var lit = 0.0;
     for (var y = -1; y <= 1; y++) {
         for (var x = -1; x <= 1; x++) {
@@ -81,10 +81,10 @@ struct Way {
 /// Puts every pixel's position and normal into a buffer, in the place of a shadow test.
 const STORE: &str = "
 @group(1) @binding(0) var<storage, read_write> host_points: array<vec4f>;
-fn host_visibility(world: vec3f, pixel: vec2f) -> f32 {
-    let at = 2u * (u32(pixel.y) * 1280u + u32(pixel.x));
-    host_points[at] = vec4f(world, 1.0);
-    host_points[at + 1u] = vec4f(cross(dpdx(world), dpdy(world)), 0.0);
+fn host_visibility(receiver: HostReceiver) -> f32 {
+    let at = 2u * (u32(receiver.pixel.y) * 1280u + u32(receiver.pixel.x));
+    host_points[at] = vec4f(receiver.world, 1.0);
+    host_points[at + 1u] = vec4f(receiver.flat_normal, 0.0);
     return 1.0;
 }
 ";
@@ -118,7 +118,7 @@ fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {{
     return shadows_visibility_flat(world, normal{pixel});
 }}
 ",
-        visibility_module(sampler)
+        sampler.wgsl_module(1)
     )
 }
 

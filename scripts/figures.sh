@@ -98,7 +98,7 @@ value() {
     awk -v name="$1" "$rounded"' $1 == name { print rounded($2) }' "$2"
 }
 
-# The last column of each row that begins with names of ratios, and the table of still layers.
+# The last column of each row that begins with names of ratios, and the table of static layers.
 fill_ratios() {
     awk -v ratios="$1" "$rounded"'
         BEGIN {

@@ -3,7 +3,7 @@
 #
 #   scripts/report.sh             all of them (an hour on two cores)
 #   scripts/report.sh PART...     some: scenes kernels volume-debug volume-start picture models egui
-#                                 speed-vs-error growth hard-cases temporal benches
+#                                 speed-vs-error cost-vs-error growth hard-cases temporal benches
 #   scripts/report.sh --check     whether those that take seconds are what it makes, times aside
 #   SMALL=1 scripts/report.sh ..  tries the script itself: the least sizes, docs/ left alone
 #
@@ -46,6 +46,7 @@ scenes() {
 
 kernels() {
     example kernel_sheet $docs/kernels.png
+    example kernel_sheet --peers $docs/peers.png
 }
 
 volume_debug() {
@@ -88,9 +89,25 @@ egui() {
 speed_vs_error() {
     compare --sweep --scene courtyard ${swept:-} --frames "${rounds:-8}" ${size:-} \
         --error-at-most 0.001 --time-at-most 40ms --out $made/sweep
-    cp $made/sweep/sweep.md $docs/speed-vs-error.md
+    {
+        sed '1a\
+\
+Below: [instructions against error](#instructions-against-error), which no clock has a part in.' \
+            $made/sweep/sweep.md
+        printf '\n<!-- cost-vs-error -->%s\n\n<!-- /cost-vs-error -->\n' \
+            "$(figures cost-vs-error $docs/speed-vs-error.md)"
+    } >$made/sweep/page.md
+    cp $made/sweep/page.md $docs/speed-vs-error.md
     cp $made/sweep/speed-vs-error.svg $docs/
     sweep_in_words $made/sweep/sweep.md | put speed-vs-error $readme
+}
+
+# Counted instructions, of which shader_cost keeps those of one version of Mesa; no times.
+cost_vs_error() {
+    compare --cost benches/shader_cost/kept/mesa-22.3.6-navi21.json --scene courtyard --scene spheres \
+        --scene teapot ${size:-} --out $made/costs-vs-errors
+    cp $made/costs-vs-errors/cost-vs-error.svg $docs/
+    put cost-vs-error $docs/speed-vs-error.md <$made/costs-vs-errors/cost-vs-error.md
 }
 
 growth() {
@@ -135,13 +152,16 @@ check() {
     kernels
     volume_debug
     volume_start
+    cost_vs_error
     failed=
-    for picture in courtyard kernels volume-debug volume-start; do
+    for picture in courtyard kernels peers volume-debug volume-start; do
         example same_picture docs/$picture.png $docs/$picture.png || failed="$failed docs/$picture.png"
     done
     for figures in scenes courtyard-casters; do
         same_figures "$figures" README.md "$readme" || failed="$failed README.md:$figures"
     done
+    same_figures cost-vs-error docs/speed-vs-error.md "$docs/speed-vs-error.md" ||
+        failed="$failed docs/speed-vs-error.md:cost-vs-error"
     if [ -n "$failed" ]; then
         echo "report.sh makes something else now:$failed" >&2
         return 1
@@ -175,13 +195,14 @@ if [ -n "${SMALL:-}" ]; then
     BENCH_RUNS=1
 fi
 [ $# -gt 0 ] || set -- scenes kernels volume-debug volume-start picture models egui speed-vs-error \
-    growth hard-cases temporal benches
+    cost-vs-error growth hard-cases temporal benches
 for part in "$@"; do
     case $part in
     scenes | kernels | picture | models | egui | growth | temporal | benches) $part ;;
     volume-debug) volume_debug ;;
     volume-start) volume_start ;;
     speed-vs-error) speed_vs_error ;;
+    cost-vs-error) cost_vs_error ;;
     hard-cases) hard_cases ;;
     *)
         echo "no part $part; see the head of scripts/report.sh" >&2

@@ -20,7 +20,7 @@ fn shadows_cube_hardware(
     let n = abs(normal);
     let a = abs(from_light);
     let major = max(a.x, max(a.y, a.z));
-    let texel = 2.0 / light.size;
+    let texel = light.texel;
     // The axes that are the major one within a texel, and of those the one that the plane is least steep
     // along is left out.
     let out = select(vec3f(3e38), n, a >= vec3f(major - texel * major));
@@ -30,7 +30,7 @@ fn shadows_cube_hardware(
     let facing = max(abs(dot(normal, from_light)) - rounding, 1e-37);
     // The bias along the normal is one more share of a texel.
     let slope = (texel + light.normal_offset) * ((steepness + 1e-30) / facing);
-    let near = light.near * light.depth_scale;
+    let near = light.scale * light.half_size;
     let own = near / major;
     // No nearer than a thirty-second of the receiver's distance, as for all kernels.
     let reference = min(own + near * slope, 32.0 * own) + light.quantum;
@@ -38,5 +38,5 @@ fn shadows_cube_hardware(
     // Exactly 0 or 1 where all texels agree, however a sampler rounds the sum of their weights.
     let lit = saturate(share * (1.0 + 0x1p-16) - 0x1p-17);
     let drawn = select(lit, select(0.0, 1.0, light.cube == -1), light.cube < 0);
-    return select(0.0, drawn, dot(from_light, from_light) <= light.range * light.range);
+    return select(0.0, drawn, dot(from_light, from_light) <= light.range_squared);
 }

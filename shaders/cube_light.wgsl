@@ -9,7 +9,8 @@ struct ShadowsCubeLight {
     size: f32,
     // Biases; a texel at distance 1 along the major axis is 2 / size wide.
     normal_offset: f32,
-    depth_scale: f32,
+    // near over `half_size`, with the bias of depths.
+    scale: f32,
     // One step of the map's format.
     quantum: f32,
     // Which cube of the array; -1: no caster in range, -2: not drawn yet.
@@ -20,4 +21,11 @@ struct ShadowsCubeLight {
     // Where texel centres are between whole numbers, counted in texels from the middle of a face: 0.5 if
     // the size is even, else 0.
     centre: f32,
+    // What would be the same for every receiver: a little less than half of the size, so that scaled by it
+    // only a direction's major axis is as long as half of a face; 2 / size; the range, squared; the depth that
+    // bounds those of planes, for a receiver at distance `half_size` along the major axis.
+    half_size: f32,
+    texel: f32,
+    range_squared: f32,
+    bound: f32,
 }

@@ -1,14 +1,14 @@
 // What kernels on a cube map need besides the light: the texel frame of the face that a receiver
 // falls on, and the depth of the receiver's plane in the direction of any texel.
 
-// Which face of the cube a direction falls on, as what it takes to turn vectors to the face's axes.
+// Which face of the cube a direction falls on, and which of the face's axes (forward, right, down) point the
+// way of the world's. All as truth values, for which GPUs have registers of their own.
 struct ShadowsCubeFace {
     x_major: bool,
     y_major: bool,
-    // The signs of the face's forward, right and down axes along the world's.
-    side: f32,
-    right: f32,
-    down: f32,
+    forward: bool,
+    right: bool,
+    down: bool,
 }
 
 // A map stores near / d, d along the major axis, which for a plane n.x = q is near * (n.dir) / q
@@ -17,12 +17,14 @@ struct ShadowsCubeFace {
 // light to the middle of a face it is half of the map's size.
 struct ShadowsCubeReceiver {
     face: ShadowsCubeFace,
-    // Where it is on its face, in texels from the corner.
+    // Where it is on its face, in texels from the middle.
     texel: vec2f,
     // How the plane's depth changes from texel to texel, along the face's axes (right, down).
     slope: vec2f,
-    // The same along the world's axes.
+    // The same along the world's axes, and as a multiple of the normal as it was given.
     gradient: vec3f,
+    given: vec3f,
+    per_length: f32,
     // The plane's depth at the receiver. Stands in for that at a texel which does not see the plane, so that
     // nothing behind the receiver shadows it.
     own: f32,
@@ -42,8 +44,15 @@ struct ShadowsCubeReceiver {
     lit: bool,
     cube: i32,
     centre: f32,
+    half_size: f32,
     quantum: f32,
     range_over_near: f32,
+}
+
+// The squared length of a direction. Not 0 at the light itself, so that quotients are numbers.
+fn shadows_cube_squared(direction: vec3f) -> f32 {
+    let d = direction;
+    return 1e-37 + d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
 fn shadows_cube_major(direction: vec3f) -> f32 {
@@ -54,29 +63,32 @@ fn shadows_cube_major(direction: vec3f) -> f32 {
 fn shadows_cube_face(direction: vec3f) -> ShadowsCubeFace {
     let a = abs(direction);
     let major = max(a.x, max(a.y, a.z));
+    let ahead = direction > vec3f(0.0);
     var face: ShadowsCubeFace;
     face.x_major = a.x >= major;
     face.y_major = select(a.y >= major, false, face.x_major);
-    let along = select(select(direction.z, direction.y, face.y_major), direction.x, face.x_major);
-    face.side = select(-1.0, 1.0, along > 0.0);
-    face.right = select(select(face.side, 1.0, face.y_major), -face.side, face.x_major);
-    face.down = select(-1.0, face.side, face.y_major);
+    face.forward = select(select(ahead.z, ahead.y, face.y_major), ahead.x, face.x_major);
+    face.right = (face.forward != face.x_major) | face.y_major;
+    face.down = face.forward & face.y_major;
     return face;
 }
 
 // The parts of a vector along a face's axes right and down.
 fn shadows_cube_across(face: ShadowsCubeFace, v: vec3f) -> vec2f {
-    return vec2f(select(v.x, v.z, face.x_major), select(v.y, v.z, face.y_major))
-        * vec2f(face.right, face.down);
+    let x = select(v.x, v.z, face.x_major);
+    let y = select(v.y, v.z, face.y_major);
+    return vec2f(select(-x, x, face.right), select(-y, y, face.down));
 }
 
 // From a face's axes (forward, right, down) to the world's.
 fn shadows_cube_to_world(face: ShadowsCubeFace, v: vec3f) -> vec3f {
-    let f = v * vec3f(face.side, face.right, face.down);
+    let x = v.x * select(-1.0, 1.0, face.forward);
+    let y = select(-v.y, v.y, face.right);
+    let z = select(-v.z, v.z, face.down);
     return vec3f(
-        select(f.y, f.x, face.x_major),
-        select(f.z, f.x, face.y_major),
-        select(select(f.x, f.z, face.y_major), f.y, face.x_major),
+        select(y, x, face.x_major),
+        select(z, x, face.y_major),
+        select(select(x, z, face.y_major), y, face.x_major),
     );
 }
 
@@ -102,7 +114,7 @@ fn shadows_cube_receiver(
     derived: ShadowsCubeDerived,
 ) -> ShadowsCubeReceiver {
     let from_light = position - light.position;
-    let squared = dot(from_light, from_light);
+    let squared = shadows_cube_squared(from_light);
     let major = shadows_cube_major(from_light);
     let facing = derived.facing;
     // Of the ray to the plane's normal, times the normal's length: Pythagoras. The normal's length cancels.
@@ -112,32 +124,42 @@ fn shadows_cube_receiver(
     let left = derived.taken - max(light.normal_offset * major * sine, rounded);
     var receiver: ShadowsCubeReceiver;
     // The light within the bias of the receiver's plane: nothing is between them. Nor is there at the
-    // light itself, or where there is no plane: there the numbers above are not numbers, which no
-    // comparison may be trusted to say.
-    let reached = squared <= light.range * light.range;
-    receiver.asks = reached & (light.cube >= 0) & (abs(facing) > 0.0) & (left > 0.0);
+    // light itself, or where there is no plane: there the bias and what it is taken from are 0.
+    let reached = squared <= light.range_squared;
+    receiver.asks = reached & (light.cube >= 0) & (left > 0.0);
     receiver.lit = reached & (light.cube >= -1);
     let face = shadows_cube_face(from_light);
     receiver.face = face;
-    // A little less than half of the map, so that no other axis comes out as long as the major one.
-    let half_size = 0.4999998 * light.size;
-    let scale = light.near * light.depth_scale;
-    let per_length = select(-scale, scale, facing > 0.0) / (half_size * left);
-    let to_face = half_size / major;
+    let per_length = light.scale / left;
+    let to_face = light.half_size / major;
     let step = shadows_cube_step(light.quantum);
-    receiver.texel = shadows_cube_across(face, from_light) * to_face + half_size;
-    receiver.gradient = derived.normal * per_length;
-    receiver.slope = shadows_cube_across(face, derived.normal) * per_length;
-    receiver.own = abs(facing * per_length) * to_face + step;
-    receiver.bound = 32.0 * scale / major + step;
+    receiver.texel = shadows_cube_across(face, from_light) * to_face;
+    receiver.given = derived.normal;
+    receiver.per_length = select(-per_length, per_length, facing > 0.0);
+    receiver.gradient = derived.normal * receiver.per_length;
+    receiver.slope = shadows_cube_across(face, derived.normal) * receiver.per_length;
+    receiver.own = abs(facing) * per_length * to_face + step;
+    receiver.bound = light.bound * to_face + step;
     receiver.horizon = step;
     receiver.local = from_light;
     receiver.ray = from_light * inverseSqrt(squared);
     receiver.normal = derived.normal * (select(1.0, -1.0, facing > 0.0) * inverseSqrt(derived.squared));
-    receiver.width = 2.0 * major / light.size;
+    receiver.width = major * light.texel;
+    receiver.half_size = light.half_size;
     receiver.cube = light.cube;
     receiver.centre = light.centre;
     receiver.quantum = light.quantum;
     receiver.range_over_near = light.range / light.near;
     return receiver;
+}
+
+// Where the receiver is between the centres of texels, 0 .. 1.
+fn shadows_cube_between(receiver: ShadowsCubeReceiver) -> vec2f {
+    return fract(receiver.texel + receiver.centre);
+}
+
+// The corner of a place's texel toward that of the face.
+fn shadows_cube_floor(receiver: ShadowsCubeReceiver, place: vec2f) -> vec2f {
+    let corner = 0.5 - receiver.centre;
+    return floor(place - corner) + corner;
 }

@@ -13,16 +13,17 @@ fn shadows_cube_derived(
     let normal = cross(x, y);
     let squared = dot(normal, normal);
     let facing = dot(normal, from_light);
-    let doubt = shadows_cube_doubt(position, x, y) * dot(from_light, from_light);
+    let doubt = shadows_cube_doubt(position, x, y) * shadows_cube_squared(from_light);
     // As far as the derivatives' plane may be off where the kernel ends.
-    let end = reach.x * 2.0 * shadows_cube_major(from_light) / light.size + reach.y;
-    let tilted = abs(facing) - end * sqrt(doubt * squared) / abs(facing);
+    let end = 0.25 * reach.x * light.texel * shadows_cube_major(from_light) + 0.25 * reach.y;
+    let facing_squared = 1e-37 + facing * facing;
+    let tilted = abs(facing) - end * sqrt(doubt * squared) * inverseSqrt(facing_squared);
     let taken = max(tilted, 0.03125 * abs(facing));
     var derived = ShadowsCubeDerived(normal, squared, facing, taken);
-    // Gone round once where that says nothing. Not a branch, of which some drivers run both sides.
-    let rounds = select(0, 1, 16.0 * doubt > facing * facing);
-    for (var i = 0; i < rounds; i++) {
-        derived = shadows_cube_mapped(map, map_sampler, light, position, reach, 5 * rounds);
+    // Gone round once where that says nothing, with 5 taps. Not a branch, of which some drivers run both sides.
+    let taps = select(0, 5, doubt > facing_squared);
+    for (var i = 0; i < taps; i += 5) {
+        derived = shadows_cube_mapped(map, map_sampler, light, position, reach, taps);
     }
     return derived;
 }
@@ -40,24 +41,26 @@ fn shadows_cube_mapped(
     let face = shadows_cube_face(from_light);
     // Not 0 at the light itself.
     let major = max(shadows_cube_major(from_light), 1e-30);
-    let uv = shadows_cube_across(face, from_light) / major;
     var receiver: ShadowsCubeReceiver;
     receiver.face = face;
-    receiver.texel = (uv * 0.5 + 0.5) * light.size;
+    receiver.texel = shadows_cube_across(face, from_light) * (light.half_size / major);
+    receiver.centre = light.centre;
+    receiver.half_size = light.half_size;
     receiver.cube = light.cube;
     receiver.quantum = light.quantum;
     receiver.range_over_near = light.range / light.near;
+    let found = shadows_cube_slopes(map, map_sampler, receiver, light.size, taps);
     let own = light.near / major;
     // Four texels of depth from one texel to the next.
-    let steepest = 8.0 * own / light.size;
-    let found = shadows_cube_slopes(map, map_sampler, receiver, light.size, taps, steepest);
-    // Depth is linear in u and v; it is the plane's distance that makes it the receiver's own here.
-    let slope = 0.5 * light.size * found.slope;
-    let normal = shadows_cube_to_world(face, vec3f(own - dot(slope, uv), slope));
+    let bend = shadows_cube_bend(found, 4.0 * own * light.texel);
+    // Depth is linear along the face; it is the plane's distance that makes it the receiver's own here.
+    let across = shadows_cube_to_world(face, vec3f(0.0, light.half_size * found.slope));
+    let forward = own - dot(across, from_light) / major;
+    let normal = across + shadows_cube_to_world(face, vec3f(forward, 0.0, 0.0));
     // Texels around the receiver, and around where it is taken to be.
     let world = reach.y + light.rounding * length(position);
-    let texels = reach.x + 0.5 * world * light.size / major;
-    let beside = own / (own + texels * found.bend);
+    let texels = reach.x + world / (light.texel * major);
+    let beside = own / (own + texels * bend);
     let facing = dot(normal, from_light);
     return ShadowsCubeDerived(normal, dot(normal, normal), facing, beside * abs(facing));
 }
@@ -69,10 +72,16 @@ fn shadows_cube_stored_at(
     size: f32,
     texel: vec2f,
 ) -> f32 {
-    let direction = vec3f(0.5 * size, texel + 0.5 - 0.5 * size);
+    let direction = vec3f(receiver.half_size, texel + 0.5);
     let world = shadows_cube_to_world(receiver.face, direction);
     let found = shadows_cube_fetch(map, map_sampler, receiver, world);
     let step = 2.0 / size;
     let squared = step * step * dot(direction, direction);
     return shadows_cube_depth(receiver, vec4f(found), vec4f(squared)).x;
+}
+
+// The receiver's texel, or the nearest that has others to all sides on the same face.
+fn shadows_cube_inner(receiver: ShadowsCubeReceiver, size: f32) -> vec2f {
+    let most = receiver.half_size - 1.5;
+    return shadows_cube_floor(receiver, clamp(receiver.texel, vec2f(-most), vec2f(most)));
 }

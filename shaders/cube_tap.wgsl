@@ -1,26 +1,20 @@
 // One texel of a cube map: the one that a point falls on, on whichever face it is.
 
 // The direction of that texel's centre along the world's axes, in texels; `local` is relative to the light.
-fn shadows_cube_centre(receiver: ShadowsCubeReceiver, size: f32, local: vec3f) -> vec3f {
+fn shadows_cube_centre(receiver: ShadowsCubeReceiver, local: vec3f) -> vec3f {
     // The faces' grids are one grid in the three axes, and on each face the major axis stays as it is. Scaled
     // to a little less than half of the map, so that no other axis is rounded to beyond the last texel.
     let a = abs(local);
     let most = max(a.x, max(a.y, a.z));
     let x_major = a.x >= most;
     let y_major = select(a.y >= most, false, x_major);
-    let place = local * (0.4999998 * size / most) - receiver.centre;
+    let place = local * (receiver.half_size / most) - receiver.centre;
     let texel = round(place);
     return receiver.centre + vec3f(
         select(texel.x, place.x, x_major),
         select(texel.y, place.y, y_major),
         select(place.z, texel.z, x_major | y_major),
     );
-}
-
-// The plane's depth in a direction, in texels.
-fn shadows_cube_depth_in(receiver: ShadowsCubeReceiver, direction: vec3f) -> f32 {
-    let g = receiver.gradient;
-    return receiver.horizon + g.x * direction.x + g.y * direction.y + g.z * direction.z;
 }
 
 fn shadows_cube_stored_in(
@@ -45,10 +39,11 @@ fn shadows_cube_look(
     size: f32,
     local: vec3f,
 ) -> vec2f {
-    let direction = shadows_cube_centre(receiver, size, local);
+    let direction = shadows_cube_centre(receiver, local);
     let stored = shadows_cube_stored_in(map, map_sampler, receiver, size, direction);
     // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
-    let depth = shadows_cube_depth_in(receiver, direction);
+    let g = receiver.gradient;
+    let depth = receiver.horizon + g.x * direction.x + g.y * direction.y + g.z * direction.z;
     let plane = select(receiver.own, depth, depth > receiver.horizon);
     return vec2f(min(plane, receiver.bound), stored);
 }

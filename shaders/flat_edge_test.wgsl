@@ -4,5 +4,5 @@ fn shadows_flat_gathers(size: f32, corner: vec2f, reach: f32) -> bool {
 }
 
 fn shadows_flat_inside(size: f32, texel: vec2f) -> bool {
-    return all(texel >= vec2f(0.0)) && all(texel < vec2f(size));
+    return all(abs(texel + (0.5 - 0.5 * size)) < vec2f(0.5 * size));
 }

@@ -7,5 +7,5 @@ fn shadows_flat_stored(
     size: f32,
     corner: vec2f,
 ) -> vec4f {
-    return textureGather(0, map, map_sampler, corner / size);
+    return textureGather(0, map, map_sampler, corner * receiver.step);
 }

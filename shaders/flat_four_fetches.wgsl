@@ -7,8 +7,8 @@ fn shadows_flat_stored(
     size: f32,
     corner: vec2f,
 ) -> vec4f {
-    let least = (corner - 0.5) / size;
-    let most = (corner + 0.5) / size;
+    let least = (corner - 0.5) * receiver.step;
+    let most = (corner + 0.5) * receiver.step;
     return vec4f(
         textureSampleLevel(map, map_sampler, vec2f(least.x, most.y), 0.0).x,
         textureSampleLevel(map, map_sampler, most, 0.0).x,

@@ -17,7 +17,7 @@ fn shadows_flat_hardware(
     let from_light = position - light.position;
     let local = from_light * axes;
     let n = normal * axes;
-    let spot = light.perspective > 0.5;
+    let spot = shadows_flat_spot(light);
     let squared = dot(local, local);
     let away = select(1.0, local.x, spot);
     let facing = select(n.x, dot(n, local), spot);
@@ -26,23 +26,25 @@ fn shadows_flat_hardware(
     let moved = select(doubt, rounding + doubt * sqrt(squared), spot);
     // How depth changes along the normal. Where there is no plane it is as steep as can be.
     let slope = light.depth_per / max(abs(facing) - moved, 1e-37);
-    let gradient = light.texel * select(-slope, slope, facing > 0.0) * n.yz;
-    let place = (local.yz * (light.scale / away)) * 0.5 + 0.5;
-    let between = fract(place * light.size - 0.5);
-    let rise = max(gradient, vec2f(0.0)) - gradient * between;
+    let steepness = select(-slope, slope, facing > 0.0) * n.yz;
+    let gradient = light.texel * steepness;
     let inverse = 1.0 / away;
+    let place = local.yz * (light.texels * inverse) + 0.5 * light.size;
+    let between = fract(place - 0.5);
+    let rise = max(gradient, vec2f(0.0)) - gradient * between;
     let own = select(1.0 - local.x * light.depth_per + light.depth_bias, light.depth_per * inverse, spot);
     // No nearer than a thirty-second of the receiver's distance, or sixteen widths of the map before it.
-    let bound = own + 31.0 * light.depth_per * select(1.0 / light.scale, inverse, spot);
+    let bound = own + select(light.widths, 31.0 * own, spot);
     // The bias along the normal is one more share of a texel.
-    let steepness = abs(gradient.x) + abs(gradient.y);
     let unknown = rounding * inverse + light.texel * (1.5 * doubt + 1e-30);
-    let nearest = own + rise.x + rise.y + light.normal_offset * steepness + slope * unknown;
+    let bias = light.normal_offset * (abs(steepness.x) + abs(steepness.y));
+    let nearest = own + rise.x + rise.y + bias + slope * unknown;
     let reference = clamp(nearest, 0.0, max(bound, 0.0)) + light.quantum;
-    let share = textureSampleCompareLevel(map, map_sampler, place, reference);
+    let share = textureSampleCompareLevel(map, map_sampler, place * light.step, reference);
     // Exactly 0 or 1 where all texels agree, however a sampler rounds the sum of their weights.
     let lit = saturate(share * (1.0 + 0x1p-16) - 0x1p-17);
-    let on_map = shadows_flat_inside(light.size, place * light.size) & ((away > 0.0) & (light.quantum >= 0.0));
+    let on_map = shadows_flat_inside(light.size, place - 0.5) & (away > 0.0) & (light.quantum >= 0.0);
     let seen = select(1.0, lit, on_map);
-    return select(seen, 0.0, spot & (squared > light.range * light.range));
+    let reached = shadows_flat_served(light) & (!spot | (squared <= light.reach));
+    return select(0.0, seen, reached);
 }

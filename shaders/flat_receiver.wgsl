@@ -4,6 +4,7 @@
 // Depth is near / d (spot) or 1 - d / range (directional), d along the frame's forward axis. Of a
 // plane either is linear over the map.
 struct ShadowsFlatReceiver {
+    // In texels from the map's corner.
     texel: vec2f,
     // How the plane's depth changes from texel to texel.
     slope: vec2f,
@@ -22,9 +23,11 @@ struct ShadowsFlatReceiver {
     normal: vec3f,
     // World width of a texel at the receiver.
     width: f32,
-    scale: f32,
-    perspective: f32,
-    range: f32,
+    // Of the light.
+    step: f32,
+    texels: f32,
+    depth_per: f32,
+    spot: bool,
     // Whether the map says what the receiver sees, and if not, whether it is lit.
     asks: bool,
     lit: bool,
@@ -32,15 +35,23 @@ struct ShadowsFlatReceiver {
 
 // What is known of a receiver's plane.
 struct ShadowsFlatDerived {
-    // Geometric, of any length and either sign.
+    // Geometric, of any length and either sign; its squared length, and its part along the ray: that from a
+    // spot to the receiver, or the direction of parallel ones.
     normal: vec3f,
-    // The receiver is taken to be nearer to its light: by a factor, and by so much along parallel rays.
-    nearer: vec2f,
+    squared: f32,
+    facing: f32,
+    // How far the plane is moved toward the light, times the normal's length.
+    moved: f32,
+}
+
+fn shadows_flat_ray(light: ShadowsFlatLight, from_light: vec3f) -> vec3f {
+    return select(light.forward, from_light, shadows_flat_spot(light));
 }
 
 // A normal that the host knows.
 fn shadows_flat_given(light: ShadowsFlatLight, position: vec3f, normal: vec3f) -> ShadowsFlatDerived {
-    return ShadowsFlatDerived(normal, vec2f(1.0, 0.0));
+    let facing = dot(normal, shadows_flat_ray(light, position - light.position));
+    return ShadowsFlatDerived(normal, dot(normal, normal), facing, 0.0);
 }
 
 fn shadows_flat_receiver(
@@ -48,64 +59,57 @@ fn shadows_flat_receiver(
     position: vec3f,
     derived: ShadowsFlatDerived,
 ) -> ShadowsFlatReceiver {
-    let normal = derived.normal;
-    let nearer = derived.nearer;
+    let spot = shadows_flat_spot(light);
     let axes = mat3x3f(light.forward, light.right, light.down);
     let from_light = position - light.position;
-    let own_local = from_light * axes;
-    let local = nearer.x * own_local - vec3f(nearer.y, 0.0, 0.0);
-    let spot = light.perspective > 0.5;
-    // Whether the light reaches it is a matter of where the receiver is, not of where it is taken to be.
-    let reach = length(own_local);
-    let distance = nearer.x * reach;
-    var receiver: ShadowsFlatReceiver;
-    // Nothing here branches on the light alone, not even as && does: Mesa's lavapipe compiles a shader
-    // anew at each draw for what a uniform buffer says, if that decides a branch.
-    if spot & (reach > light.range) {
-        return receiver;
-    }
-    // Behind a spot the map says nothing.
-    if (light.quantum < 0.0) | (spot & (local.x <= 0.0)) {
-        receiver.lit = true;
-        return receiver;
-    }
-    receiver.local = local;
-    receiver.scale = light.scale;
-    receiver.perspective = light.perspective;
-    receiver.range = light.range;
+    let local = from_light * axes;
+    let n = derived.normal * axes;
+    let squared = dot(from_light, from_light);
     let away = select(1.0, local.x, spot);
-    receiver.width = 2.0 * away / (light.size * light.scale);
-    let uv = local.yz * light.scale / away;
-    receiver.texel = (uv * 0.5 + 0.5) * light.size;
-    receiver.ray = select(vec3f(1.0, 0.0, 0.0), local / distance, spot);
-    let unit = normalize(normal);
-    var n = unit * axes;
-    let toward_light = -sign(dot(n, receiver.ray));
-    n *= select(toward_light, 1.0, toward_light == 0.0);
-    receiver.normal = n;
-    let sine = length(cross(n, receiver.ray));
+    let inverse = 1.0 / away;
+    let facing = abs(derived.facing);
+    // Of the ray to the plane's normal, times the normal's length: Pythagoras. The normal's length cancels.
+    let along = select(facing * facing, facing * facing / squared, spot);
+    let sine = sqrt(abs(derived.squared - along));
     // As far as rounding may have moved the receiver, where that is more than the bias in texels.
-    let rounding = light.rounding * (abs(position) + abs(from_light));
-    let offset = max(light.normal_offset * receiver.width * sine, dot(abs(unit), rounding));
-    let plane_distance = dot(n, local) + offset;
-    let across = n.yz / light.scale;
-    // A spot within the bias of the receiver's plane: nothing is between them. The plane seen from its
-    // edge by a directional light: nothing of it is hidden. Nor where there is no plane.
-    if (dot(normal, normal) == 0.0) | (select(n.x, plane_distance, spot) >= 0.0) {
-        receiver.lit = true;
-        return receiver;
-    }
-    receiver.asks = true;
-    let near = light.near * light.depth_bias;
-    let spot_plane = near / plane_distance * vec3f(n.x, across);
-    let per_depth = 1.0 / (n.x * light.range);
-    let middle = 1.0 - plane_distance * per_depth + light.depth_bias;
-    let plane = select(vec3f(middle, across * per_depth), spot_plane, spot);
+    let rounded = light.rounding * dot(abs(derived.normal), abs(position) + abs(from_light));
+    let offset = max(light.normal_offset * away * sine, rounded);
+    // What is left of the distance between a spot and the plane. That a plane is moved turns it for a spot:
+    // by what derivatives do not say, to a thirty-second at most.
+    let left = select(facing, max(facing - derived.moved, 0.03125 * facing) - offset, spot);
+    let per_length = light.depth_per / left;
+    var receiver: ShadowsFlatReceiver;
+    // Behind a spot the map says nothing. A spot within the bias of the receiver's plane: nothing is between
+    // them. The plane seen from its edge by a directional light: nothing of it is hidden. Nor where there is
+    // no plane.
+    let reached = shadows_flat_served(light) & (!spot | (squared <= light.reach));
+    receiver.asks = reached & (light.quantum >= 0.0) & (away > 0.0) & (facing > 0.0) & (left > 0.0);
+    receiver.lit = reached;
+    receiver.texel = local.yz * (light.texels * inverse) + 0.5 * light.size;
+    receiver.slope = n.yz * (light.texel * select(-per_length, per_length, derived.facing > 0.0));
+    let parallel = 1.0 + light.depth_bias - local.x * light.depth_per + per_length * (offset + derived.moved);
+    receiver.own = select(parallel, per_length * facing * inverse, spot) + light.quantum;
     // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
-    receiver.own = dot(plane, vec3f(1.0, uv)) + light.quantum;
-    receiver.slope = plane.yz * (2.0 / light.size);
-    let nearest = max(0.0, receiver.own + 32.0 / (light.scale * light.range));
-    receiver.bound = select(nearest, 32.0 * near / local.x + light.quantum, spot);
+    let nearest = max(0.0, receiver.own + light.widths);
+    receiver.bound = select(nearest, 32.0 * light.depth_per * inverse + light.quantum, spot);
     receiver.horizon = select(-3e38, light.quantum, spot);
+    receiver.local = local;
+    receiver.ray = select(vec3f(1.0, 0.0, 0.0), local * inverseSqrt(squared), spot);
+    receiver.normal = n * (select(1.0, -1.0, derived.facing > 0.0) * inverseSqrt(derived.squared));
+    receiver.width = light.texel * away;
+    receiver.step = light.step;
+    receiver.texels = light.texels;
+    receiver.depth_per = light.depth_per;
+    receiver.spot = spot;
     return receiver;
+}
+
+// Where the receiver is between the centres of texels, 0 .. 1.
+fn shadows_flat_between(receiver: ShadowsFlatReceiver) -> vec2f {
+    return fract(receiver.texel + 0.5);
+}
+
+// The corner of a place's texel toward that of the map.
+fn shadows_flat_floor(receiver: ShadowsFlatReceiver, place: vec2f) -> vec2f {
+    return floor(place);
 }

@@ -1,4 +1,4 @@
-// The normal of a receiver on a flat map from the derivatives of its position, or from the map. `reach`:
+// The plane of a receiver on a flat map from the derivatives of its position, or from the map. `reach`:
 // how far from the receiver a tap's texel may be, in texels and in the world.
 fn shadows_flat_derived(
     map: texture_2d<f32>,
@@ -9,27 +9,26 @@ fn shadows_flat_derived(
     y: vec3f,
     reach: vec2f,
 ) -> ShadowsFlatDerived {
+    let spot = shadows_flat_spot(light);
     let from_light = position - light.position;
-    let spot = light.perspective > 0.5;
-    let ray = select(light.forward, from_light, spot);
     let normal = cross(x, y);
-    let facing = abs(dot(normal, ray));
-    let doubt = sqrt(shadows_flat_doubt(position, x, y)) * length(ray);
+    let squared = dot(normal, normal);
+    let facing = dot(normal, shadows_flat_ray(light, from_light));
+    let distance = select(1.0, dot(from_light, from_light), spot);
+    let doubt = shadows_flat_doubt(position, x, y) * distance;
+    // As far as the derivatives' plane may be off where the kernel ends.
     let away = select(1.0, dot(light.forward, from_light), spot);
-    // As far as the derivatives' plane may be off where the kernel ends, against the distance.
-    let end = reach.x * 2.0 * away / (light.size * light.scale) + reach.y;
-    let shift = end * doubt * length(normal) / (facing * facing);
-    let tilted = select(vec2f(1.0, shift), vec2f(max(1.0 - shift, 0.03125), 0.0), spot);
-    var derived = ShadowsFlatDerived(normal, tilted);
+    let end = 0.25 * (reach.x * light.texel * away + reach.y);
+    var derived = ShadowsFlatDerived(normal, squared, facing, end * sqrt(doubt * squared) / abs(facing));
     // Gone round once where that says nothing. Not a branch, of which some drivers run both sides.
-    let rounds = select(0, 1, doubt >= 0.25 * facing);
+    let rounds = select(0, 1, doubt > facing * facing);
     for (var i = 0; i < rounds; i++) {
         derived = shadows_flat_mapped(map, map_sampler, light, position, reach, 5 * rounds);
     }
     return derived;
 }
 
-// Both from the map.
+// The same from the map.
 fn shadows_flat_mapped(
     map: texture_2d<f32>,
     map_sampler: sampler,
@@ -38,27 +37,30 @@ fn shadows_flat_mapped(
     reach: vec2f,
     taps: i32,
 ) -> ShadowsFlatDerived {
+    let spot = shadows_flat_spot(light);
     let axes = mat3x3f(light.forward, light.right, light.down);
-    let spot = light.perspective > 0.5;
-    let local = (position - light.position) * axes;
-    let away = select(1.0, local.x, spot);
-    let uv = local.yz * light.scale / away;
-    var receiver: ShadowsFlatReceiver;
-    receiver.texel = (uv * 0.5 + 0.5) * light.size;
+    let from_light = position - light.position;
+    let local = from_light * axes;
     // Not by 0 at the light itself.
-    let own = light.near / max(local.x, 1e-30);
+    let inverse = 1.0 / select(1.0, max(local.x, 1e-30), spot);
+    let place = local.yz * (light.texels * inverse);
+    var receiver: ShadowsFlatReceiver;
+    receiver.step = light.step;
+    receiver.texel = place + 0.5 * light.size;
+    // Without the bias that is in it.
+    let own = light.depth_per / light.depth_bias * inverse;
     // Four texels of depth from one texel to the next.
-    let steepest = 8.0 / (light.size * light.scale) * select(1.0 / light.range, own / away, spot);
-    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps, steepest);
-    // Depth is linear in u and v; it is the plane's distance that makes it the receiver's own here.
-    let slope = 0.5 * light.size * found.slope;
-    let plane = select(1.0 / light.range, own - dot(slope, uv), spot);
+    let steepest = 4.0 * light.texel * select(light.depth_per, own * inverse, spot);
+    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps);
+    // Depth is linear over the map; it is the plane's distance that makes it the receiver's own here.
+    let forward = select(light.depth_per, own - dot(found.slope, place), spot);
+    let normal = axes * vec3f(forward, light.texels * found.slope);
+    let facing = dot(normal, shadows_flat_ray(light, from_light));
     // Texels around the receiver, and around where it is taken to be.
     let world = reach.y + light.rounding * length(position);
-    let texels = reach.x + 0.5 * world * light.size * light.scale / away;
-    let bend = texels * found.bend;
-    let beside = select(vec2f(1.0, bend * light.range), vec2f(own / (own + bend), 0.0), spot);
-    return ShadowsFlatDerived(axes * vec3f(plane, light.scale * slope), beside);
+    let bend = shadows_flat_bend(found, steepest) * (reach.x + world * light.texels * inverse);
+    let share = bend / select(light.depth_per, own + bend, spot);
+    return ShadowsFlatDerived(normal, dot(normal, normal), facing, abs(facing) * share);
 }
 
 fn shadows_flat_stored_at(
@@ -69,4 +71,9 @@ fn shadows_flat_stored_at(
     texel: vec2f,
 ) -> f32 {
     return shadows_flat_depths(map, map_sampler, receiver, size, texel).y;
+}
+
+// The receiver's texel, or the nearest that has others to all sides.
+fn shadows_flat_inner(receiver: ShadowsFlatReceiver, size: f32) -> vec2f {
+    return max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
 }

@@ -9,18 +9,20 @@ fn shadows_flat_look(
     size: f32,
     local: vec3f,
 ) -> vec2f {
-    let spot = receiver.perspective > 0.5;
-    // A point behind the spot is mirrored at the receiver, which is before it.
-    let point = select(local, 2.0 * receiver.local - local, spot & (local.x <= 0.0));
-    let uv = point.yz * receiver.scale / select(1.0, point.x, spot);
-    let texel = floor((uv * 0.5 + 0.5) * size);
-    let depths = shadows_flat_depths(map, map_sampler, receiver, size, texel);
+    // For a point behind the spot the receiver stands in, which is before it.
+    let behind = receiver.spot & (local.x <= 0.0);
+    let place = local.yz * (receiver.texels / select(1.0, local.x, receiver.spot)) + 0.5 * size;
+    let texel = floor(select(place, receiver.texel, behind));
+    let centre = texel + 0.5;
+    let found = textureSampleLevel(map, map_sampler, centre * receiver.step, 0.0).x;
     // A directional light's receivers may be behind the map's end (depth 0), and the gap to their
     // blockers is measured to where they are. An empty texel is behind them wherever that is.
-    let end = select(-3e38, 0.0, spot);
-    let stored = select(end, depths.y, depths.y > 0.0);
+    let nothing = select(-3e38, 0.0, receiver.spot);
+    let stored = select(nothing, found, shadows_flat_inside(size, texel) & (found > 0.0));
+    let depth = receiver.own + dot(receiver.slope, centre - receiver.texel);
     // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
-    let plane = select(receiver.own, depths.x, depths.x > receiver.horizon);
+    let beyond = receiver.spot & (depth <= receiver.horizon);
+    let plane = select(depth, receiver.own, beyond);
     return vec2f(min(plane, receiver.bound), stored);
 }
 
@@ -28,6 +30,6 @@ fn shadows_flat_look(
 // blocker's distance, for a directional light in world units. From sums of the plane's depths and
 // of the depths stored at the taps that are blocked.
 fn shadows_flat_gap(receiver: ShadowsFlatReceiver, plane: f32, stored: f32, blocked: f32) -> f32 {
-    let distance = (stored - plane) / blocked * receiver.range;
-    return select(distance, stored / plane - 1.0, receiver.perspective > 0.5);
+    let distance = (stored - plane) / (blocked * receiver.depth_per);
+    return select(distance, stored / plane - 1.0, receiver.spot);
 }

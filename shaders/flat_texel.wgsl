@@ -13,7 +13,7 @@ fn shadows_flat_depths(
     size: f32,
     texel: vec2f,
 ) -> vec2f {
-    let place = (texel + 0.5) / size;
+    let place = (texel + 0.5) * receiver.step;
     let stored = textureSampleLevel(map, map_sampler, place, 0.0).x;
     let plane = shadows_flat_plane(receiver, size, texel);
     return vec2f(plane, select(0.0, stored, shadows_flat_inside(size, texel)));

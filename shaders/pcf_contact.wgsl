@@ -21,9 +21,11 @@ fn shadows_cube_filter(
     var plane = 0.0;
     var stored = 0.0;
     var blocked = 0.0;
+    var at = 0.25 * kernel.layer;
     for (var i = 0u; i < kernel.first_taps; i++) {
-        let pair = shadows_cube_offset_pair(offsets, map_sampler, vec2f(0.5), i);
+        let pair = textureSampleLevel(offsets, map_sampler, vec3f(0.5, 0.5, at), 0.0);
         let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
+        at += 0.5 * kernel.layer;
         let depths = shadows_cube_tap(map, map_sampler, receiver, size, search, offset);
         let blocks = select(0.0, 1.0, depths.x < depths.y);
         plane += blocks * depths.x;
@@ -38,7 +40,8 @@ fn shadows_cube_filter(
     let disk = shadows_cube_turned(shadows_cube_disk(receiver, radius, stretch), turn);
     // One tap rather than a branch: drivers that run both sides of a branch leave a loop.
     let lit = shadows_cube_lit(
-        map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), select(kernel.taps, 1u, agree), 0u,
+        map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), kernel.layer,
+        select(kernel.taps, 1u, agree), 0u,
     );
     return select(lit, select(1.0, 0.0, blocked > 0.0), agree);
 }

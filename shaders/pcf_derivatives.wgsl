@@ -2,34 +2,34 @@
 // positions, their differences say nothing of the surface, and the map is asked for its slope: docs/numerics.md,
 // "Ulps of positions".
 
-// How what is stored changes from texel to texel, and how much that differs from one side to the other.
+// How what is stored changes from texel to texel, and by how much that differs from one side to the other.
 struct ShadowsCubeSlopes {
     slope: vec2f,
-    bend: f32,
+    bend: vec2f,
 }
 
-// How far rounding may move the end of the cross product of two differences of positions, squared.
+// How far rounding may move the end of the cross product of two differences of positions, times 4, squared.
 fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
-    // As far as the difference of two positions side by side may be off, times the root of 2.
+    // As far as the difference of two positions side by side may be off, times the root of 2 and 4.
     let a = abs(position);
-    let off = 1.7e-7 * max(a.x, max(a.y, a.z));
+    let off = 6.8e-7 * max(a.x, max(a.y, a.z));
+    let squared = off * off;
     // With room for differences that are rounded to nothing.
-    return off * off * (dot(x, x) + dot(y, y) + 0.5 * off * off);
+    let s = squared + x.x * x.x + x.y * x.y + x.z * x.z + y.x * y.x + y.y * y.y + y.z * y.z;
+    return squared * s;
 }
 
 // The slopes of the map around a texel, for a receiver that says which map. Along each axis the lesser
-// of two counts: the other may reach over the edge of what the texel shows. `steepest`, with
-// twice the slope itself, bounds how much they are taken to differ. `taps` is 5, or 0 where nothing is
-// asked: drivers that run both sides of a branch run a loop once at least.
+// of two counts: the other may reach over the edge of what the texel shows. `taps` is 5, or 0 where
+// nothing is asked: drivers that run both sides of a branch run a loop once at least.
 fn shadows_cube_slopes(
     map: texture_cube<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
     taps: i32,
-    steepest: f32,
 ) -> ShadowsCubeSlopes {
-    let texel = max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
+    let texel = shadows_cube_inner(receiver, size);
     // There, and to the left, to the right, above and below.
     var middle = 0.0;
     var around = vec4f(0.0);
@@ -43,6 +43,11 @@ fn shadows_cube_slopes(
     let before = middle - around.xz;
     let behind = around.yw - middle;
     let slope = select(before, behind, abs(behind) < abs(before));
-    let bend = min(abs(behind - before), steepest + 2.0 * abs(slope));
-    return ShadowsCubeSlopes(slope, bend.x + bend.y);
+    return ShadowsCubeSlopes(slope, abs(behind - before));
+}
+
+// How much they are taken to differ: by no more than `steepest` and twice the slope itself.
+fn shadows_cube_bend(found: ShadowsCubeSlopes, steepest: f32) -> f32 {
+    let bend = min(found.bend, steepest + 2.0 * abs(found.slope));
+    return bend.x + bend.y;
 }

@@ -15,6 +15,7 @@ fn shadows_cube_filter(
     // Sampling repeats nothing: the pixel modulo n, at the texel's centre.
     let column = fract((floor(pixel) + 0.5) / vec2f(textureDimensions(offsets).xy));
     return shadows_cube_lit(
-        map, map_sampler, receiver, size, disk, offsets, column, kernel.taps, kernel.first_taps,
+        map, map_sampler, receiver, size, disk, offsets, column, kernel.layer, kernel.taps,
+        kernel.first_taps,
     );
 }

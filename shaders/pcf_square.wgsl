@@ -21,9 +21,10 @@ fn shadows_cube_filter(
     receiver: ShadowsCubeReceiver,
     size: f32,
 ) -> f32 {
-    let corner = floor(receiver.texel + 0.5);
-    let off = corner - receiver.texel;
-    let s = 0.5 - off;
+    let s = shadows_cube_between(receiver);
+    // From the receiver to the corner in the middle of the kernel.
+    let off = 0.5 - s;
+    let corner = receiver.texel + off;
     // Depths of the receiver's plane at texel centres are a sum of one for the column and one for the row.
     let slope = receiver.slope;
     let middle = receiver.own + dot(slope, off);
@@ -39,10 +40,10 @@ fn shadows_cube_filter(
             let u = 2.0 * f32(x) - reach;
             let left = middle + (u - 0.5) * slope.x;
             let right = middle + (u + 0.5) * slope.x;
-            // In gather's order: bottom left, bottom right, top right, top left.
-            let depths = vec4f(left + lower, right + lower, right + upper, left + upper);
             let at = corner + vec2f(u, v);
-            let behind = shadows_cube_blocked(map, map_sampler, receiver, size, at, depths);
+            let behind = shadows_cube_blocked(
+                map, map_sampler, receiver, size, at, vec2f(left, right), vec2f(upper, lower),
+            );
             let weights = select(vec4f(0.0), shadows_cube_pair(x, s.x).xyyx, behind);
             blocked += weights.wx + weights.zy;
         }
@@ -53,18 +54,19 @@ fn shadows_cube_filter(
     // run both sides of a branch leave a loop that no lane is in; and one for all taps, because they run it
     // once at least.
     let most = (reach + 0.5) * (abs(slope.x) + abs(slope.y));
-    let whole = shadows_cube_gathers(size, corner, reach)
+    let whole = shadows_cube_whole(receiver, size, corner, reach)
         & (middle - most > receiver.horizon) & (middle + most <= receiver.bound);
     let side = 2 * shadows_cube_pairs;
     let end = select(side * side, 0, whole);
     shadow = select(0.0, shadow, whole);
+    let first = corner - f32(shadows_cube_pairs);
     for (var i = 0; i < end; i++) {
         let x = i % side;
         let y = i / side;
         let across = shadows_cube_pair(x / 2, s.x);
         let down = shadows_cube_pair(y / 2, s.y);
         let weight = select(across.x, across.y, (x & 1) == 1) * select(down.x, down.y, (y & 1) == 1);
-        let texel = corner - f32(shadows_cube_pairs) + vec2f(f32(x), f32(y));
+        let texel = first + vec2f(f32(x), f32(y));
         shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, receiver, size, texel));
     }
     // Exactly 0 or 1 where all texels agree, however a GPU rounds the products and their sum: stretched

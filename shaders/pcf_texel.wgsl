@@ -9,7 +9,7 @@ fn shadows_cube_texel(
     size: f32,
     texel: vec2f,
 ) -> f32 {
-    let mirrored = floor(2.0 * receiver.texel - texel - 0.5);
+    let mirrored = shadows_cube_floor(receiver, 2.0 * receiver.texel - texel - 0.5);
     let behind = shadows_cube_plane(receiver, size, texel) <= receiver.horizon;
     let at = select(texel, mirrored, behind);
     let depths = shadows_cube_depths(map, map_sampler, receiver, size, at);

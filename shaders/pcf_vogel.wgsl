@@ -12,6 +12,6 @@ fn shadows_cube_filter(
     let upright = shadows_cube_disk(receiver, shadows_cube_radius(receiver, kernel), 1.0);
     let disk = shadows_cube_turned(upright, shadows_cube_turn(pixel, kernel.frame_shift));
     return shadows_cube_lit(
-        map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), kernel.taps, 0u,
+        map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), kernel.layer, kernel.taps, 0u,
     );
 }

@@ -206,12 +206,12 @@ pub use map::{
     Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
     CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
     FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    StillLayers, texture_from_clip,
+    StaticLayers, texture_from_clip,
 };
-pub use mesh::{Caster, CasterMesh, HostPositions};
+pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
 pub use pcf::{
-    AnyMap, ContactHardening, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
-    RandomDisk, VogelDisk,
+    AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler,
+    Radius, RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -25,7 +25,7 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 /// - Textures of several samples cannot be read in shaders: [`LightJoin`](crate::LightJoin) and
 ///   [`ExactCount`](crate::ExactCount) take one sample.
 /// - A cube array cannot be read as single cubes, a [`ShadowMask`](crate::ShadowMask) may have a spare
-///   layer, and depth is not copied ([`StillLayers`](crate::StillLayers)).
+///   layer, and depth is not copied ([`StaticLayers`](crate::StaticLayers)).
 ///
 /// ```
 /// # fn host(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {

@@ -424,6 +424,60 @@ fn a_sweep_writes_its_table_its_front_and_its_advice() {
     }
 }
 
+/// What `shader_cost` compares with, and this takes.
+const COUNTS: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/benches/shader_cost/kept/mesa-22.3.6-navi21.json"
+);
+
+#[test]
+fn instructions_are_set_against_error_for_every_receiver_that_is_counted() {
+    if host::gpu::Gpu::for_test().is_none() {
+        return;
+    }
+    let scratch = Scratch::new("cost");
+    let run = |counts: &str| {
+        let out = scratch.path("out");
+        let small = ["--scene", "spheres", "--size", "32x18", "--face", "64"];
+        compare(&[&["--cost", counts][..], &small, &["--out", &out]].concat())
+    };
+    let output = run(COUNTS);
+    assert!(output.status.success(), "{output:?}");
+    let files = [
+        "cost-vs-error.json",
+        "cost-vs-error.md",
+        "cost-vs-error.svg",
+    ];
+    assert_eq!(scratch.files("out"), files.map(String::from).into());
+    let page = fs::read_to_string(scratch.path("out/cost-vs-error.md")).unwrap();
+    let counts = fs::read_to_string(COUNTS).unwrap();
+    let rows: Value = serde_json::from_str(&counts).unwrap();
+    let names = rows.as_array().unwrap().iter();
+    let names = names.map(|row| row["name"].as_str().unwrap().to_owned());
+    let names: Vec<String> = names
+        .filter_map(|name| match name.strip_suffix("/normal") {
+            Some(kernel) if !kernel.starts_with("cube-") && !kernel.starts_with("flat-") => {
+                Some(kernel.to_owned())
+            }
+            None if name.starts_with("peer/cube/") || name.starts_with("peer/flat/") => Some(name),
+            _ => None,
+        })
+        .collect();
+    assert!(names.len() > 20);
+    for name in &names {
+        assert!(page.contains(&format!("| `{name}` |")), "{name}\n{page}");
+    }
+    // One that was not counted is no less than an error.
+    for missing in ["peer/cube/three-pcf", "flat/weighted_5/normal"] {
+        let fewer = scratch.path("fewer.json");
+        fs::write(&fewer, counts.replace(missing, "another")).unwrap();
+        let output = run(&fewer);
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(missing), "{told}");
+    }
+}
+
 #[test]
 fn several_scenes_get_a_directory_each_and_other_files_stay() {
     if host::gpu::Gpu::for_test().is_none() {

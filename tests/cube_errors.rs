@@ -8,7 +8,7 @@ use glam::{Affine3A, Vec3};
 use shadows::error::{CasterError, CubeShadowMapError, LightError};
 use shadows::{
     Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, PointLight,
-    Radius, StillLayers, glam, wgpu,
+    Radius, StaticLayers, glam, wgpu,
 };
 
 fn descriptor(size: u32) -> CubeShadowMapDescriptor<'static> {
@@ -250,21 +250,21 @@ fn descriptors_out_of_range_are_refused() {
 #[test]
 fn layers_of_still_casters_are_refused_where_there_are_none() {
     let (device, _) = noop();
-    let new = |still_layers, cache| {
+    let new = |static_layers, cache| {
         let descriptor = CubeShadowMapDescriptor {
-            still_layers,
+            static_layers,
             cache,
             ..descriptor(64)
         };
         CubeShadowMap::new(&device, &descriptor).map(drop)
     };
-    let at_least = new(StillLayers::AtLeast(1), false);
-    assert_eq!(at_least, Err(CubeShadowMapError::NoStillLayers));
+    let at_least = new(StaticLayers::AtLeast(1), false);
+    assert_eq!(at_least, Err(CubeShadowMapError::NoStaticLayers));
     // What the message tells to pass.
-    for layers in [StillLayers::Auto, StillLayers::Never] {
+    for layers in [StaticLayers::Auto, StaticLayers::Never] {
         assert_eq!(new(layers, false), Ok(()), "{layers:?}");
     }
-    let effective = new(StillLayers::AtLeast(1), true);
+    let effective = new(StaticLayers::AtLeast(1), true);
     assert_eq!(effective, Ok(()), "the broken twin: a map that has layers");
 }
 

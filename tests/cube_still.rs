@@ -22,16 +22,16 @@ use receivers::visibility;
 use shadows::error::CubeShadowMapError;
 use shadows::{
     Caster, CasterMesh, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
-    Kernel, PointLight, StillLayers, glam, wgpu,
+    Kernel, PointLight, StaticLayers, glam, wgpu,
 };
 
 const SIZE: u32 = 24;
-const ALWAYS: StillLayers = StillLayers::AtLeast(1);
+const ALWAYS: StaticLayers = StaticLayers::AtLeast(1);
 
-fn descriptor(still_layers: StillLayers) -> CubeShadowMapDescriptor<'static> {
+fn descriptor(static_layers: StaticLayers) -> CubeShadowMapDescriptor<'static> {
     CubeShadowMapDescriptor {
         size: SIZE,
-        still_layers,
+        static_layers,
         ..Default::default()
     }
 }
@@ -206,10 +206,10 @@ fn sequences(
             sphere(4, 6).mesh(&gpu.device),
             deformed.mesh.clone(),
         ];
-        let modes = [StillLayers::Never, StillLayers::Auto, ALWAYS];
-        let map = |still_layers| {
+        let modes = [StaticLayers::Never, StaticLayers::Auto, ALWAYS];
+        let map = |static_layers| {
             let descriptor = CubeShadowMapDescriptor {
-                still_layers,
+                static_layers,
                 ..descriptor.clone()
             };
             CubeShadowMap::new(&gpu.device, &descriptor).unwrap()
@@ -256,7 +256,7 @@ fn two_lights(gpu: &Gpu) -> impl Iterator<Item = CubeShadowMapDescriptor<'static
     arrays.map(|cube_array| CubeShadowMapDescriptor {
         lights: 2,
         cube_array,
-        ..descriptor(StillLayers::Never)
+        ..descriptor(StaticLayers::Never)
     })
 }
 
@@ -292,7 +292,7 @@ fn layers_change_no_bit_in_any_encoding_and_format() {
             let descriptor = CubeShadowMapDescriptor {
                 format,
                 encoding,
-                ..descriptor(StillLayers::Never)
+                ..descriptor(StaticLayers::Never)
             };
             // `Depth24Plus` cannot be read back: it is asked for what receivers see of it.
             let read = |map: &CubeShadowMap, place| match format {
@@ -324,7 +324,7 @@ fn a_layer_that_is_not_drawn_again_is_the_broken_twin() {
     let mut casters = surroundings(&gpu);
     casters.insert(0, at(&deformed.mesh, Vec3::new(6.0, 1.0, 0.0)));
     let lights = [light_at(Vec3::ZERO)];
-    let mut maps = [StillLayers::Never, ALWAYS]
+    let mut maps = [StaticLayers::Never, ALWAYS]
         .map(|mode| CubeShadowMap::new(&gpu.device, &descriptor(mode)).unwrap());
     let mut alike = |casters: &[Caster]| {
         let [whole, layered] = maps.each_mut().map(|map| {
@@ -349,7 +349,7 @@ fn still_casters_are_copied_under_one_that_moves() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut casters = surroundings(&gpu);
     let lights = [light_at(Vec3::ZERO)];
-    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(StillLayers::Auto)).unwrap();
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(StaticLayers::Auto)).unwrap();
     let mut statistics = Vec::new();
     for frame in 0..6 {
         move_last(&mut casters, frame);
@@ -382,7 +382,7 @@ fn still_casters_are_copied_under_one_that_moves() {
     // Layers go with the lights.
     draw(&gpu, &mut map, &[], &casters);
     assert!(map.statistics().bytes < layer + 6 * 1024);
-    let truth = fresh(&gpu, &descriptor(StillLayers::Never), &lights, &casters);
+    let truth = fresh(&gpu, &descriptor(StaticLayers::Never), &lights, &casters);
     draw(&gpu, &mut map, &lights, &casters);
     assert_eq!(faces(&gpu, &map, 0), faces(&gpu, &truth, 0));
 }
@@ -425,10 +425,10 @@ fn scenes_that_have_no_use_for_layers_get_none() {
     };
     assert_eq!(copies(ALWAYS, SIZE, &all_move), 0);
     assert_eq!(copies(ALWAYS, SIZE, &nobody_moves), 0);
-    assert_eq!(copies(StillLayers::Auto, 512, &few_stand), 0);
-    assert_eq!(copies(StillLayers::Never, SIZE, &one_moves), 0);
+    assert_eq!(copies(StaticLayers::Auto, 512, &few_stand), 0);
+    assert_eq!(copies(StaticLayers::Never, SIZE, &one_moves), 0);
     // The broken twin.
-    assert!(copies(StillLayers::Auto, SIZE, &one_moves) > 0);
+    assert!(copies(StaticLayers::Auto, SIZE, &one_moves) > 0);
 }
 
 #[test]
@@ -439,8 +439,8 @@ fn layers_are_refused_where_depth_cannot_be_copied() {
     };
     let make = |mode| CubeShadowMap::new(&gl.device, &descriptor(mode));
     let error = make(ALWAYS).unwrap_err();
-    assert_eq!(error, CubeShadowMapError::StillLayers);
-    let mut map = make(StillLayers::Auto).unwrap();
+    assert_eq!(error, CubeShadowMapError::StaticLayers);
+    let mut map = make(StaticLayers::Auto).unwrap();
     let mut casters = surroundings(&gl);
     for frame in 0..5 {
         move_last(&mut casters, frame);

@@ -416,7 +416,7 @@ fn where_derivatives_say_nothing_the_map_does() {
     let asked = errors_by_derivatives(&gpu, scene.clone(), Kernel::Weighted7, |module| module);
     // The broken twin: normals from the derivatives in any case.
     let never = errors_by_derivatives(&gpu, scene, Kernel::Weighted7, |module| {
-        let doubtful = "16.0 * doubt > facing * facing";
+        let doubtful = "doubt > facing_squared";
         assert!(module.contains(doubtful));
         module.replace(doubtful, "false")
     });

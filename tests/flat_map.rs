@@ -5,6 +5,8 @@ mod common;
 mod fit;
 #[path = "../examples/host/mod.rs"]
 mod host;
+#[path = "flat_map/lights.rs"]
+mod lights;
 #[path = "common/receivers.rs"]
 mod receivers;
 
@@ -253,8 +255,9 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
             |module| {
                 module
                 .replace(test, border)
-                .replace("(texel + 0.5) / size;", "clamp((texel + 0.5) / size, vec2f(0.01), vec2f(0.99));")
-                .replace("map_sampler, place,", "map_sampler, clamp(place, vec2f(0.01), vec2f(0.99)),")
+                .replace("(texel + 0.5) * receiver.step;", "clamp((texel + 0.5) * receiver.step, vec2f(0.01), vec2f(0.99));")
+                .replace("centre * receiver.step", "clamp(centre * receiver.step, vec2f(0.01), vec2f(0.99))")
+                .replace("place * light.step", "clamp(place * light.step, vec2f(0.01), vec2f(0.99))")
                 .replace("return true;", "return corner_inside(size);")
                 .replace("fn shadows_flat_gathers", "fn corner_inside(size: f32) -> bool { return size < 0.0; }\nfn shadows_flat_gathers")
                 .replacen("-> bool {\n    return corner_inside(size);\n}\n\nfn shadows_flat_inside", "-> bool {\n    return false;\n}\n\nfn shadows_flat_inside", 1)
@@ -311,7 +314,7 @@ fn coarser_formats_show_no_acne_either() {
                 };
                 let map = AnyMap::Flat(&map);
                 broken += acne(ask_changed(&gpu, map, &descriptor, 0, &points, |module| {
-                    module.replace("uv)) + light.quantum", "uv))")
+                    module.replace("inverse, spot) + light.quantum", "inverse, spot)")
                 }));
             }
         }

@@ -148,6 +148,7 @@ fn kind(technique: &Technique) -> u32 {
         Config::Cube { .. } => 0,
         Config::Flat { .. } => 1,
         Config::Volume(_) => 2,
+        Config::Peer { .. } => 3,
     }
 }
 

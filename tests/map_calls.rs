@@ -15,7 +15,7 @@ use host::gpu::Gpu;
 use receivers::visibility;
 use shadows::{
     Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, PointLight, ShadowFrame,
-    ShadowMap, ShadowMapDescriptor, SpotLight, StillLayers, glam, wgpu,
+    ShadowMap, ShadowMapDescriptor, SpotLight, StaticLayers, glam, wgpu,
 };
 
 /// Either map, under the same light.
@@ -344,7 +344,7 @@ fn layers_of_what_stands_still_are_lost_with_an_encoder_too() {
     let mut stage = Stage::new(&gpu);
     let descriptor = CubeShadowMapDescriptor {
         size: 32,
-        still_layers: StillLayers::AtLeast(1),
+        static_layers: StaticLayers::AtLeast(1),
         ..Default::default()
     };
     let mut map = Map::Cube(Box::new(

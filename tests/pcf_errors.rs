@@ -5,8 +5,9 @@ mod common;
 use common::noop;
 use shadows::error::PcfError;
 use shadows::{
-    ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
-    PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor, VogelDisk,
+    ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, FlatLights, Kernel,
+    MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor,
+    VogelDisk,
 };
 
 fn make(kernel: Kernel) -> Result<PcfSampler, PcfError> {
@@ -234,6 +235,22 @@ fn settings_that_would_have_no_effect_are_refused() {
         let error = made(&cubes_only).unwrap_err();
         assert_eq!(error, PcfError::CubesOnly { setting, map });
         assert!(error.to_string().starts_with(setting), "{error}");
+    }
+    // And a kind of light, on cubes.
+    for flat_lights in [FlatLights::Spot, FlatLights::Directional] {
+        let of = |map| PcfDescriptor {
+            map,
+            flat_lights,
+            ..Default::default()
+        };
+        let expected = PcfError::FlatOnly {
+            setting: "flat_lights",
+            map: MapKind::Cube,
+        };
+        let error = made(&of(MapKind::Cube)).unwrap_err();
+        assert_eq!(error, expected);
+        assert!(error.to_string().starts_with("flat_lights"), "{error}");
+        assert_eq!(made(&of(MapKind::Flat)), Ok(()));
     }
     // Textbook receivers are one tap.
     for (kernel, taken) in Kernel::ALL

@@ -260,7 +260,7 @@ fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
         };
         let right = rms(|module| module);
         // The broken twin: the ground taken for no farther than the map's end.
-        let short = rms(|module| module.replace("select(-3e38, 0.0, spot)", "0.0"));
+        let short = rms(|module| module.replace("select(-3e38, 0.0, receiver.spot)", "0.0"));
         println!("{height} above the ground: rms {right:.4}; at the map's end {short:.4}");
         assert!(right < 0.06 && short > 1.5 * right, "{right} {short}");
     }

@@ -9,6 +9,7 @@ mod installed;
 mod modules;
 #[path = "common/pcf.rs"]
 mod pcf;
+#[allow(dead_code)] // compare draws their maps, too
 #[path = "../examples/host/peers.rs"]
 mod peers;
 #[path = "translations/shown.rs"]

@@ -15,7 +15,7 @@ use naga::{
     AddressSpace, Block, Expression, Function, Handle, LocalVariable, Module, Span, Statement,
 };
 use pcf::{host, samplers, textbooks};
-use shadows::{MapKind, PcfDescriptor, PcfSampler};
+use shadows::{FlatLights, MapKind, PcfDescriptor, PcfSampler};
 
 /// What a value depends on; the later takes in the earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -225,10 +225,11 @@ fn receivers_of_maps_have_none() {
     for (descriptor, sampler) in receivers() {
         let wgsl = sampler.wgsl_module(0) + &host(&descriptor);
         assert_none(&format!("{descriptor:?}"), &wgsl);
-        let branches = descriptor.kernel != shadows::Kernel::HardwareBilinear;
-        if descriptor.map == MapKind::Flat && branches {
-            let from = "if spot & (reach > light.range) {";
-            assert_found(&wgsl, from, "if spot {", "light.perspective > 0.5");
+        // What decides by the light is the same for receivers of one kind, which folds away.
+        if descriptor.map == MapKind::Flat && descriptor.flat_lights == FlatLights::Any {
+            let from = "let away = select(1.0, local.x, spot);";
+            let to = "var away = 1.0; if spot { away = local.x; }";
+            assert_found(&wgsl, from, to, "shadows_flat_spot(light)");
         }
     }
 }

@@ -5,7 +5,8 @@ use std::hint::black_box;
 use anyhow::Result;
 use shadows::glam::{DAffine3, DVec3};
 use shadows::mesh::Adjacency;
-use shadows::{Caster, CasterMesh};
+use shadows::{Caster, CasterMesh, HostMesh, wgpu};
+use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use crate::clock::Bench;
 use crate::deformed::Deformed;
@@ -38,6 +39,29 @@ pub fn all(bench: &mut Bench<'_>, gpu: &Gpu) -> Result<()> {
         &mut (),
         |()| {},
         |()| CasterMesh::from_host_positions(&gpu.device, &host.positions(), &adjacency),
+    );
+    let contents = bytemuck::cast_slice(&indices);
+    let index_buffer = gpu.device.create_buffer_init(&BufferInitDescriptor {
+        label: None,
+        contents,
+        usage: wgpu::BufferUsages::INDEX,
+    });
+    let at = host.positions();
+    let for_maps = HostMesh {
+        vertices: at.buffer,
+        stride: at.stride,
+        offset: at.offset,
+        indices: &index_buffer,
+        index_format: wgpu::IndexFormat::Uint32,
+        index_offset: 0,
+        index_count: indices.len() as u32,
+        bounds: at.bounds,
+    };
+    bench.cpu(
+        "mesh/CasterMesh::from_host",
+        &mut (),
+        |()| {},
+        |()| CasterMesh::from_host(&gpu.device, &for_maps),
     );
     let mesh = CasterMesh::new(&gpu.device, &positions, &adjacency)?;
     let (place, origin) = (DAffine3::IDENTITY, DVec3::new(1e6, 0.0, 1e6));

@@ -1,6 +1,6 @@
 //! Lighting shaders: a Lambert shader whose light is shadowed in one way or another.
 
-use shadows::{DepthEncoding, Gather, Kernel, MapKind};
+use shadows::{DepthEncoding, FlatLights, Gather, Kernel, MapKind};
 
 use crate::pcf::{WAYS, Way, made, textbooks};
 use crate::peers::PEERS;
@@ -56,7 +56,7 @@ pub fn lambert() -> Case {
 }
 
 /// What is counted: no device of today wants the others.
-const COUNTED: [&str; 7] = [
+const COUNTED: [&str; 9] = [
     "cube",
     "cube-linear",
     "cube-array",
@@ -64,6 +64,8 @@ const COUNTED: [&str; 7] = [
     "flat",
     "flat-fetches",
     "flat-border",
+    "flat-spot",
+    "flat-directional",
 ];
 
 fn name(kernel: Kernel) -> &'static str {
@@ -76,7 +78,7 @@ fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
     let fetches = way.gather == Gather::Never;
     match kernel {
         // What stands in for a texel beyond the horizon of the plane.
-        Kernel::Hard if way.map == MapKind::Cube => vec![0],
+        Kernel::Hard if way.flat_lights != FlatLights::Directional => vec![0],
         Kernel::Hard | Kernel::HardwareBilinear => Vec::new(),
         // Nearly everywhere the first taps agree.
         Kernel::RandomDisk(disk) => vec![disk.around * disk.rings / 2],

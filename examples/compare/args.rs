@@ -143,6 +143,12 @@ pub struct Args {
           value_delimiter = ',', group = "mode")]
     pub arithmetic: Option<Vec<String>>,
 
+    /// Instead, set what receivers cost on a GPU, as `cargo bench --bench shader_cost -- --out FILE`
+    /// counts it, against what they get wrong: every kernel, and other engines' receivers in our
+    /// rendition.
+    #[arg(long, value_name = "FILE", group = "mode")]
+    pub cost: Option<PathBuf>,
+
     /// Directory for all that is written; made where it is missing.
     #[arg(long, value_name = "DIR", default_value = "target/compare")]
     pub out: PathBuf,

@@ -7,6 +7,7 @@
 
 mod args;
 mod arithmetic;
+mod cost;
 mod date;
 mod growth;
 mod hard;
@@ -27,7 +28,7 @@ mod table;
 mod technique;
 mod temporal;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context as _, Result, bail};
@@ -81,6 +82,8 @@ fn run(args: &Args) -> Result<ExitCode> {
         growth::run(&gpu, times, args.frames, &args.out)?;
     } else if let Some(size) = args.temporal {
         temporal(args, size)?;
+    } else if let Some(counts) = &args.cost {
+        cost(args, counts)?;
     } else {
         each_scene(args)?;
     }
@@ -178,6 +181,17 @@ fn other_arithmetic(args: &Args, names: &[String]) -> Result<ExitCode> {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
     })
+}
+
+fn cost(args: &Args, counts: &Path) -> Result<()> {
+    let names = args.scenes.iter();
+    let scenes: Vec<Scene> = names
+        .map(|name| asked_scene(args, name, args.size))
+        .collect::<Result<_>>()?;
+    let gpu = opened(args, [&args.out])?;
+    let files = cost::run(&gpu, counts, &scenes, args.size, args.face)?;
+    output::write(&args.out, files)?;
+    say(&args.out.join("cost-vs-error.md").display().to_string())
 }
 
 /// A scene with what the command line replaces in it.

@@ -207,7 +207,7 @@ impl Contestant {
         self.shadow.prepare(gpu, &stage.inputs)?;
         let prepare = start.elapsed().as_secs_f64() * 1e3;
         let shadow = &mut self.shadow;
-        let generate = timer.time(gpu, |encoder| shadow.generate(renderer, encoder));
+        let generate = timer.time(gpu, |encoder| shadow.generate(renderer, scene, encoder));
         let with = timer.time(gpu, |encoder| shadow.shade(renderer, scene, encoder));
 
         self.prepare.samples.push(prepare);

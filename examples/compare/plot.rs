@@ -185,31 +185,51 @@ fn draw_marks(
         .map(|mark| (mark.time.clamp(left, right), mark.error.max(bottom)))
         .collect();
     let area = chart.plotting_area();
-    let (xs, _) = area.get_pixel_range();
     let pixels: Vec<(i32, i32)> = points.iter().map(|p| area.map_coordinate(p)).collect();
-    let mut taken: Vec<Box2> = pixels.iter().map(|&p| Box2::around(p, GAP, GAP)).collect();
+    let mut labels = Labels::new(area.get_pixel_range().0, &pixels);
     for (place, mark) in marks.iter().enumerate() {
         draw_shape(chart, mark, points[place])?;
         if !mark.labelled {
             continue;
         }
         let text = mark.label();
-        let half = text.len() as i32 * CHARACTER_WIDTH / 2;
-        let offset = free_offset(pixels[place], half, &xs, &taken);
-        let middle = (pixels[place].0 + offset.0, pixels[place].1 + offset.1);
-        taken.push(Box2::around(middle, half, LINE_HEIGHT / 2));
+        let (offset, line) = labels.place(pixels[place], &text);
         let style = TextStyle::from((FONT, 17).into_font())
             .color(&BLACK)
             .pos(Pos::new(HPos::Center, VPos::Center));
-        if offset.1.abs() > GAP + LINE_HEIGHT {
-            // Too far away to be seen as this mark's own.
-            let end = (offset.0, offset.1 - offset.1.signum() * LINE_HEIGHT / 2);
+        if let Some(end) = line {
             let line = PathElement::new(vec![(0, 0), end], BLACK.mix(0.5));
             chart.draw_series([EmptyElement::at(points[place]) + line])?;
         }
         chart.draw_series([EmptyElement::at(points[place]) + Text::new(text, offset, style)])?;
     }
     Ok(())
+}
+
+/// The labels of a plot, none over another or over a mark.
+pub struct Labels {
+    xs: std::ops::Range<i32>,
+    taken: Vec<Box2>,
+}
+
+impl Labels {
+    /// Around these marks, between those pixels.
+    pub fn new(xs: std::ops::Range<i32>, marks: &[(i32, i32)]) -> Self {
+        let taken = marks.iter().map(|&p| Box2::around(p, GAP, GAP)).collect();
+        Self { xs, taken }
+    }
+
+    /// Where a label goes from its mark, and the end of the line to it if it is too far away to be seen as
+    /// the mark's own.
+    pub fn place(&mut self, mark: (i32, i32), text: &str) -> ((i32, i32), Option<(i32, i32)>) {
+        let half = text.len() as i32 * CHARACTER_WIDTH / 2;
+        let offset = free_offset(mark, half, &self.xs, &self.taken);
+        let middle = (mark.0 + offset.0, mark.1 + offset.1);
+        self.taken.push(Box2::around(middle, half, LINE_HEIGHT / 2));
+        let far = offset.1.abs() > GAP + LINE_HEIGHT;
+        let end = (offset.0, offset.1 - offset.1.signum() * LINE_HEIGHT / 2);
+        (offset, far.then_some(end))
+    }
 }
 
 /// A box of pixels.

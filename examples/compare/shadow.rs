@@ -13,6 +13,8 @@ use shadows::{
 
 use crate::host::gpu::Gpu;
 use crate::host::interior::{self, radius_in_texels};
+use crate::host::peer_light::PeerInputs;
+use crate::host::peer_map::PeerMap;
 use crate::host::pipelines::visibility_module;
 use crate::host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use crate::host::scene::Cone;
@@ -100,6 +102,7 @@ enum Means {
         /// Where they are counted, if not in the stencil.
         counts: Option<ExactCount>,
     },
+    Peer(Box<PeerMap>),
 }
 
 impl Shadow {
@@ -108,6 +111,19 @@ impl Shadow {
     /// # Errors
     /// If the device cannot do it.
     pub fn new(gpu: &Gpu, renderer: &Renderer, technique: Technique) -> Result<Self> {
+        Self::read_by(gpu, renderer, technique, visibility_module)
+    }
+
+    /// The same with another call of the library's receivers.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn read_by(
+        gpu: &Gpu,
+        renderer: &Renderer,
+        technique: Technique,
+        module: fn(&PcfSampler) -> String,
+    ) -> Result<Self> {
         let label = Some(technique.name.as_ref());
         let (means, lit) = match &technique.config {
             Config::Cube { map, sampler } => {
@@ -117,7 +133,7 @@ impl Shadow {
                 };
                 let map = CubeShadowMap::new(&gpu.device, &map)?;
                 let sampler = make_sampler(gpu, label, sampler)?;
-                let lit = sampled(gpu, renderer, &sampler);
+                let lit = sampled(gpu, renderer, &sampler, module);
                 let group = (
                     map.texture_revision(),
                     sampler.bind_group(&gpu.device, &map)?,
@@ -138,7 +154,8 @@ impl Shadow {
                 let map = Box::new(ShadowMap::new(&gpu.device, &map)?);
                 let sampler = make_sampler(gpu, label, sampler)?;
                 let group = sampler.bind_group(&gpu.device, &*map)?;
-                (Means::Flat { map, group }, sampled(gpu, renderer, &sampler))
+                let lit = sampled(gpu, renderer, &sampler, module);
+                (Means::Flat { map, group }, lit)
             }
             Config::Volume(descriptor) => {
                 let descriptor = ShadowVolumeDescriptor {
@@ -163,6 +180,16 @@ impl Shadow {
                 };
                 let volumes = Box::new(volumes);
                 (Means::Volume { volumes, counts }, lit)
+            }
+            &Config::Peer { peer, size } => {
+                let map = PeerMap::new(gpu, peer, size);
+                let access = ShadowAccess {
+                    module: Some(&map.module()),
+                    layout: Some(map.bind_group_layout()),
+                    ..Default::default()
+                };
+                let lit = renderer.lit_pipeline(gpu, &access);
+                (Means::Peer(Box::new(map)), lit)
             }
         };
         Ok(Self {
@@ -216,12 +243,26 @@ impl Shadow {
                 };
                 volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
+            Means::Peer(map) => map.prepare(
+                gpu,
+                &PeerInputs {
+                    light: inputs.light.0,
+                    cone: inputs.cone,
+                    range: inputs.range,
+                    bounds: inputs.receivers,
+                },
+            ),
         }
         Ok(())
     }
 
     /// Records what finds the shadows: the map, or the volumes and their stencil pass.
-    pub fn generate(&mut self, host: &Renderer, encoder: &mut wgpu::CommandEncoder) {
+    pub fn generate(
+        &mut self,
+        host: &Renderer,
+        scene: &SceneGpu,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
         match &mut self.means {
             Means::Cube { map, .. } => map.encode(encoder),
             Means::Flat { map, .. } => map.encode(encoder),
@@ -239,6 +280,7 @@ impl Shadow {
                     .expect("it is encoded");
                 counts.encode(encoder, buffer).expect(fits);
             }
+            Means::Peer(map) => map.encode(scene, encoder),
         }
     }
 
@@ -248,6 +290,7 @@ impl Shadow {
             Means::Cube { group, .. } => Some(&group.1),
             Means::Flat { group, .. } => Some(group),
             Means::Volume { .. } => None,
+            Means::Peer(map) => Some(map.bind_group()),
         };
         host.draw_lit(encoder, scene, &self.lit, group);
     }
@@ -256,7 +299,7 @@ impl Shadow {
     pub fn may_wrap(&mut self) -> bool {
         match &mut self.means {
             Means::Volume { volumes, .. } => volumes.may_wrap(),
-            Means::Cube { .. } | Means::Flat { .. } => false,
+            Means::Cube { .. } | Means::Flat { .. } | Means::Peer(_) => false,
         }
     }
 
@@ -279,6 +322,10 @@ impl Shadow {
                 });
                 (taken.gpu_bytes + counts, taken.draws, taken.triangles)
             }
+            Means::Peer(map) => {
+                let taken = map.statistics();
+                (taken.bytes, taken.draws, taken.triangles)
+            }
         };
         let draws = draws.into();
         Cost {
@@ -295,6 +342,7 @@ impl Shadow {
             Means::Cube { map, .. } => interior::of_cube(map, kernel),
             Means::Flat { map, .. } => interior::of_flat(map, kernel),
             Means::Volume { .. } => Interior::Screen,
+            Means::Peer(map) => map.interior(),
         }
     }
 }
@@ -316,6 +364,12 @@ impl Technique {
                 json!({ "map_texels": map.size, "cache": map.cache }),
                 (sampler, map.bias),
             ),
+            Config::Peer { peer, size } => {
+                return json!({
+                    "rendition_of": format!("{:?}", peer.engine),
+                    "map_texels": size,
+                });
+            }
             Config::Volume(volume) => {
                 return json!({
                     "method": format!("{:?}", volume.method),
@@ -375,11 +429,16 @@ fn exact_count(gpu: &Gpu, label: Option<&str>, renderer: &Renderer) -> Result<Ex
 }
 
 /// The lit pass that asks a map.
-fn sampled(gpu: &Gpu, renderer: &Renderer, sampler: &PcfSampler) -> LitPipeline {
+fn sampled(
+    gpu: &Gpu,
+    renderer: &Renderer,
+    sampler: &PcfSampler,
+    module: fn(&PcfSampler) -> String,
+) -> LitPipeline {
     renderer.lit_pipeline(
         gpu,
         &ShadowAccess {
-            module: Some(&visibility_module(sampler)),
+            module: Some(&module(sampler)),
             layout: Some(sampler.bind_group_layout()),
             stencil: None,
             ..Default::default()

@@ -16,6 +16,10 @@ pub fn of(config: &Config) -> String {
         Config::Cube { map, sampler } => cube(&map) + &pcf(&sampler),
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
+        Config::Peer { peer, size } => format!(
+            "// Another engine's, no part of this library: {}, {size} texels.\n",
+            peer.name
+        ),
     }
 }
 
@@ -72,7 +76,7 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
         cache,
         sides,
         max_faces_per_frame: budget,
-        still_layers,
+        static_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
         .field("size", "", size, &default.size)
@@ -98,10 +102,10 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
             &default.max_faces_per_frame,
         )
         .field(
-            "still_layers",
-            "StillLayers::",
-            still_layers,
-            &default.still_layers,
+            "static_layers",
+            "StaticLayers::",
+            static_layers,
+            &default.static_layers,
         )
         .finish()
 }
@@ -143,6 +147,7 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         encoding,
         many_lights,
         textbook,
+        flat_lights,
         gather,
     } = sampler;
     Literal::new("sampler", "PcfDescriptor")
@@ -151,6 +156,12 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
         .field("many_lights", "", many_lights, &default.many_lights)
         .field("textbook", "", textbook, &default.textbook)
+        .field(
+            "flat_lights",
+            "FlatLights::",
+            flat_lights,
+            &default.flat_lights,
+        )
         .field("gather", "Gather::", gather, &default.gather)
         .finish()
 }

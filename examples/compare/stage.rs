@@ -76,7 +76,7 @@ impl Stage {
         shadow.prepare(gpu, inputs)?;
         gpu.run(|encoder| {
             self.renderer.draw_ambient(encoder, &self.scene_gpu);
-            shadow.generate(&self.renderer, encoder);
+            shadow.generate(&self.renderer, &self.scene_gpu, encoder);
             shadow.shade(&self.renderer, &self.scene_gpu, encoder);
         });
         Ok(Picture {

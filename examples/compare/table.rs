@@ -5,6 +5,7 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::host::peers::peer;
 use crate::technique::{Config, Technique};
 
 /// A technique but for the size of its maps.
@@ -99,7 +100,31 @@ pub static ROWS: &[Row] = &[
             ..volume()
         })
     }),
+    row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
+    row("peer-bevy-gaussian", |side| {
+        of_peer("cube/bevy-gaussian", side)
+    }),
+    row("peer-three", |side| of_peer("cube/three-pcf", side)),
+    row("peer-wgpu", |side| of_peer("flat/wgpu-example", side)),
+    row("peer-bevy-spot-2x2", |side| {
+        of_peer("flat/bevy-spot-2x2", side)
+    }),
+    row("peer-bevy-spot-gaussian", |side| {
+        of_peer("flat/bevy-spot-gaussian", side)
+    }),
+    row("peer-bevy-sun-2x2", |side| of_peer("flat/bevy-2x2", side)),
+    row("peer-bevy-sun-gaussian", |side| {
+        of_peer("flat/bevy-gaussian", side)
+    }),
 ];
+
+/// Another engine's receiver and map in our rendition.
+fn of_peer(name: &str, size: u32) -> Config {
+    Config::Peer {
+        peer: peer(name),
+        size,
+    }
+}
 
 /// A cube map read through a kernel, every face drawn every frame.
 pub fn cube(side: u32, kernel: Kernel) -> Config {

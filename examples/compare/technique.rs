@@ -6,6 +6,7 @@ use shadows::{
     CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
+use crate::host::peers::{Peer, PeerLight};
 use crate::host::scene::LightKind;
 
 /// A way to make shadows. Maps are drawn and silhouettes found anew every frame unless said
@@ -30,6 +31,11 @@ pub enum Config {
         sampler: PcfDescriptor<'static>,
     },
     Volume(ShadowVolumeDescriptor<'static>),
+    /// Another engine's map and receiver in our rendition, for comparison: no part of the library.
+    Peer {
+        peer: &'static Peer,
+        size: u32,
+    },
 }
 
 impl Config {
@@ -39,6 +45,12 @@ impl Config {
             Self::Cube { .. } => light != LightKind::Directional,
             Self::Flat { .. } => light != LightKind::Point,
             Self::Volume(_) => true,
+            Self::Peer { peer, .. } => match peer.light {
+                PeerLight::Point => light == LightKind::Point,
+                PeerLight::Spot => light == LightKind::Spot,
+                PeerLight::Directional => light == LightKind::Directional,
+                PeerLight::SpotOrDirectional => light != LightKind::Point,
+            },
         }
     }
 
@@ -53,6 +65,17 @@ impl Config {
                  (--light-kind makes it another)"
             }
             Self::Volume(_) => "",
+            Self::Peer { peer, .. } => match peer.light {
+                PeerLight::Point => "it is for point lights, and this one is none",
+                PeerLight::Spot => "it is for spots, and this light is none (--light-kind spot)",
+                PeerLight::Directional => {
+                    "it is for directional lights, and this one is none (--light-kind directional)"
+                }
+                PeerLight::SpotOrDirectional => {
+                    "it is for spots and directional lights, and this one is a point \
+                     (--light-kind makes it another)"
+                }
+            },
         }
     }
 
@@ -62,6 +85,7 @@ impl Config {
             Self::Cube { map, .. } => map.cache,
             Self::Flat { map, .. } => map.cache,
             Self::Volume(volume) => volume.keep_between_frames,
+            Self::Peer { .. } => false,
         }
     }
 
@@ -72,6 +96,7 @@ impl Config {
             Self::Cube { map, .. } => map.cache = true,
             Self::Flat { map, .. } => map.cache = true,
             Self::Volume(volume) => volume.keep_between_frames = true,
+            Self::Peer { .. } => {}
         }
         kept
     }
@@ -81,7 +106,7 @@ impl Config {
         match self {
             Self::Cube { sampler, .. } if sampler.textbook => Some(Kernel::Hard),
             Self::Cube { sampler, .. } | Self::Flat { sampler, .. } => Some(sampler.kernel),
-            Self::Volume(_) => None,
+            Self::Volume(_) | Self::Peer { .. } => None,
         }
     }
 }

@@ -52,8 +52,8 @@ pub(super) const VISIBILITY: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 /// How a light pass learns where there is shadow.
 #[derive(Clone, Default)]
 pub struct ShadowAccess<'a> {
-    /// WGSL that declares `host_visibility(world: vec3f, pixel: vec2f) -> f32` and its bindings in
-    /// group 1, such as [`visibility_module`].
+    /// WGSL that declares `host_visibility(at: HostReceiver) -> f32` and its bindings in group 1, such
+    /// as [`visibility_module`].
     pub module: Option<&'a str>,
     /// Layout of group 1.
     pub layout: Option<&'a wgpu::BindGroupLayout>,
@@ -65,15 +65,28 @@ pub struct ShadowAccess<'a> {
 
 /// A sampler's module for group 1, called as the host calls it whatever the kernel.
 pub fn visibility_module(sampler: &PcfSampler) -> String {
+    module(sampler, "", "")
+}
+
+/// The same, with the triangles' normals given by the host.
+pub fn visibility_module_with_normals(sampler: &PcfSampler) -> String {
+    module(sampler, "_flat", ", at.flat_normal")
+}
+
+fn module(sampler: &PcfSampler, suffix: &str, normal: &str) -> String {
     let name = match sampler.map() {
         MapKind::Flat => "shadows_flat_visibility",
         _ => "shadows_visibility",
     };
-    let pixel = if sampler.takes_pixel() { ", pixel" } else { "" };
+    let pixel = if sampler.takes_pixel() {
+        ", at.pixel"
+    } else {
+        ""
+    };
     format!(
         "{}
-fn host_visibility(world: vec3f, pixel: vec2f) -> f32 {{
-    return {name}(world{pixel});
+fn host_visibility(at: HostReceiver) -> f32 {{
+    return {name}{suffix}(at.world{normal}{pixel});
 }}
 ",
         sampler.wgsl_module(1)

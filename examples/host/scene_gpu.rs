@@ -28,6 +28,16 @@ pub struct SceneGpu {
     pub object_uniforms: wgpu::Buffer,
     pub object_stride: u32,
     pub casters: Vec<Caster>,
+    /// The objects that cast, for a host that draws them itself.
+    pub casting: Vec<Casting>,
+}
+
+/// An object that casts.
+pub struct Casting {
+    /// Its place among the objects.
+    pub place: usize,
+    /// Whether its transform turns windings around.
+    pub mirrored: bool,
 }
 
 /// `HostObject` in host.wgsl.
@@ -56,6 +66,12 @@ impl SceneGpu {
             .filter(|object| object.casts)
             .map(|object| Caster::new(meshes[object.mesh].caster.clone(), object.transform))
             .collect();
+        let casting = (0..).zip(&scene.objects).filter(|(_, object)| object.casts);
+        let casting = casting.map(|(place, object)| Casting {
+            place,
+            mirrored: object.transform.matrix3.determinant() < 0.0,
+        });
+        let casting = casting.collect();
         let (object_uniforms, object_stride) = upload_objects(gpu, &scene.objects)?;
         Ok(Self {
             meshes,
@@ -63,6 +79,7 @@ impl SceneGpu {
             object_uniforms,
             object_stride,
             casters,
+            casting,
         })
     }
 }

@@ -5,7 +5,7 @@ use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use shadows::{
     Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
-    StillLayers,
+    StaticLayers,
 };
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
@@ -26,7 +26,7 @@ struct Settings {
     at_once: bool,
     reach: Reach,
     format: u8,
-    still_layers: Still,
+    static_layers: Still,
     /// Whether the first lights stay and every frame is encoded: what is drawn again and again shows
     /// only then what is kept under it.
     steady: bool,
@@ -77,11 +77,11 @@ impl Settings {
             },
             reach: self.reach.radius(),
             format: map::format(self.format),
-            still_layers: match self.still_layers {
-                Still::Auto => StillLayers::Auto,
-                Still::Never => StillLayers::Never,
-                Still::Almost(triangles) => StillLayers::AtLeast(u64::from(triangles % 16)),
-                Still::AtLeast(triangles) => StillLayers::AtLeast(triangles),
+            static_layers: match self.static_layers {
+                Still::Auto => StaticLayers::Auto,
+                Still::Never => StaticLayers::Never,
+                Still::Almost(triangles) => StaticLayers::AtLeast(u64::from(triangles % 16)),
+                Still::AtLeast(triangles) => StaticLayers::AtLeast(triangles),
             },
             label: None,
         };

@@ -76,16 +76,16 @@ pub enum CubeShadowMapError {
         "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for cube_array: each light then has a cube and a bind group of its own"
     )]
     CubeArray,
-    /// Layers of still casters on a back end that cannot copy depth.
+    /// Layers of static casters on a back end that cannot copy depth.
     #[error(
-        "StillLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
+        "StaticLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
     )]
-    StillLayers,
-    /// Layers of still casters where there are none.
+    StaticLayers,
+    /// Layers of static casters where there are none.
     #[error(
-        "StillLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false); pass StillLayers::Auto or Never"
+        "StaticLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false); pass StaticLayers::Auto or Never"
     )]
-    NoStillLayers,
+    NoStaticLayers,
     /// A view of one cube of a cube array, on a back end that has none.
     #[error(
         "wgpu's GL back end reads no single cube out of a cube array; read the array (PcfDescriptor::many_lights), or make the map without cube_array"
@@ -285,6 +285,16 @@ pub enum PcfError {
         "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Cube"
     )]
     CubesOnly {
+        /// The field.
+        setting: &'static str,
+        /// The maps that the sampler is to read.
+        map: crate::MapKind,
+    },
+    /// A setting for flat maps, of a sampler for others.
+    #[error(
+        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Flat"
+    )]
+    FlatOnly {
         /// The field.
         setting: &'static str,
         /// The maps that the sampler is to read.

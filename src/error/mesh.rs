@@ -79,6 +79,41 @@ pub enum CasterMeshError {
         /// Bytes before the first position.
         offset: u64,
     },
+    /// The host's positions are farther apart than the device allows.
+    #[error(
+        "position stride {stride} is over the device's max_vertex_buffer_array_stride, {limit}"
+    )]
+    Stride {
+        /// Bytes between positions.
+        stride: u64,
+        /// The most that work.
+        limit: u64,
+    },
+    /// The host's indices are no whole triangles, or do not begin at one.
+    #[error(
+        "{count} indices of {index_size} bytes from byte {offset} do not fit; pass a multiple of 3, and an offset that is a multiple of their size"
+    )]
+    IndexLayout {
+        /// Bytes before the first index.
+        offset: u64,
+        /// Number of indices.
+        count: u32,
+        /// Bytes of an index.
+        index_size: u64,
+    },
+    /// The host's index buffer is too short.
+    #[error("the index buffer holds {size} bytes; {needed} are needed for {count} indices")]
+    IndexBufferTooSmall {
+        /// Its size in bytes.
+        size: u64,
+        /// Bytes needed.
+        needed: u64,
+        /// Number of indices.
+        count: u32,
+    },
+    /// The host's index buffer cannot be drawn with.
+    #[error("the index buffer was created without INDEX; add it to its usages")]
+    IndexBufferUsage,
     /// The host's position buffer is too short.
     #[error("the position buffer holds {size} bytes; {needed} are needed for {vertices} vertices")]
     BufferTooSmall {
@@ -86,7 +121,7 @@ pub enum CasterMeshError {
         size: u64,
         /// Bytes needed.
         needed: u64,
-        /// Number of vertices of the adjacency.
+        /// Number of vertices.
         vertices: u32,
     },
     /// The host's position buffer lacks a usage.

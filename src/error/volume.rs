@@ -109,6 +109,14 @@ pub enum ShadowVolumeError {
         /// Place in the slice of casters.
         index: usize,
     },
+    /// A mesh for shadow maps alone.
+    #[error(
+        "caster {index}: its mesh was made without an adjacency (CasterMesh::from_host), by which shadow volumes find its edges; make it with CasterMesh::new or from_host_positions, or leave it to shadow maps"
+    )]
+    NoAdjacency {
+        /// Place in the slice of casters.
+        index: usize,
+    },
     /// More casters than the device's buffers can describe.
     #[error(
         "{count} casters are too many for one frame; this device's buffer limits allow {limit}"

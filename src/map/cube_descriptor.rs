@@ -2,7 +2,7 @@
 
 use super::encoding::{DepthEncoding, quantum};
 use super::sides::CasterSides;
-use super::static_layers::StillLayers;
+use super::static_layers::StaticLayers;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
 use crate::{Bias, PointLight, Radius, View};
@@ -71,10 +71,10 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age) for the order, the longest wait and
     /// what the budget does not count.
     pub max_faces_per_frame: Option<u32>,
-    /// Whether casters that stand still are kept in a second layer under those that move. Default
-    /// [`StillLayers::Auto`]. Without `cache` there are none, and [`StillLayers::AtLeast`] is
+    /// Whether static casters are kept in a second layer under those that move. Default
+    /// [`StaticLayers::Auto`]. Without `cache` there are none, and [`StaticLayers::AtLeast`] is
     /// refused.
-    pub still_layers: StillLayers,
+    pub static_layers: StaticLayers,
 }
 
 impl CubeShadowMapDescriptor<'_> {
@@ -125,9 +125,9 @@ impl CubeShadowMapDescriptor<'_> {
         if self.max_faces_per_frame == Some(0) {
             return Err(CubeShadowMapError::Budget);
         }
-        self.still_layers.validate(&device.adapter_info())?;
-        if matches!(self.still_layers, StillLayers::AtLeast(_)) && !self.cache {
-            return Err(CubeShadowMapError::NoStillLayers);
+        self.static_layers.validate(&device.adapter_info())?;
+        if matches!(self.static_layers, StaticLayers::AtLeast(_)) && !self.cache {
+            return Err(CubeShadowMapError::NoStaticLayers);
         }
         self.bias.validate()?;
         if self.bias.slope_scale != 0.0 && self.encoding == DepthEncoding::LinearDistance {
@@ -146,7 +146,7 @@ impl CubeShadowMapDescriptor<'_> {
 
     /// The fewest triangles of static casters on a face that are worth a layer.
     pub(super) fn layer_least(&self, device: &wgpu::Device) -> Option<u64> {
-        self.still_layers
+        self.static_layers
             .least_triangles(self.size, &device.adapter_info())
             .filter(|_| self.cache)
     }
@@ -168,7 +168,7 @@ impl Default for CubeShadowMapDescriptor<'_> {
             cache: true,
             sides: CasterSides::default(),
             max_faces_per_frame: None,
-            still_layers: StillLayers::default(),
+            static_layers: StaticLayers::default(),
         }
     }
 }

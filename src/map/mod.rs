@@ -24,5 +24,5 @@ pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 pub(crate) use gpu::{FlatLightUniform, LightUniform};
 pub use projection::CubeFace;
 pub use sides::CasterSides;
-pub use static_layers::StillLayers;
+pub use static_layers::StaticLayers;
 pub use statistics::{CubeStatistics, FaceState, FaceStatistics, ShadowMapStatistics};

@@ -2,10 +2,10 @@
 
 use crate::error::CubeShadowMapError;
 
-/// Whether the casters of a face that stand still are kept in a second layer of depth, which is
-/// copied under those that move, instead of being drawn again with them.
+/// Whether the static casters of a face are kept in a second layer of depth, which is copied under
+/// those that move, instead of being drawn again with them.
 ///
-/// A caster stands still for a face once it has been the same in three draws of that face (more
+/// A caster is static for a face once it has been the same in three draws of that face (more
 /// after layers that were of no use, up to 64); so a scene in which all casters move takes no memory
 /// and copies nothing. A layer is made for each face that has use for one, with as many bytes as
 /// the face. Depths are the same bit for bit with and without.
@@ -13,15 +13,15 @@ use crate::error::CubeShadowMapError;
 /// Layers need copies between depth textures, which wgpu's GL back end does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum StillLayers {
-    /// Where enough triangles stand still for the texels of a face. Nowhere on the GL back end.
+pub enum StaticLayers {
+    /// Where enough triangles are static for the texels of a face. Nowhere on the GL back end.
     ///
     /// On software drivers one triangle is enough for 1024 texels: 64 on a face of 256 texels a
     /// side, 1,024 on one of 1024. Mesa's llvmpipe draws a small triangle in the time in which it
     /// copies 120 to 180 texels (`texels_a_triangle` of the bench `cube_map`, five runs), and takes
     /// no longer to copy a layer than to clear a face, so a layer loses nothing but its making: one
     /// copy, which the rule has repaid within eight frames. With a caster moving on each face, a
-    /// frame takes 0.4 to 1.0 of the time with 8 still triangles a face, and 0.08 to 0.2 with 4,608
+    /// frame takes 0.4 to 1.0 of the time with 8 static triangles a face, and 0.08 to 0.2 with 4,608
     /// that cover a third of it (`static_layer_vs_redraw`).
     ///
     /// On GPUs one triangle is enough for 16 texels, which is an estimate: it supposes that
@@ -32,11 +32,11 @@ pub enum StillLayers {
     Auto,
     /// Nowhere.
     Never,
-    /// Where at least so many triangles stand still on a face that is drawn (and at least one).
+    /// Where at least so many triangles are static on a face that is drawn (and at least one).
     AtLeast(u64),
 }
 
-impl StillLayers {
+impl StaticLayers {
     /// The fewest triangles that are worth a layer under a face; `None` if there is to be none.
     pub(super) fn least_triangles(self, size: u32, adapter: &wgpu::AdapterInfo) -> Option<u64> {
         let texels_a_triangle = match adapter.device_type {
@@ -54,7 +54,7 @@ impl StillLayers {
     /// Refuses layers that the device cannot copy.
     pub(super) fn validate(self, adapter: &wgpu::AdapterInfo) -> Result<(), CubeShadowMapError> {
         match (self, adapter.backend) {
-            (Self::AtLeast(_), wgpu::Backend::Gl) => Err(CubeShadowMapError::StillLayers),
+            (Self::AtLeast(_), wgpu::Backend::Gl) => Err(CubeShadowMapError::StaticLayers),
             _ => Ok(()),
         }
     }

@@ -19,8 +19,8 @@ pub struct CubeStatistics {
     pub faces_hidden: u32,
     /// Faces that changed and wait for a later frame's budget.
     pub faces_postponed: u32,
-    /// Those of `faces_rendered` whose still casters are copied from a second layer
-    /// ([`StillLayers`](crate::StillLayers)), not drawn.
+    /// Those of `faces_rendered` whose static casters are copied from a second layer
+    /// ([`StaticLayers`](crate::StaticLayers)), not drawn.
     pub faces_copied: u32,
     /// Second layers that are drawn, to be copied in this frame and later ones.
     pub layers_drawn: u32,

@@ -5,8 +5,10 @@ mod area;
 mod blocks;
 mod bounds;
 mod caster;
+mod caster_mesh;
 mod data;
 mod edges;
+mod host;
 mod input;
 mod parts;
 mod planes;
@@ -16,13 +18,16 @@ mod solid;
 mod tolerance;
 mod topology;
 mod triangles;
+mod upload;
 mod weld;
 
 pub use adjacency::{Adjacency, Edge, EdgeUse, MeshKind};
 pub(crate) use blocks::{BLOCK, BlockWords};
 pub use bounds::Bounds;
-pub use caster::{Caster, CasterMesh, HostPositions};
+pub use caster::Caster;
+pub use caster_mesh::CasterMesh;
 pub(crate) use data::{MeshData, edge_records as mesh_edges};
+pub use host::{HostMesh, HostPositions};
 pub(crate) use planes::{Facings, LANES};
 pub(crate) use records::EdgeRecord;
 #[cfg(test)]

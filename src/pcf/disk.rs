@@ -249,7 +249,8 @@ fn uniform(radius: Radius, light_size: f32, taps: u32, first_taps: u32) -> Kerne
         frame_shift: 0.0,
         taps,
         first_taps,
-        padding: [0; 2],
+        layer: 1.0 / taps.div_ceil(2) as f32,
+        padding: 0,
     }
 }
 

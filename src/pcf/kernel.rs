@@ -204,8 +204,9 @@ pub(super) struct KernelUniform {
     pub frame_shift: f32,
     pub taps: u32,
     pub first_taps: u32,
+    pub layer: f32,
     /// WebGL 2 takes uniforms in units of 16 bytes.
-    pub padding: [u32; 2],
+    pub padding: u32,
 }
 
 /// The most taps that a table of offsets holds.
@@ -231,6 +232,7 @@ mod tests {
             frame_shift,
             taps,
             first_taps,
+            layer,
             padding
         );
     }

@@ -16,6 +16,29 @@ pub enum MapKind {
     Flat,
 }
 
+/// Which lights a flat map's receivers are for. Those of one kind cost less: docs/shader-cost.md.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum FlatLights {
+    /// Spots and directional lights, whichever the map is prepared for.
+    #[default]
+    Any,
+    /// Spots. A map that is prepared for a directional light is dark to them.
+    Spot,
+    /// Directional lights. A map that is prepared for a spot is dark to them.
+    Directional,
+}
+
+impl FlatLights {
+    fn wgsl(self) -> &'static str {
+        match self {
+            Self::Any => include_str!("../../shaders/flat_any.wgsl"),
+            Self::Spot => include_str!("../../shaders/flat_spot.wgsl"),
+            Self::Directional => include_str!("../../shaders/flat_directional.wgsl"),
+        }
+    }
+}
+
 /// A map, of whichever kind.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -62,6 +85,7 @@ pub(super) struct Reads {
     pub map: MapKind,
     pub encoding: DepthEncoding,
     pub many_lights: bool,
+    pub flat_lights: FlatLights,
     /// Whether its sampler has a border of depth 0.
     pub border: bool,
     /// Whether squares of texels are gathered, or else fetched one by one.
@@ -72,6 +96,7 @@ pub(super) struct Reads {
 pub(super) struct MapWgsl {
     reads: Reads,
     pub light: &'static str,
+    pub kind: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
     pub edge: &'static str,
@@ -99,6 +124,7 @@ impl MapWgsl {
         Self {
             reads,
             light: include_str!("../../shaders/flat_light.wgsl"),
+            kind: reads.flat_lights.wgsl(),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
             depth: "",
             edge: match reads.border {
@@ -138,6 +164,7 @@ impl MapWgsl {
         Self {
             reads,
             light: include_str!("../../shaders/cube_light.wgsl"),
+            kind: "",
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
             depth: match reads.encoding {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),

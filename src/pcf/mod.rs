@@ -13,5 +13,5 @@ mod weights;
 pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 pub use gather::Gather;
 pub use kernel::Kernel;
-pub use map_kind::{AnyMap, MapKind};
+pub use map_kind::{AnyMap, FlatLights, MapKind};
 pub use sampler::{PcfDescriptor, PcfSampler};

@@ -5,7 +5,7 @@ use wgpu::util::DeviceExt as _;
 use super::kernel::KernelUniform;
 use super::layout::create_layout;
 use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, Gather, Kernel, MapKind, offsets, text};
+use super::{AnyMap, FlatLights, Gather, Kernel, MapKind, offsets, text};
 use crate::error::PcfError;
 use crate::{CubeShadowMap, DepthEncoding};
 
@@ -29,6 +29,9 @@ pub struct PcfDescriptor<'a> {
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). `kernel` is
     /// then its default, or [`Kernel::Hard`]. Default false. For cube maps.
     pub textbook: bool,
+    /// Which lights its flat maps are prepared for. Default [`FlatLights::Any`]; a sampler for one kind
+    /// of light takes fewer instructions. For flat maps.
+    pub flat_lights: FlatLights,
     /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
     pub gather: Gather,
 }
@@ -46,6 +49,12 @@ impl PcfDescriptor<'_> {
                 let map = self.map;
                 return Err(PcfError::CubesOnly { setting, map });
             }
+        }
+        if self.map != MapKind::Flat && self.flat_lights != FlatLights::default() {
+            return Err(PcfError::FlatOnly {
+                setting: "flat_lights",
+                map: self.map,
+            });
         }
         if !self.textbook {
             return match self.kernel.reads(self.encoding) {
@@ -113,6 +122,7 @@ impl PcfSampler {
             encoding,
             many_lights,
             textbook,
+            flat_lights,
             gather,
         } = descriptor;
         kernel.validate()?;
@@ -136,6 +146,7 @@ impl PcfSampler {
             map,
             encoding,
             many_lights,
+            flat_lights,
             border,
             gather: gather.on(device, map)?,
         };
@@ -201,7 +212,7 @@ impl PcfSampler {
     /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering); for
     /// [`Kernel::HardwareBilinear`] a `texture_depth_cube`, `texture_depth_cube_array` or
     /// `texture_depth_2d` and a comparison sampler;
-    /// 2 the light (uniform buffer of 48 bytes, for flat maps 96; with `many_lights` a read-only
+    /// 2 the light (uniform buffer of 64 bytes, for flat maps 96; with `many_lights` a read-only
     /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
     /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {

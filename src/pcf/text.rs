@@ -48,7 +48,14 @@ impl Extra {
 /// The functions of a kernel, and no other's.
 pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     if kernel == Kernel::HardwareBilinear {
-        let text = [own.light, own.edge, own.compare, own.hardware, HARDWARE];
+        let text = [
+            own.light,
+            own.kind,
+            own.edge,
+            own.compare,
+            own.hardware,
+            HARDWARE,
+        ];
         return own.adapt(&text.join("\n"));
     }
     let (weights, last) = match kernel {
@@ -65,7 +72,14 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     };
     let weights = weights.map(|weights| weights.wgsl());
     let entry = entry(kernel);
-    let shared = [own.light, own.receiver, own.depth, own.edge, own.fetch];
+    let shared = [
+        own.light,
+        own.kind,
+        own.receiver,
+        own.depth,
+        own.edge,
+        own.fetch,
+    ];
     let text = shared
         .into_iter()
         .chain([DERIVATIVES, own.slope])

@@ -18,9 +18,10 @@ use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces};
 use super::renderer::Drawn;
 use super::silhouette::Way;
+use super::subject::validate_casters;
 use super::targets::DEPTH_STENCIL;
 use super::{ShadowVolumeFrame, ShadowVolumeRenderer};
-use crate::error::{ShadowVolumeError, VolumeDebugError};
+use crate::error::VolumeDebugError;
 use crate::mesh::CasterMesh;
 use crate::{Caster, DepthConvention};
 
@@ -159,11 +160,7 @@ impl VolumeDebug {
                 renderer: states.len(),
             });
         }
-        for (index, caster) in frame.casters.iter().enumerate() {
-            caster
-                .validate(index, device)
-                .map_err(ShadowVolumeError::from)?;
-        }
+        validate_casters(frame.casters, device)?;
         let shown = frame.casters.iter().zip(states);
         let shown: Vec<_> = shown
             .filter_map(|(caster, state)| Some((caster, Swatch::of_state(*state)?)))
@@ -195,7 +192,8 @@ impl VolumeDebug {
             let (feed, group) = match &self.pulled {
                 Some(pulled) => {
                     // No side is read; any buffer will do.
-                    let buffers = [mesh.positions(), mesh.edges(), mesh.edges()];
+                    let edges = mesh.edges()?;
+                    let buffers = [mesh.positions(), edges, edges];
                     let group = bind(device, &self.label, &pulled.layout, uniforms, &buffers);
                     (Feed::Pulled, group)
                 }
@@ -204,15 +202,15 @@ impl VolumeDebug {
                     (Feed::Records, group)
                 }
             };
-            ShownCaster {
+            Some(ShownCaster {
                 mesh: mesh.clone(),
                 feed,
                 group,
                 offset,
                 swatch,
-            }
+            })
         };
-        shown.iter().zip(places).map(show).collect()
+        shown.iter().zip(places).filter_map(show).collect()
     }
 
     /// Draws the faces of all volumes that the renderer counts, transparent, where they are before

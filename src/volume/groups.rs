@@ -99,7 +99,7 @@ impl Parts<'_> {
             Way::Vertex => Some(self.bind(&self.fed?.layout, window, &[])),
             Way::Compute | Way::Cpu => {
                 let [_, _, sides] = self.buffers.chunk(slot.place.chunk)?;
-                let buffers = [slot.mesh.positions(), slot.mesh.edges(), sides];
+                let buffers = [slot.mesh.positions(), slot.mesh.edges()?, sides];
                 Some(self.bind(&self.pulled?.layout, window, &buffers))
             }
         }
@@ -112,10 +112,11 @@ impl Parts<'_> {
         let params = (bound.batches, size_of::<BatchParams>());
         let (instances, arguments) = (bound.instances, bound.arguments);
         // A closed mesh has no list of uses, and its passes read none; any buffer will do there.
-        let uses = mesh.edge_uses().unwrap_or(mesh.edges());
+        let edges = mesh.edges()?;
+        let uses = mesh.edge_uses().unwrap_or(edges);
         let (positions, triangles) = (mesh.positions(), mesh.triangles());
         let facing = [instances, arguments, positions, triangles, facings, caps];
-        let edges = [instances, arguments, mesh.edges(), uses, facings, sides];
+        let edges = [instances, arguments, edges, uses, facings, sides];
         Some([
             self.bind(&extraction.facing.layout, params, &facing),
             self.bind(&extraction.edges.layout, params, &edges),

@@ -79,8 +79,19 @@ pub(super) fn validate(
         let [min, max] = [min, max].map(|corner| corner.to_array());
         return Err(ShadowVolumeError::Receivers { min, max });
     }
-    for (index, caster) in frame.casters.iter().enumerate() {
+    validate_casters(frame.casters, device)
+}
+
+/// Whether casters are sound, and enough is known of them.
+pub(super) fn validate_casters(
+    casters: &[Caster],
+    device: &wgpu::Device,
+) -> Result<(), ShadowVolumeError> {
+    for (index, caster) in casters.iter().enumerate() {
         caster.validate(index, device)?;
+        if !caster.mesh.has_adjacency() {
+            return Err(ShadowVolumeError::NoAdjacency { index });
+        }
     }
     Ok(())
 }

@@ -2,7 +2,9 @@
 #![allow(dead_code)] // each test uses its own part
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
+use shadows::{
+    DepthEncoding, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu,
+};
 
 pub fn made(
     device: &wgpu::Device,
@@ -31,6 +33,7 @@ pub struct Way {
     pub gather: Gather,
     /// Whether the device's samplers have borders.
     pub border: bool,
+    pub flat_lights: FlatLights,
 }
 
 const CUBE: Way = Way {
@@ -40,6 +43,7 @@ const CUBE: Way = Way {
     many_lights: false,
     gather: Gather::Auto,
     border: false,
+    flat_lights: FlatLights::Any,
 };
 
 const LINEAR: Way = Way {
@@ -54,8 +58,20 @@ const FLAT: Way = Way {
     ..CUBE
 };
 
+const SPOT: Way = Way {
+    name: "flat-spot",
+    flat_lights: FlatLights::Spot,
+    ..FLAT
+};
+
+const SUN: Way = Way {
+    name: "flat-directional",
+    flat_lights: FlatLights::Directional,
+    ..FLAT
+};
+
 /// All of them.
-pub const WAYS: [Way; 12] = [
+pub const WAYS: [Way; 16] = [
     CUBE,
     LINEAR,
     Way {
@@ -103,6 +119,19 @@ pub const WAYS: [Way; 12] = [
         border: true,
         ..FLAT
     },
+    // What hosts take who know which light it is.
+    SPOT,
+    Way {
+        name: "flat-spot-border",
+        border: true,
+        ..SPOT
+    },
+    SUN,
+    Way {
+        name: "flat-directional-border",
+        border: true,
+        ..SUN
+    },
     Way {
         name: "flat-border-fetches",
         gather: Gather::Never,
@@ -130,6 +159,7 @@ impl Way {
             encoding: self.encoding,
             many_lights: self.many_lights,
             gather: self.gather,
+            flat_lights: self.flat_lights,
             ..Default::default()
         }
     }

@@ -5,10 +5,10 @@ use std::fs;
 use std::io::Read as _;
 use std::process::{Command, Stdio};
 
-use crate::{SMALL, Scratch, binary, compare, host};
+use crate::{COUNTS, SMALL, Scratch, binary, compare, host};
 
 /// Every mode, small enough to be waited for where it is not refused.
-const MODES: [&[&str]; 5] = [
+const MODES: [&[&str]; 6] = [
     &SMALL,
     &[
         "--sweep",
@@ -29,6 +29,7 @@ const MODES: [&[&str]; 5] = [
         "volume",
     ],
     &["--growth", "1", "--frames", "1"],
+    &["--cost", COUNTS, "--size", "16x9", "--face", "16"],
 ];
 
 #[test]

@@ -36,7 +36,8 @@ fn host() -> Vec<Module> {
     let way = &WAYS[0];
     let (device, queue) = way.device();
     let sampler = made(&device, &queue, &way.descriptor(Kernel::ALL[0]));
-    let asks = "fn host_visibility(world: vec3f, pixel: vec2f) -> f32 { return shadows_visibility(world); }";
+    let asks =
+        "fn host_visibility(at: HostReceiver) -> f32 { return shadows_visibility(at.world); }";
     vec![
         Module::new("host", shared.clone()),
         Module::new(

@@ -5,8 +5,8 @@ use shadows::glam::camera::rh::proj::directx as proj;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
-    Caster, CasterMesh, Counter, DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    Caster, CasterMesh, Counter, DepthConvention, HomogeneousLight, HostMesh, Method,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
 use crate::shapes;
@@ -72,6 +72,32 @@ fn cube(device: &wgpu::Device) -> CasterMesh {
     let cube = shapes::cube();
     let adjacency = Adjacency::new(&cube.positions, &cube.indices).unwrap();
     CasterMesh::new(device, &cube.positions, &adjacency).unwrap()
+}
+
+/// A triangle of which only shadow maps know enough.
+fn for_maps(device: &wgpu::Device) -> CasterMesh {
+    let buffer = |usage| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: 36,
+            usage,
+            mapped_at_creation: false,
+        })
+    };
+    let mesh = HostMesh {
+        vertices: &buffer(wgpu::BufferUsages::VERTEX),
+        stride: 12,
+        offset: 0,
+        indices: &buffer(wgpu::BufferUsages::INDEX),
+        index_format: wgpu::IndexFormat::Uint32,
+        index_offset: 0,
+        index_count: 3,
+        bounds: Bounds {
+            min: Vec3::ZERO,
+            max: Vec3::ZERO,
+        },
+    };
+    CasterMesh::from_host(device, &mesh).unwrap()
 }
 
 pub fn cubes(device: &wgpu::Device, count: usize) -> Vec<Caster> {
@@ -288,6 +314,10 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
         casters[0].clone(),
         Caster::new(cube(&other), Affine3A::IDENTITY),
     ];
+    let of_maps = vec![
+        casters[0].clone(),
+        Caster::new(for_maps(&device), Affine3A::IDENTITY),
+    ];
     let light = |x, y, z, w| HomogeneousLight(Vec4::new(x, y, z, w));
     let (inf, dark) = (f32::INFINITY, light(0.0, 0.0, 0.0, 0.0));
     let bad = [
@@ -376,6 +406,13 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
                 ..good
             },
             CasterError::Device { index: 1 }.into(),
+        ),
+        (
+            ShadowVolumeFrame {
+                casters: &of_maps,
+                ..good
+            },
+            Error::NoAdjacency { index: 1 },
         ),
     ];
     for (frame, error) in &bad {

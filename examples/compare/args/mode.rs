@@ -17,22 +17,23 @@ enum Mode {
     Temporal,
     Growth,
     Arithmetic,
+    Cost,
 }
 
-use Mode::{Arithmetic, Compare, Growth, HardCases, Sweep, Temporal};
+use Mode::{Arithmetic, Compare, Cost, Growth, HardCases, Sweep, Temporal};
 
 /// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
 /// Options that are not here are of use to all.
 const USES: [(&str, &[Mode]); 16] = [
-    ("scenes", &[Compare, Sweep, Temporal, Arithmetic]),
-    ("ground", &[Compare, Sweep, Temporal, Arithmetic]),
-    ("light", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("scenes", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("ground", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("light", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
     ("light_kind", &[Compare, Sweep, Temporal, Arithmetic]),
-    ("range", &[Compare, Sweep, Temporal, Arithmetic]),
-    ("camera", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("range", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("camera", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
     ("techniques", &[Compare, Sweep, Temporal, Arithmetic]),
-    ("size", &[Compare, Sweep, Arithmetic]),
-    ("face", &[Compare, Temporal, Arithmetic]),
+    ("size", &[Compare, Sweep, Cost, Arithmetic]),
+    ("face", &[Compare, Temporal, Cost, Arithmetic]),
     ("frames", &[Compare, Sweep, Growth]),
     ("seed", &[Compare]),
     ("export", &[Compare]),
@@ -50,6 +51,7 @@ impl Mode {
             _ if args.temporal.is_some() => Temporal,
             _ if args.growth.is_some() => Growth,
             _ if args.arithmetic.is_some() => Arithmetic,
+            _ if args.cost.is_some() => Cost,
             _ => Compare,
         }
     }
@@ -63,6 +65,7 @@ impl Mode {
             Temporal => Some("--temporal"),
             Growth => Some("--growth"),
             Arithmetic => Some("--arithmetic"),
+            Cost => Some("--cost"),
         }
     }
 }

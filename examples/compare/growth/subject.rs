@@ -223,7 +223,7 @@ impl Means {
     fn generate(&mut self, place: &Place, encoder: &mut wgpu::CommandEncoder) {
         let renderer = &place.stage.renderer;
         match self {
-            Self::One(shadow) => shadow.generate(renderer, encoder),
+            Self::One(shadow) => shadow.generate(renderer, &place.stage.scene_gpu, encoder),
             Self::Cubes(map) => map.encode(encoder),
             Self::Volumes(volumes) => {
                 for volumes in volumes {

@@ -89,11 +89,11 @@ fn before_another(gpu: &Gpu, stage: &Stage, shadow: &mut Shadow) -> Result<Pictu
     let mut answer = Ok(());
     gpu.run(|encoder| {
         renderer.draw_ambient(encoder, &stage.scene_gpu);
-        shadow.generate(renderer, encoder);
+        shadow.generate(renderer, &stage.scene_gpu, encoder);
         shadow.shade(renderer, &stage.scene_gpu, encoder);
         answer = shadow.prepare(gpu, &other);
         if answer.is_ok() {
-            shadow.generate(renderer, encoder);
+            shadow.generate(renderer, &stage.scene_gpu, encoder);
         }
     });
     answer?;

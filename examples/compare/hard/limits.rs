@@ -78,6 +78,8 @@ const FACING: &str = "nearer than 1e-5 of a triangle's size f32 does not tell th
                       plane; the CPU way decides facing in f64";
 const THIN: &str = "what no texel's centre sees casts nothing";
 
+const ONE_DEPTH: &str = "four texels are compared with one depth: what touches a surface shadows it as much later \
+                         as a texel covers of it";
 const POSITIONS: &str = "f32 positions are rounded by more than texels and pixels there: at 1e5 and 1e6 what \
                          is seen from its edge is off by more than the bias in ulps";
 const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels";
@@ -92,6 +94,38 @@ pub const ON_HARDWARE: [Known; 1] = [known("Grazing light", "volume*", SNAPPED, 
 
 /// All of them.
 pub const ALL: &[Known] = &[
+    known("Grazing light", "flat-hw", ONE_DEPTH, [0.01, 0.00029, 11.5]),
+    known(
+        "Light very near a caster",
+        "cube-hw",
+        ONE_DEPTH,
+        [0.06, 0.0, 0.7],
+    ),
+    known(
+        "Light 1e-6 from a tilted caster",
+        "cube-hw",
+        ONE_DEPTH,
+        [0.25, 0.0, 1.6],
+    ),
+    known(
+        "Light close to geometry",
+        "cube-hw",
+        ONE_DEPTH,
+        [0.01, 0.0, 0.58],
+    ),
+    known("Scale", "flat-hw", ONE_DEPTH, [0.0, 0.01, 0.04]),
+    known(
+        "Far from the origin, plain f32",
+        "cube-hw",
+        POSITIONS,
+        [0.004, 0.0025, 1.9],
+    ),
+    known(
+        "Far from the origin, plain f32",
+        "flat-hw",
+        POSITIONS,
+        [0.0042, 0.083, 1.4],
+    ),
     known(
         "Camera inside a shadow volume",
         "cube-textbook",

@@ -36,13 +36,15 @@ pub const SIZE: [u32; 2] = [320, 240];
 /// Texels along a map's side.
 const SIDE: u32 = 512;
 /// The named techniques that are tried.
-const NAMES: [&str; 14] = [
+const NAMES: [&str; 16] = [
     "cube-hard",
     "cube-2x2",
+    "cube-hw",
     "cube-7x7",
     "cube-disk",
     "cube-textbook",
     "flat-2x2",
+    "flat-hw",
     "flat-disk",
     "volume",
     "volume-cpu",

@@ -1,6 +1,6 @@
-// Bevy 0.20's point light with the `Hardware2x2` filter: the receiver moves along its shading normal
-// by 0.6 texels and toward the light by 0.08, is projected along the major axis, and one hardware
-// comparison blends four texels with that one depth.
+// Bevy 0.20.1's point light with the `Hardware2x2` filter (bevy_pbr: shadows.wesl, fetch_point_shadow):
+// the receiver moves along its shading normal by texels and toward the light by a length, is projected
+// along the major axis, and one hardware comparison blends four texels with that one depth.
 @group(1) @binding(0) var peer_map: texture_depth_cube;
 @group(1) @binding(1) var peer_sampler: sampler_comparison;
 @group(1) @binding(2) var<uniform> peer_light: PeerCubeLight;
@@ -12,10 +12,9 @@ fn peer_major(direction: vec3f) -> f32 {
 
 fn peer_visibility(position: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
     let to_light = peer_light.position - position;
-    // A texel at the receiver, on the diagonal.
-    let texel = 0.6 * 1.4142135 * 2.0 / peer_light.size * peer_major(to_light);
-    let moved = position + texel * normal + 0.08 * normalize(to_light);
+    let across = peer_light.normal_bias * peer_major(to_light);
+    let moved = position + across * normal + peer_light.bias * normalize(to_light);
     let local = moved - peer_light.position;
-    let depth = peer_light.near / peer_major(local);
-    return textureSampleCompareLevel(peer_map, peer_sampler, local, depth);
+    let clip = peer_light.projection.zw - peer_major(local) * peer_light.projection.xy;
+    return textureSampleCompareLevel(peer_map, peer_sampler, local, clip.x / clip.y);
 }

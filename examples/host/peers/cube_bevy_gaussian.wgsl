@@ -1,8 +1,12 @@
-// Bevy 0.20's point light with the `Gaussian` filter: the same receiver, eight comparisons around it
-// in the plane across the ray, weighted by a Gaussian, all with one depth.
+// Bevy 0.20.1's point light with its default filter, `Gaussian` (bevy_pbr: shadow_sampling.wesl,
+// sample_shadow_cubemap_gaussian): the same receiver as with `Hardware2x2`, eight comparisons around it in
+// the plane across the ray, weighted by a Gaussian, all with one depth. They are spread by an angle, not
+// by texels.
 @group(1) @binding(0) var peer_map: texture_depth_cube;
 @group(1) @binding(1) var peer_sampler: sampler_comparison;
 @group(1) @binding(2) var<uniform> peer_light: PeerCubeLight;
+
+const PEER_SPREAD = 0.003;
 
 // x, y and weight: the eight samples of Direct3D's standard pattern.
 const PEER_TAPS = array<vec3f, 8>(
@@ -17,26 +21,23 @@ fn peer_major(direction: vec3f) -> f32 {
     return max(a.x, max(a.y, a.z));
 }
 
-fn peer_tap(local: vec3f, depth: f32) -> f32 {
-    return textureSampleCompareLevel(peer_map, peer_sampler, local, depth);
-}
-
 fn peer_visibility(position: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
     let to_light = peer_light.position - position;
-    let texel = 0.6 * 1.4142135 * 2.0 / peer_light.size * peer_major(to_light);
-    let moved = position + texel * normal + 0.08 * normalize(to_light);
+    let distance = peer_major(to_light);
+    let across = peer_light.normal_bias * distance;
+    let moved = position + across * normal + peer_light.bias * normalize(to_light);
     let local = moved - peer_light.position;
-    let major = peer_major(local);
-    let depth = peer_light.near / major;
-    // Any two axes across the ray.
-    let up = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(local.y) > 0.9 * major);
-    let scale = 2.0 / peer_light.size * major;
-    let across = scale * normalize(cross(up, local));
-    let along = scale * normalize(cross(local, across));
+    let clip = peer_light.projection.zw - peer_major(local) * peer_light.projection.xy;
+    let depth = clip.x / clip.y;
+    let axes = peer_axes(normalize(local));
+    let scale = PEER_SPREAD * distance;
+    let x = scale * axes[0];
+    let y = scale * axes[1];
     var lit = 0.0;
     for (var i = 0; i < 8; i++) {
         let tap = PEER_TAPS[i];
-        lit += tap.z * peer_tap(local + tap.x * across + tap.y * along, depth);
+        let at = local + tap.x * x + tap.y * y;
+        lit += tap.z * textureSampleCompareLevel(peer_map, peer_sampler, at, depth);
     }
     return lit;
 }

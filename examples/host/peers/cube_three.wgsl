@@ -1,17 +1,14 @@
-// three.js r187's point light with `PCFShadowMap`: five comparisons on a Vogel disk across the ray,
-// turned by interleaved gradient noise, each with the receiver's depth along that tap's own major
-// axis; a constant bias in depth and an offset along the shading normal.
+// three.js r187's point light with its default, `PCFShadowMap` (shadowmap_pars_fragment.glsl.js,
+// getPointShadow): five comparisons on a Vogel disk across the ray, turned by interleaved gradient noise,
+// each with the receiver's depth along that tap's own major axis. Its normal bias is added in the vertex
+// shader, and is 0 where it is not set.
 @group(1) @binding(0) var peer_map: texture_depth_cube;
 @group(1) @binding(1) var peer_sampler: sampler_comparison;
 @group(1) @binding(2) var<uniform> peer_light: PeerCubeLight;
 
-const PEER_BIAS = 0.0005;
-const PEER_NORMAL_BIAS = 0.02;
-
-fn peer_tap(local: vec3f) -> f32 {
-    let a = abs(local);
-    let depth = peer_light.near / max(a.x, max(a.y, a.z)) + PEER_BIAS * peer_light.near;
-    return textureSampleCompareLevel(peer_map, peer_sampler, local, depth);
+fn peer_major(direction: vec3f) -> f32 {
+    let a = abs(direction);
+    return max(a.x, max(a.y, a.z));
 }
 
 fn peer_disk(i: u32, turn: f32) -> vec2f {
@@ -20,21 +17,30 @@ fn peer_disk(i: u32, turn: f32) -> vec2f {
 }
 
 fn peer_visibility(position: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
-    let local = position + PEER_NORMAL_BIAS * normal - peer_light.position;
-    let distance = length(local);
-    if distance > peer_light.range {
-        return 1.0;
+    let local = position - peer_light.position;
+    let along = peer_major(local);
+    let near = peer_light.near;
+    let far = peer_light.range;
+    var lit = 1.0;
+    if along - far <= 0.0 && along - near >= 0.0 {
+        let distance = length(local);
+        let ray = local / distance;
+        let a = far / (far - near) + peer_light.bias;
+        let b = -near * far / ((far - near) * distance);
+        let toward = abs(ray);
+        let helper = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), toward.x > toward.z);
+        let x = normalize(cross(ray, helper));
+        let y = cross(ray, x);
+        let texel = peer_light.radius / peer_light.size;
+        let noise = fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+        lit = 0.0;
+        for (var i = 0u; i < 5u; i++) {
+            let offset = peer_disk(i, 6.2831853 * noise);
+            let tap = ray + texel * (offset.x * x + offset.y * y);
+            let depth = a + b / peer_major(tap);
+            lit += textureSampleCompareLevel(peer_map, peer_sampler, tap, depth);
+        }
+        lit *= 0.2;
     }
-    let ray = local / distance;
-    let up = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(ray.y) > 0.99);
-    let across = normalize(cross(up, ray));
-    let along = cross(ray, across);
-    let turn = 6.2831853 * fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
-    let radius = distance / peer_light.size;
-    var lit = 0.0;
-    for (var i = 0u; i < 5u; i++) {
-        let offset = radius * peer_disk(i, turn);
-        lit += peer_tap(local + offset.x * across + offset.y * along);
-    }
-    return lit / 5.0;
+    return mix(1.0, lit, peer_light.intensity);
 }

@@ -1,4 +1,5 @@
-// wgpu's own `shadow` example: a matrix, a hardware comparison, no bias in the shader.
+// wgpu's own `shadow` example (examples/features/src/shadow/shader.wgsl, fetch_shadow): a matrix, a
+// hardware comparison, no bias in the shader.
 @group(1) @binding(0) var peer_map: texture_depth_2d;
 @group(1) @binding(1) var peer_sampler: sampler_comparison;
 @group(1) @binding(2) var<uniform> peer_light: PeerFlatLight;

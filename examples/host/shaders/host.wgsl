@@ -59,10 +59,27 @@ fn host_flat_normal(world: vec3f) -> vec3f {
     return select(-normal, normal, dot(normal, host_frame.eye.xyz - world) > 0.0);
 }
 
+// The surface's own normal, smoothed over the mesh, toward the viewer.
+fn host_normal(in: HostFragment, flat_normal: vec3f) -> vec3f {
+    return normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
+}
+
+// What a shadow may be asked by.
+struct HostReceiver {
+    world: vec3f,
+    flat_normal: vec3f,
+    normal: vec3f,
+    pixel: vec2f,
+}
+
+fn host_receiver(in: HostFragment) -> HostReceiver {
+    let flat_normal = host_flat_normal(in.world);
+    return HostReceiver(in.world, flat_normal, host_normal(in, flat_normal), in.clip.xy);
+}
+
 @fragment
 fn host_ambient(in: HostFragment) -> @location(0) vec4f {
-    let flat_normal = host_flat_normal(in.world);
-    let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
+    let normal = host_normal(in, host_flat_normal(in.world));
     // More light from above than from below, so that what lies in shadow keeps its form.
     let sky = 0.65 + 0.35 * normal.y;
     return vec4f(host_object.albedo.rgb * host_frame.ambient * sky, 1.0);
@@ -80,7 +97,7 @@ struct HostLit {
 // 2013), and bounded by 1 however near the light is.
 fn host_light(in: HostFragment, visibility: f32) -> HostLit {
     let flat_normal = host_flat_normal(in.world);
-    let normal = normalize(select(-in.normal, in.normal, dot(in.normal, flat_normal) > 0.0));
+    let normal = host_normal(in, flat_normal);
     let toward_light = host_frame.light.xyz - host_frame.light.w * in.world;
     let squared = dot(toward_light, toward_light);
     let ratio = squared / (host_frame.range * host_frame.range);

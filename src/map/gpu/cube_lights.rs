@@ -26,11 +26,15 @@ pub(crate) struct LightUniform {
     pub range: f32,
     pub size: f32,
     pub normal_offset: f32,
-    pub depth_scale: f32,
+    pub scale: f32,
     pub quantum: f32,
     pub cube: i32,
     pub rounding: f32,
     pub centre: f32,
+    pub half_size: f32,
+    pub texel: f32,
+    pub range_squared: f32,
+    pub bound: f32,
 }
 
 impl LightUniform {
@@ -43,13 +47,15 @@ impl LightUniform {
         format: wgpu::TextureFormat,
     ) -> Self {
         let texel = 2.0 / size as f32;
+        let half_size = 0.499_999_8 * size as f32;
+        let scale = near * (1.0 + bias.constant * texel) / half_size;
         Self {
             position: light.position.to_array(),
             near,
             range: light.range,
             size: size as f32,
             normal_offset: bias.normal_offset * texel,
-            depth_scale: 1.0 + bias.constant * texel,
+            scale,
             quantum: quantum(format).unwrap_or(0.0),
             cube: match depths {
                 Depths::Cube(index) => index,
@@ -58,6 +64,10 @@ impl LightUniform {
             },
             rounding: bias.rounding(),
             centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
+            half_size,
+            texel,
+            range_squared: light.range * light.range,
+            bound: 32.0 * scale,
         }
     }
 }
@@ -179,11 +189,15 @@ mod tests {
             range,
             size,
             normal_offset,
-            depth_scale,
+            scale,
             quantum,
             cube,
             rounding,
-            centre
+            centre,
+            half_size,
+            texel,
+            range_squared,
+            bound
         );
     }
 }

@@ -48,7 +48,8 @@ impl Draw {
         // Sliced rather than drawn from a first instance, which GL does not have.
         let instances = instances.slice(self.first_instance, self.instance_count);
         pass.set_vertex_buffer(1, instances);
-        pass.set_index_buffer(self.mesh.triangles().slice(..), wgpu::IndexFormat::Uint32);
+        let (indices, format) = self.mesh.indices();
+        pass.set_index_buffer(indices, format);
         pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
     }
 }

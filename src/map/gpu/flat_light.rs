@@ -12,13 +12,13 @@ use crate::uploads::Uploads;
 #[repr(C)]
 pub(crate) struct FlatLightUniform {
     pub position: [f32; 3],
-    pub near: f32,
+    pub step: f32,
     pub forward: [f32; 3],
-    pub scale: f32,
+    pub texels: f32,
     pub right: [f32; 3],
     pub size: f32,
     pub down: [f32; 3],
-    pub range: f32,
+    pub reach: f32,
     pub normal_offset: f32,
     pub depth_bias: f32,
     pub perspective: f32,
@@ -27,20 +27,20 @@ pub(crate) struct FlatLightUniform {
     pub rounding: f32,
     pub texel: f32,
     pub depth_per: f32,
-    padding: f32,
+    pub widths: f32,
 }
 
 impl FlatLightUniform {
     /// A spot that reaches nothing, not even itself.
     pub(crate) const DARK: Self = Self {
         position: [0.0; 3],
-        near: 0.0,
+        step: 0.0,
         forward: [0.0; 3],
-        scale: 0.0,
+        texels: 0.0,
         right: [0.0; 3],
         size: 0.0,
         down: [0.0; 3],
-        range: -1.0,
+        reach: -1.0,
         normal_offset: 0.0,
         depth_bias: 0.0,
         perspective: 1.0,
@@ -48,7 +48,7 @@ impl FlatLightUniform {
         rounding: 0.0,
         texel: 0.0,
         depth_per: 0.0,
-        padding: 0.0,
+        widths: 0.0,
     };
 
     /// `frame` is `None` where nothing casts.
@@ -61,6 +61,9 @@ impl FlatLightUniform {
         let Some(frame) = frame else {
             return Self {
                 quantum: -1.0,
+                // A light of either kind, whatever is far away.
+                perspective: 0.5,
+                reach: 3e38,
                 ..Self::default()
             };
         };
@@ -68,14 +71,14 @@ impl FlatLightUniform {
         let texel = 2.0 / (frame.scale * size as f32);
         Self {
             position: frame.origin.to_array(),
-            near: frame.near,
+            step: 1.0 / size as f32,
             forward: frame.forward.to_array(),
-            scale: frame.scale,
+            texels: 1.0 / texel,
             right: frame.right.to_array(),
             size: size as f32,
             down: (-frame.up).to_array(),
-            range: frame.range,
-            normal_offset: bias.normal_offset,
+            reach: frame.range * frame.range,
+            normal_offset: bias.normal_offset * texel,
             depth_bias: match frame.perspective {
                 true => 1.0 + bias.constant * texel,
                 false => bias.constant * texel / frame.range,
@@ -88,7 +91,10 @@ impl FlatLightUniform {
                 true => frame.near * (1.0 + bias.constant * texel),
                 false => 1.0 / frame.range,
             },
-            padding: 0.0,
+            widths: match frame.perspective {
+                true => 0.0,
+                false => 32.0 / (frame.scale * frame.range),
+            },
         }
     }
 }
@@ -143,20 +149,21 @@ mod tests {
             "ShadowsFlatLight",
             Uniform,
             position,
-            near,
+            step,
             forward,
-            scale,
+            texels,
             right,
             size,
             down,
-            range,
+            reach,
             normal_offset,
             depth_bias,
             perspective,
             quantum,
             rounding,
             texel,
-            depth_per
+            depth_per,
+            widths
         );
     }
 }

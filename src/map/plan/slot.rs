@@ -129,20 +129,25 @@ impl Slot {
     /// Learns what became of one caster.
     pub fn apply(&mut self, change: &Change<'_>) {
         let Some(light) = self.light else { return };
+        let after = change.new.map_or(0, |new| self.touched_by(&light, new));
+        let before = match (change.old, change.new) {
+            (Some(_), Some(_)) => self.masks.get(change.index),
+            (Some(_), None) => self.masks.pop().unwrap_or(0), // the last
+            (None, Some(_)) => {
+                self.masks.push(after);
+                0
+            }
+            (None, None) => 0,
+        };
+        if before | after == 0 {
+            return; // most casters are far from most lights
+        }
         if let Some(old) = change.old {
-            let mask = match change.new {
-                Some(_) => self.masks.get(change.index),
-                None => self.masks.pop().unwrap_or(0), // the last
-            };
-            self.leave(mask, &light, old);
+            self.leave(before, &light, old);
         }
         if let Some(new) = change.new {
-            let mask = self.touched_by(&light, new);
-            match change.old {
-                Some(_) => self.masks.set(change.index, mask),
-                None => self.masks.push(mask),
-            }
-            self.enter(mask, &light, new);
+            self.masks.set(change.index, after);
+            self.enter(after, &light, new);
         }
     }
 

@@ -11,7 +11,7 @@ const LEAST_PATIENCE: u32 = 2;
 const MOST_PATIENCE: u32 = 64;
 
 /// Copies after which a layer has repaid its making, by the rule of
-/// [`StillLayers::Auto`](crate::StillLayers).
+/// [`StaticLayers::Auto`](crate::StaticLayers).
 const REPAID: u32 = 8;
 
 /// How a face is drawn.

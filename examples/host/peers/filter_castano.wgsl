@@ -1,9 +1,5 @@
-// Bevy 0.20's flat maps with the `Gaussian` filter, which is Castano's (2013): a 5x5 tent from nine
-// hardware comparisons, all with one depth.
-@group(1) @binding(0) var peer_map: texture_depth_2d;
-@group(1) @binding(1) var peer_sampler: sampler_comparison;
-@group(1) @binding(2) var<uniform> peer_light: PeerFlatLight;
-
+// Bevy's default filter, `Gaussian`, which is Castano's (2013): a 5x5 tent from nine hardware comparisons,
+// all with one depth.
 fn peer_tap(base: vec2f, offset: vec2f, depth: f32) -> f32 {
     let uv = base + offset / peer_light.size;
     return textureSampleCompareLevel(peer_map, peer_sampler, uv, depth);
@@ -30,18 +26,4 @@ fn peer_filter(uv: vec2f, depth: f32) -> f32 {
     lit += w1.x * w2.y * peer_tap(corner, vec2f(o1.x, o2.y), depth);
     lit += w2.x * w2.y * peer_tap(corner, vec2f(o2.x, o2.y), depth);
     return lit / 144.0;
-}
-
-fn peer_visibility(position: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
-    let moved = position + 1.8 * peer_light.texel * normal + 0.02 * peer_light.toward_light;
-    let clip = peer_light.clip_from_world * vec4f(moved, 1.0);
-    if clip.w <= 0.0 {
-        return 1.0;
-    }
-    let across = clip.xyz / clip.w;
-    let outside = any(abs(across.xy) > vec2f(1.0)) || across.z < 0.0 || across.z > 1.0;
-    if outside {
-        return 1.0;
-    }
-    return peer_filter(across.xy * vec2f(0.5, -0.5) + 0.5, across.z);
 }

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use shadows::glam::{Affine3A, Vec3, Vec3A};
-use shadows::{Caster, CubeShadowMap, CubeShadowMapDescriptor, PointLight, StillLayers, wgpu};
+use shadows::{Caster, CubeShadowMap, CubeShadowMapDescriptor, PointLight, StaticLayers, wgpu};
 
 use super::host::gpu::Gpu;
 use super::shapes::{cuboid, sphere};
@@ -55,7 +55,7 @@ struct Surroundings {
 const BOXES: usize = 6;
 
 impl Surroundings {
-    fn new(gpu: &Gpu, size: u32, part: StillPart, layers: StillLayers) -> Self {
+    fn new(gpu: &Gpu, size: u32, part: StillPart, layers: StaticLayers) -> Self {
         let box_mesh = cuboid(Vec3::splat(0.2)).mesh(&gpu.device);
         let sphere_mesh = sphere(part.rings, 4 * part.rings).mesh(&gpu.device);
         let directions = Vec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
@@ -66,17 +66,17 @@ impl Surroundings {
         let spheres = directions
             .flat_map(|direction| part.places(direction))
             .map(|place| Caster::new(sphere_mesh.clone(), place));
-        let map = |still_layers| {
+        let map = |static_layers| {
             let descriptor = CubeShadowMapDescriptor {
                 size,
-                still_layers,
+                static_layers,
                 ..Default::default()
             };
             new_map(gpu, &descriptor)
         };
         Self {
             casters: boxes.chain(spheres).collect(),
-            maps: [layers, StillLayers::Never].map(map),
+            maps: [layers, StaticLayers::Never].map(map),
         }
     }
 
@@ -107,9 +107,9 @@ pub fn run(gpu: &Gpu, rounds: u32) {
         assert_eq!(scene.maps[0].statistics().faces_copied, 6, "no layers");
         [layers, redraw]
     };
-    let [layers, redraw] = measure(1024, StillPart::HEAVY, StillLayers::Auto);
+    let [layers, redraw] = measure(1024, StillPart::HEAVY, StaticLayers::Auto);
     ratio("static_layer_vs_redraw", &layers, &redraw);
-    let always = StillLayers::AtLeast(1);
+    let always = StaticLayers::AtLeast(1);
     for size in [256, 1024, 2048] {
         for triangles in [8, 512, 8192] {
             let [layers, redraw] = measure(size, StillPart::small(triangles), always);
@@ -144,7 +144,7 @@ fn texels_a_triangle(gpu: &Gpu, rounds: u32) {
     let from = depth(wgpu::TextureUsages::COPY_SRC);
     let to = depth(wgpu::TextureUsages::COPY_DST);
     let mut scenes = [FEW, MANY].map(|triangles| {
-        Surroundings::new(gpu, 256, StillPart::small(triangles), StillLayers::Never)
+        Surroundings::new(gpu, 256, StillPart::small(triangles), StaticLayers::Never)
     });
     let (mut few, mut many, mut copy) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..rounds.max(15) {

@@ -1,0 +1,355 @@
+//! The GPU side of a mesh that casts shadows.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
+
+use glam::{DMat3, Vec3};
+
+use super::data::{MeshData, edge_records};
+use super::host::{HostMesh, HostPositions, POSITION_SIZE};
+use super::records::VertexRecords;
+use super::solid::is_solid;
+use super::upload::{storage_usage, upload};
+use super::{Adjacency, Bounds, MeshKind};
+use crate::error::CasterMeshError;
+
+/// A mesh that casts shadows, on the GPU. Cheap to clone: clones share the buffers.
+#[derive(Clone, Debug)]
+pub struct CasterMesh(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    id: u64,
+    revision: AtomicU64,
+    device: wgpu::Device,
+    positions: Positions,
+    triangles: Triangles,
+    kind: MeshKind,
+    solid: bool,
+    /// For shadow volumes; shadow maps read nothing of it.
+    welded: Option<Welded>,
+}
+
+/// Where the positions are and what is known of them.
+#[derive(Debug)]
+struct Positions {
+    buffer: wgpu::Buffer,
+    stride: u64,
+    offset: u64,
+    count: u32,
+    bounds: Bounds,
+    radius: f32,
+}
+
+/// Three indices a triangle.
+#[derive(Debug)]
+struct Triangles {
+    buffer: wgpu::Buffer,
+    format: wgpu::IndexFormat,
+    offset: u64,
+    count: u32,
+}
+
+/// What an adjacency says of a mesh, on the GPU and in main memory.
+#[derive(Debug)]
+struct Welded {
+    edges: wgpu::Buffer,
+    edge_count: u32,
+    edge_uses: Option<wgpu::Buffer>,
+    edge_use_count: u32,
+    /// The same in main memory, if the positions were uploaded from there.
+    data: Option<MeshData>,
+    /// Made when a renderer first asks for them.
+    records: OnceLock<VertexRecords>,
+}
+
+impl CasterMesh {
+    /// Uploads a mesh. `positions` are those the adjacency was built from.
+    ///
+    /// GPU memory: 12 bytes a vertex, 12 a triangle, 16 an edge, and for
+    /// [`MeshKind::General`] 4 for each use of an edge. Main memory: the same, and 4 bytes for each
+    /// use of an edge in any case, for shadow volumes whose silhouettes are found on the CPU; where
+    /// they are, another 17 bytes or so a triangle from the first time on.
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if the counts differ, a position is not finite or a buffer would be
+    /// larger than the device's limits allow.
+    pub fn new<P: Copy + Into<[f32; 3]>>(
+        device: &wgpu::Device,
+        positions: &[P],
+        adjacency: &Adjacency,
+    ) -> Result<Self, CasterMeshError> {
+        if positions.len() as u64 != u64::from(adjacency.vertex_count()) {
+            return Err(CasterMeshError::PositionCount {
+                positions: positions.len(),
+                vertices: adjacency.vertex_count(),
+            });
+        }
+        let packed: Vec<[f32; 3]> = positions.iter().map(|&p| p.into()).collect();
+        if let Some(bad) = packed.iter().find(|p| !Vec3::from(**p).is_finite()) {
+            return Err(CasterMeshError::NotFinite {
+                what: "position",
+                value: *bad,
+            });
+        }
+        let bounds = Bounds::of_points(packed.iter().map(|&p| p.into())).unwrap_or(Bounds {
+            min: Vec3::ZERO,
+            max: Vec3::ZERO,
+        });
+        let usage = wgpu::BufferUsages::VERTEX | storage_usage(device);
+        let positions = Positions {
+            buffer: upload(device, "positions", &packed, usage)?,
+            stride: POSITION_SIZE,
+            offset: 0,
+            count: adjacency.vertex_count(),
+            bounds,
+            radius: bounds.radius_of(packed.iter().map(|&p| p.into())),
+        };
+        let solid = is_solid(&packed, adjacency);
+        Self::welded(device, positions, adjacency, solid, Some(packed))
+    }
+
+    /// Shares the host's own position buffer, so that a mesh that the host deforms there casts the
+    /// shadow of its present form. Vertices that were welded are read at the first of them: the
+    /// host must keep them together.
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if stride, offset, size, usages or bounds do not fit.
+    pub fn from_host_positions(
+        device: &wgpu::Device,
+        positions: &HostPositions<'_>,
+        adjacency: &Adjacency,
+    ) -> Result<Self, CasterMeshError> {
+        positions.validate(device, adjacency)?;
+        let bounds = positions.bounds;
+        let positions = Positions {
+            buffer: positions.buffer.clone(),
+            stride: positions.stride,
+            offset: positions.offset,
+            count: adjacency.vertex_count(),
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+        };
+        // The host may turn it inside out.
+        Self::welded(device, positions, adjacency, false, None)
+    }
+
+    /// Shares the host's own vertices and indices, for shadow maps alone: nothing is uploaded, welded or
+    /// kept in main memory, and no adjacency is needed. A mesh that the host deforms there casts the
+    /// shadow of its present form ([`bump_revision`](Self::bump_revision)).
+    ///
+    /// Shadow volumes need to know which triangles meet at an edge, and refuse such a mesh
+    /// ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)). Nor is it known whether it is
+    /// closed: [`kind`](Self::kind) says [`MeshKind::General`], and maps draw both sides of it.
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if layouts, sizes, usages or bounds do not fit.
+    pub fn from_host(device: &wgpu::Device, mesh: &HostMesh<'_>) -> Result<Self, CasterMeshError> {
+        mesh.validate(device)?;
+        let bounds = mesh.bounds;
+        let positions = Positions {
+            buffer: mesh.vertices.clone(),
+            stride: mesh.stride,
+            offset: mesh.offset,
+            count: mesh.vertex_count(),
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+        };
+        let triangles = Triangles {
+            buffer: mesh.indices.clone(),
+            format: mesh.index_format,
+            offset: mesh.index_offset,
+            count: mesh.index_count / 3,
+        };
+        let kind = MeshKind::General;
+        Ok(Self::new_inner(
+            device, positions, triangles, kind, false, None,
+        ))
+    }
+
+    /// `packed`: the positions in main memory, if they are known there.
+    fn welded(
+        device: &wgpu::Device,
+        positions: Positions,
+        adjacency: &Adjacency,
+        solid: bool,
+        packed: Option<Vec<[f32; 3]>>,
+    ) -> Result<Self, CasterMeshError> {
+        let storage = storage_usage(device);
+        // Devices without storage buffers may want index buffers to be nothing else.
+        let index = wgpu::BufferUsages::INDEX | (storage & wgpu::BufferUsages::STORAGE);
+        let triangles = Triangles {
+            buffer: upload(device, "triangles", adjacency.triangles(), index)?,
+            format: wgpu::IndexFormat::Uint32,
+            offset: 0,
+            count: adjacency.triangles().len() as u32,
+        };
+        let kind = adjacency.kind();
+        let uses = adjacency.edge_uses();
+        let records = edge_records(adjacency);
+        let welded = Welded {
+            edges: upload(device, "edges", &records, storage)?,
+            edge_count: records.len() as u32,
+            edge_uses: match kind {
+                MeshKind::Closed => None,
+                MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
+            },
+            edge_use_count: uses.len() as u32,
+            data: packed.map(|positions| MeshData::new(positions, records, adjacency)),
+            records: OnceLock::new(),
+        };
+        let welded = Some(welded);
+        Ok(Self::new_inner(
+            device, positions, triangles, kind, solid, welded,
+        ))
+    }
+
+    fn new_inner(
+        device: &wgpu::Device,
+        positions: Positions,
+        triangles: Triangles,
+        kind: MeshKind,
+        solid: bool,
+        welded: Option<Welded>,
+    ) -> Self {
+        static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+        Self(Arc::new(Inner {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            revision: AtomicU64::new(0),
+            device: device.clone(),
+            positions,
+            triangles,
+            kind,
+            solid,
+            welded,
+        }))
+    }
+
+    /// The rule its shadow volume follows.
+    pub fn kind(&self) -> MeshKind {
+        self.0.kind
+    }
+
+    /// Whether it is closed and known to be wound counter-clockwise seen from outside.
+    pub(crate) fn is_solid(&self) -> bool {
+        self.0.solid
+    }
+
+    /// Number of triangles that cast (those that collapsed in the weld do not).
+    pub fn triangle_count(&self) -> u32 {
+        self.0.triangles.count
+    }
+
+    /// Bounds in the mesh's own space.
+    pub fn bounds(&self) -> Bounds {
+        self.0.positions.bounds
+    }
+
+    /// Radius of a sphere around the centre of [`bounds`](Self::bounds) that encloses the mesh
+    /// under a linear map.
+    ///
+    /// The largest stretch of the map is bounded by Gershgorin's circles on its Gram matrix: exact
+    /// where the columns are orthogonal (any scale, rotation, mirror), never too small.
+    pub(crate) fn radius_under(&self, linear: &DMat3) -> f64 {
+        let gram = linear.transpose() * *linear;
+        let row_sums = gram.x_axis.abs() + gram.y_axis.abs() + gram.z_axis.abs();
+        f64::from(self.0.positions.radius) * row_sums.max_element().sqrt()
+    }
+
+    /// Number of vertices in the position buffer.
+    pub fn vertex_count(&self) -> u32 {
+        self.0.positions.count
+    }
+
+    /// Says that the positions have changed since shadows were last drawn: the host calls it after
+    /// it deformed a mesh in its own position buffer, before it prepares the frame. Faces of shadow
+    /// maps that this mesh touches are then drawn again, and its shadow volumes extracted again.
+    /// All clones share one revision.
+    pub fn bump_revision(&self) {
+        self.0.revision.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// How often [`bump_revision`](Self::bump_revision) was called.
+    pub fn revision(&self) -> u64 {
+        self.0.revision.load(Ordering::Relaxed)
+    }
+
+    /// A number that no other mesh of this process has or will have; clones share it.
+    pub(crate) fn id(&self) -> u64 {
+        self.0.id
+    }
+
+    pub(crate) fn device(&self) -> &wgpu::Device {
+        &self.0.device
+    }
+
+    pub(crate) fn positions(&self) -> &wgpu::Buffer {
+        &self.0.positions.buffer
+    }
+
+    /// Stride and offset of the positions, in bytes.
+    pub(crate) fn layout(&self) -> (u64, u64) {
+        (self.0.positions.stride, self.0.positions.offset)
+    }
+
+    /// Three indices a triangle, to draw with.
+    pub(crate) fn indices(&self) -> (wgpu::BufferSlice<'_>, wgpu::IndexFormat) {
+        let Triangles {
+            buffer,
+            format,
+            offset,
+            ..
+        } = &self.0.triangles;
+        (buffer.slice(offset..), *format)
+    }
+
+    /// Whether shadow volumes know enough of it.
+    pub(crate) fn has_adjacency(&self) -> bool {
+        self.0.welded.is_some()
+    }
+
+    /// Three welded vertices a triangle, `u32`: index buffer and storage buffer, of a mesh with an
+    /// adjacency.
+    pub(crate) fn triangles(&self) -> &wgpu::Buffer {
+        &self.0.triangles.buffer
+    }
+
+    /// One record an edge; see [`edge_records`].
+    pub(crate) fn edges(&self) -> Option<&wgpu::Buffer> {
+        Some(&self.0.welded.as_ref()?.edges)
+    }
+
+    pub(crate) fn edge_count(&self) -> u32 {
+        self.0.welded.as_ref().map_or(0, |welded| welded.edge_count)
+    }
+
+    /// One `u32` a use, `triangle << 1 | reversed`; only for general meshes.
+    pub(crate) fn edge_uses(&self) -> Option<&wgpu::Buffer> {
+        self.0.welded.as_ref()?.edge_uses.as_ref()
+    }
+
+    pub(crate) fn edge_use_count(&self) -> u32 {
+        let welded = self.0.welded.as_ref();
+        welded.map_or(0, |welded| welded.edge_use_count)
+    }
+
+    /// The mesh in main memory, unless its positions are the host's.
+    pub(crate) fn data(&self) -> Option<&MeshData> {
+        self.0.welded.as_ref()?.data.as_ref()
+    }
+
+    /// Triangles and edges for vertex shaders without storage buffers, unless the positions are
+    /// the host's.
+    pub(crate) fn records(&self) -> Option<&VertexRecords> {
+        let welded = self.0.welded.as_ref()?;
+        let data = welded.data.as_ref()?;
+        let make = || VertexRecords::new(&self.0.device, data, self.0.kind);
+        Some(welded.records.get_or_init(make))
+    }
+
+    /// Bytes of the larger buffer of [`records`](Self::records).
+    pub(crate) fn record_bytes(&self) -> u64 {
+        self.data()
+            .map_or(0, |data| VertexRecords::size(data, self.0.kind))
+    }
+}

@@ -1,0 +1,167 @@
+//! What lies in buffers of the host already, and is read there.
+
+use super::upload::check_size;
+use super::{Adjacency, Bounds};
+use crate::error::CasterMeshError;
+
+/// Bytes of one position: three `f32`.
+pub(super) const POSITION_SIZE: u64 = 12;
+
+/// Positions that already lie in a vertex buffer of the host, read in place every frame.
+#[derive(Clone, Debug)]
+pub struct HostPositions<'a> {
+    /// The buffer; its usages must include `VERTEX` and `STORAGE`.
+    pub buffer: &'a wgpu::Buffer,
+    /// Bytes from one position to the next: a multiple of 4, at least 12, and at most the device's
+    /// `max_vertex_buffer_array_stride`.
+    pub stride: u64,
+    /// Bytes before the first position: a multiple of 4.
+    pub offset: u64,
+    /// A box in the mesh's space that encloses every position the mesh will ever have.
+    ///
+    /// What leaves it may be culled.
+    pub bounds: Bounds,
+}
+
+/// Vertices and indices that already lie in buffers of the host: all that a shadow map needs of a mesh.
+/// Read in place every frame, and copied nowhere.
+#[derive(Clone, Debug)]
+pub struct HostMesh<'a> {
+    /// The buffer of positions, three `f32` each, whatever lies between them; its usages must include
+    /// `VERTEX`.
+    pub vertices: &'a wgpu::Buffer,
+    /// Bytes from one position to the next: a multiple of 4, at least 12, and at most the device's
+    /// `max_vertex_buffer_array_stride`.
+    pub stride: u64,
+    /// Bytes before the position of vertex 0: a multiple of 4. (A mesh with a base vertex in a larger
+    /// buffer adds that many strides.)
+    pub offset: u64,
+    /// The buffer of indices, three a triangle; its usages must include `INDEX`. None may be beyond the
+    /// last vertex.
+    pub indices: &'a wgpu::Buffer,
+    /// How large each of them is.
+    pub index_format: wgpu::IndexFormat,
+    /// Bytes before the first index: a multiple of an index's size.
+    pub index_offset: u64,
+    /// How many there are: a multiple of 3.
+    pub index_count: u32,
+    /// A box in the mesh's space that encloses every position the mesh will ever have.
+    ///
+    /// What leaves it may be culled.
+    pub bounds: Bounds,
+}
+
+impl HostPositions<'_> {
+    /// Whether buffer, layout and bounds fit the device and an adjacency.
+    pub(super) fn validate(
+        &self,
+        device: &wgpu::Device,
+        adjacency: &Adjacency,
+    ) -> Result<(), CasterMeshError> {
+        let (stride, offset, size) = (self.stride, self.offset, self.buffer.size());
+        check_layout(device, stride, offset)?;
+        let vertices = adjacency.vertex_count();
+        let span = u64::from(vertices.saturating_sub(1))
+            .checked_mul(stride)
+            .and_then(|span| span.checked_add(offset))
+            .and_then(|span| span.checked_add(POSITION_SIZE));
+        let needed = span.unwrap_or(u64::MAX);
+        if vertices > 0 && size < needed {
+            return Err(CasterMeshError::BufferTooSmall {
+                size,
+                needed,
+                vertices,
+            });
+        }
+        check_positions(
+            self.buffer,
+            wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE,
+        )?;
+        check_size(device, "positions", size)?;
+        check_bounds(&self.bounds)
+    }
+}
+
+impl HostMesh<'_> {
+    /// Whether buffers, layouts and bounds fit the device and each other.
+    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), CasterMeshError> {
+        check_layout(device, self.stride, self.offset)?;
+        let index_size = self.index_format.byte_size() as u64;
+        let (offset, count) = (self.index_offset, self.index_count);
+        if !offset.is_multiple_of(index_size) || !count.is_multiple_of(3) {
+            return Err(CasterMeshError::IndexLayout {
+                offset,
+                count,
+                index_size,
+            });
+        }
+        let size = self.indices.size();
+        let needed = offset.saturating_add(u64::from(count) * index_size);
+        if size < needed {
+            return Err(CasterMeshError::IndexBufferTooSmall {
+                size,
+                needed,
+                count,
+            });
+        }
+        if count > 0 && self.vertex_count() == 0 {
+            return Err(CasterMeshError::BufferTooSmall {
+                size: self.vertices.size(),
+                needed: self.offset.saturating_add(POSITION_SIZE),
+                vertices: 1,
+            });
+        }
+        check_positions(self.vertices, wgpu::BufferUsages::VERTEX)?;
+        if !self.indices.usage().contains(wgpu::BufferUsages::INDEX) {
+            return Err(CasterMeshError::IndexBufferUsage);
+        }
+        check_bounds(&self.bounds)
+    }
+
+    /// As many positions as the buffer has room for.
+    pub(super) fn vertex_count(&self) -> u32 {
+        let room = self.vertices.size().checked_sub(self.offset);
+        let after_first = room.and_then(|room| room.checked_sub(POSITION_SIZE));
+        let count = after_first.map_or(0, |bytes| bytes / self.stride + 1);
+        u32::try_from(count).unwrap_or(u32::MAX)
+    }
+}
+
+fn check_layout(device: &wgpu::Device, stride: u64, offset: u64) -> Result<(), CasterMeshError> {
+    if !stride.is_multiple_of(4) || !offset.is_multiple_of(4) || stride < POSITION_SIZE {
+        return Err(CasterMeshError::Layout { stride, offset });
+    }
+    let limit = u64::from(device.limits().max_vertex_buffer_array_stride);
+    match stride > limit {
+        true => Err(CasterMeshError::Stride { stride, limit }),
+        false => Ok(()),
+    }
+}
+
+fn check_positions(
+    buffer: &wgpu::Buffer,
+    usages: wgpu::BufferUsages,
+) -> Result<(), CasterMeshError> {
+    let missing = usages - buffer.usage();
+    match missing.is_empty() {
+        true => Ok(()),
+        false => Err(CasterMeshError::BufferUsage { missing }),
+    }
+}
+
+fn check_bounds(bounds: &Bounds) -> Result<(), CasterMeshError> {
+    for corner in [bounds.min, bounds.max] {
+        if !corner.is_finite() {
+            return Err(CasterMeshError::NotFinite {
+                what: "bounds",
+                value: corner.to_array(),
+            });
+        }
+    }
+    // Inside out they would hold nothing, and what is in them would be culled at random.
+    if !bounds.min.cmple(bounds.max).all() {
+        let [min, max] = [bounds.min, bounds.max].map(|corner| corner.to_array());
+        return Err(CasterMeshError::Bounds { min, max });
+    }
+    Ok(())
+}
