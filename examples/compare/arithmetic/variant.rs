@@ -179,9 +179,10 @@ pub const WRONG: [Variant; 2] = [
 ];
 
 impl Variant {
-    /// The variant of this name.
+    /// The variant of this name, one of those that are wrong included.
     pub fn named(name: &str) -> Option<Self> {
-        ALL.into_iter().find(|variant| variant.name == name)
+        let mut variants = ALL.into_iter().chain(WRONG);
+        variants.find(|variant| variant.name == name)
     }
 
     /// From now on this thread's shaders are compiled so; as they are written once the guard is dropped.
