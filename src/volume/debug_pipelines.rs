@@ -161,10 +161,7 @@ impl Factory<'_> {
 
     fn make(&self, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
         let (device, label) = (self.device, Some(self.label));
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(recipe.source.as_str().into()),
-        });
+        let module = crate::shader::module(device, self.label, recipe.source.as_str());
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,
             bind_group_layouts: &[recipe.layout, Some(self.colors)],

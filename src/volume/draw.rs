@@ -196,12 +196,7 @@ impl DrawPipelines {
         label: &str,
     ) -> Self {
         let layout = feed.layout(device, label);
-        let module = |source: String| {
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(source.into()),
-            })
-        };
+        let module = |source: String| crate::shader::module(device, label, source);
         let near = NearPlane::of(device.features(), descriptor.depth);
         let factory = Factory {
             device,
