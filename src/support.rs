@@ -330,7 +330,7 @@ mod tests {
         let info = info(Backend::Gl, 0);
         let support = Support::new(Features::empty(), limits, DownlevelFlags::empty(), &info);
         assert_eq!(support.features(), Features::empty());
-        assert_eq!(support.fallbacks().len(), 9);
+        assert_eq!(support.fallbacks().len(), 10);
         let every_device_has_it = wgpu::TextureFormat::Depth24PlusStencil8;
         assert_eq!(support.depth_stencil_format(), every_device_has_it);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);

@@ -30,9 +30,11 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// Formats of the pass's colour attachments, which are left as they are. Default none.
     pub color_formats: &'a [Option<wgpu::TextureFormat>],
     /// How far light caps are pushed away from the viewer, in units of the depth format's last
-    /// place. Default 512: near the origin a host's positions were measured to be off by 6, but GPUs take
-    /// depth from corners on a grid of 1/256 of a pixel, where 1 may be a whole step (up to 256 were
-    /// not enough, `docs/arithmetic.md`).
+    /// place. Default 16: more than the 6 that a host was measured to be off by near the origin. GPUs take
+    /// depth from corners on a grid of 1/256 of a pixel, where a unit may be a whole step: a host of other
+    /// arithmetic may want 512 there (`docs/arithmetic.md`), of a float format under infinite reverse-Z.
+    /// Elsewhere a unit is one of depth 1, and 512 of them are decimetres at ten metres, which volumes that
+    /// start from away-facing triangles show.
     ///
     /// A light cap lies in a surface that the host draws, so "behind what is visible" is the right
     /// answer wherever it is drawn. 0 is enough for a host that computes its positions with
@@ -78,7 +80,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             sample_count: 1,
             depth: DepthConvention::default(),
             color_formats: &[],
-            cap_bias_ulps: 512,
+            cap_bias_ulps: 16,
             method: Method::Auto,
             caps: Caps::AsNeeded,
             extrusion: Extrusion::ToRange,
