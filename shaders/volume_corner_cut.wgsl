@@ -5,7 +5,7 @@
 // host's surfaces are.
 
 // The depth of the near plane: 0, or 1 where depth is reversed.
-override near_depth: f32;
+override near_depth: f32 = 0.0;
 
 struct Drawn {
     @invariant @builtin(position) clip: vec4f,

@@ -18,6 +18,7 @@ use crate::wgsl::POSITION;
 const EXTRUDE: &str = include_str!("../../shaders/volume_extrude.wgsl");
 const CORNER: &str = include_str!("../../shaders/volume_corner.wgsl");
 const CORNER_CUT: &str = include_str!("../../shaders/volume_corner_cut.wgsl");
+const CLIP_DISTANCES: &str = include_str!("../../shaders/volume_clip_distances.wgsl");
 const AS_IS: &str = include_str!("../../shaders/volume_depth_as_is.wgsl");
 const STEPS: &str = include_str!("../../shaders/volume_depth_steps.wgsl");
 const DRAW: &str = include_str!("../../shaders/volume_draw.wgsl");
@@ -51,7 +52,7 @@ impl Feed {
     pub fn source(self, depth: DepthConvention, near: NearPlane) -> String {
         let (extension, corner) = match near {
             NearPlane::Clipped | NearPlane::Passed => ("", CORNER),
-            NearPlane::Cut => ("enable clip_distances;", CORNER_CUT),
+            NearPlane::Cut => (CLIP_DISTANCES, CORNER_CUT),
         };
         let set_back = match depth {
             DepthConvention::InfiniteReverse => AS_IS,
