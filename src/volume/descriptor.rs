@@ -42,7 +42,7 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// effect on where shadows fall, except for casters that the host itself does not draw.
     ///
     /// Other arithmetic rounds the more, the larger world coordinates are beside the distance from the
-    /// eye. What is seen from 10 units away took up to 256 at 100 units from the origin and 1024 at 1000
+    /// eye. What is seen from 10 units away took up to 512 at 100 units from the origin and 1024 at 1000
     /// (`Depth32FloatStencil8`; a host that multiplies `p * (v * (m * x))` or `(p * v * m) * x`; corners
     /// on the rasteriser's grid, as GPUs have them). Count
     /// such scenes from a point near the eye ([`View::placed`](crate::View::placed)), or raise this.
