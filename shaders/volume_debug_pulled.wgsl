@@ -3,18 +3,18 @@
 // Six vertices a side, as the side's own draw has them: the first two are its silhouette edge, the
 // others lie off the screen.
 @vertex
-fn shadows_volume_debug_edge(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f {
+fn shadows_volume_debug_edge(@builtin(vertex_index) vertex: u32) -> Drawn {
     let corner = vertex % 6u;
     if corner > 1u {
-        return vec4f(2.0, 2.0, 0.0, 1.0);
+        return drawn(vec4f(2.0, 2.0, 0.0, 1.0));
     }
     let edge = directed_edge(vertex / 6u);
-    return near_point(position(select(edge.x, edge.y, corner == 1u)));
+    return drawn(near_point(position(select(edge.x, edge.y, corner == 1u))));
 }
 
 @vertex
 fn shadows_volume_debug_caster(
     @builtin(vertex_index) vertex: u32,
-) -> @invariant @builtin(position) vec4f {
-    return near_point(position(vertex));
+) -> Drawn {
+    return drawn(near_point(position(vertex)));
 }

@@ -5,20 +5,20 @@
 fn shadows_volume_debug_edge(
     @builtin(vertex_index) vertex: u32,
     edge: Edge,
-) -> @builtin(position) vec4f {
+) -> Drawn {
     if side_count(edge) == 0 {
-        return vec4f(2.0, 2.0, 0.0, 1.0);
+        return drawn(vec4f(2.0, 2.0, 0.0, 1.0));
     }
     var corners = array(edge.a, edge.b, edge.c);
     let end = select(edge.code, edge.code >> 2u, vertex == 1u);
-    return near_point(corners[end & 3u]);
+    return drawn(near_point(corners[end & 3u]));
 }
 
 @vertex
 fn shadows_volume_debug_caster(
     @builtin(vertex_index) vertex: u32,
     triangle: Triangle,
-) -> @invariant @builtin(position) vec4f {
+) -> Drawn {
     var corners = array(triangle.a, triangle.b, triangle.c);
-    return near_point(corners[vertex]);
+    return drawn(near_point(corners[vertex]));
 }

@@ -13,15 +13,15 @@ fn position(vertex: u32) -> vec3f {
 @vertex
 fn shadows_volume_light_cap(
     @builtin(vertex_index) vertex: u32,
-) -> @invariant @builtin(position) vec4f {
-    return near_point(position(vertex));
+) -> Drawn {
+    return drawn(near_point(position(vertex)));
 }
 
 @vertex
 fn shadows_volume_dark_cap(
     @builtin(vertex_index) vertex: u32,
-) -> @invariant @builtin(position) vec4f {
-    return far_point(position(vertex));
+) -> Drawn {
+    return drawn(far_point(position(vertex)));
 }
 
 // The edge that a side is made of, in the direction in which the caps' boundary runs through it.
@@ -35,24 +35,24 @@ fn directed_edge(place: u32) -> vec2u {
 @vertex
 fn shadows_volume_side(
     @builtin(vertex_index) vertex: u32,
-) -> @invariant @builtin(position) vec4f {
+) -> Drawn {
     let edge = directed_edge(vertex / caster.side_vertices);
     let corner = vertex % caster.side_vertices;
     let end = position(select(edge.x, edge.y, side_corner_is_second(corner)));
     if side_corner_is_far(corner) {
-        return far_point(end);
+        return drawn(far_point(end));
     }
-    return near_point(end);
+    return drawn(near_point(end));
 }
 
 @vertex
 fn shadows_volume_fan(
     @builtin(vertex_index) vertex: u32,
-) -> @invariant @builtin(position) vec4f {
+) -> Drawn {
     let edge = directed_edge(vertex / 3u);
     let corner = vertex % 3u;
     if corner == 0u {
-        return fan_apex();
+        return drawn(fan_apex());
     }
-    return far_point(position(select(edge.x, edge.y, fan_corner_is_second(corner))));
+    return drawn(far_point(position(select(edge.x, edge.y, fan_corner_is_second(corner)))));
 }

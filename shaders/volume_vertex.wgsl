@@ -32,16 +32,16 @@ struct Triangle {
 fn shadows_volume_light_cap(
     @builtin(vertex_index) vertex: u32,
     triangle: Triangle,
-) -> @invariant @builtin(position) vec4f {
-    return near_point(cap_corner(vertex, triangle.a, triangle.b, triangle.c));
+) -> Drawn {
+    return drawn(near_point(cap_corner(vertex, triangle.a, triangle.b, triangle.c)));
 }
 
 @vertex
 fn shadows_volume_dark_cap(
     @builtin(vertex_index) vertex: u32,
     triangle: Triangle,
-) -> @invariant @builtin(position) vec4f {
-    return far_point(cap_corner(vertex, triangle.a, triangle.b, triangle.c));
+) -> Drawn {
+    return drawn(far_point(cap_corner(vertex, triangle.a, triangle.b, triangle.c)));
 }
 
 // An edge and two triangles that use it. Where it has only one, the second is a point.
@@ -69,12 +69,12 @@ fn side_count(edge: Edge) -> i32 {
 fn shadows_volume_side(
     @builtin(vertex_index) vertex: u32,
     edge: Edge,
-) -> @invariant @builtin(position) vec4f {
+) -> Drawn {
     let count = side_count(edge);
     var corners = array(edge.a, edge.b, edge.c);
     let start = corners[edge.code & 3u];
     if vertex / caster.side_vertices >= u32(abs(count)) {
-        return near_point(start);
+        return drawn(near_point(start));
     }
     // The same triangles whichever way they are turned: where two sides of one edge cancel, they do
     // so to the last bit.
@@ -82,22 +82,22 @@ fn shadows_volume_side(
     let corner = select(place, turned(place), count < 0);
     let end = select(start, corners[(edge.code >> 2u) & 3u], side_corner_is_second(corner));
     if side_corner_is_far(corner) {
-        return far_point(end);
+        return drawn(far_point(end));
     }
-    return near_point(end);
+    return drawn(near_point(end));
 }
 
 @vertex
 fn shadows_volume_fan(
     @builtin(vertex_index) vertex: u32,
     edge: Edge,
-) -> @invariant @builtin(position) vec4f {
+) -> Drawn {
     let count = side_count(edge);
     let corner = select(vertex % 3u, turned(vertex % 3u), count < 0);
     if vertex / 3u >= u32(abs(count)) || corner == 0u {
-        return fan_apex();
+        return drawn(fan_apex());
     }
     var corners = array(edge.a, edge.b, edge.c);
     let end = select(edge.code, edge.code >> 2u, fan_corner_is_second(corner));
-    return far_point(corners[end & 3u]);
+    return drawn(far_point(corners[end & 3u]));
 }

@@ -186,6 +186,7 @@ pub mod pcf;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod scene;
+mod shader;
 mod submissions;
 pub mod support;
 mod uploads;
@@ -194,6 +195,11 @@ pub mod volume;
 pub mod wgsl;
 #[cfg(test)]
 mod wgsl_layout;
+
+// For this crate's own tests and tools, which try other arithmetic: no part of its interface.
+#[cfg(feature = "reference")]
+#[doc(hidden)]
+pub use shader::rewriting;
 
 pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
 pub use map::{

@@ -177,6 +177,18 @@ impl View {
         self.depth.clips_far().then(|| corners(matrix, far))?
     }
 
+    /// The near and the far plane, positive between them, in units of clip space; `None` where nothing is too
+    /// far away.
+    pub(crate) fn near_and_far_planes(&self) -> Option<[DVec4; 2]> {
+        let row = |index| self.clip_from_world.row(index).as_dvec4();
+        let [from_0, from_1] = [row(2), row(3) - row(2)];
+        match self.depth {
+            DepthConvention::InfiniteReverse => None,
+            DepthConvention::FiniteReverse => Some([from_1, from_0]),
+            DepthConvention::Standard => Some([from_0, from_1]),
+        }
+    }
+
     /// A sphere around the near rectangle: centre and radius in world space.
     ///
     /// Every ray along which the host sees something starts inside it.

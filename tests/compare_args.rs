@@ -151,7 +151,7 @@ fn shimmer_and_growth_take_a_size_and_a_limit_or_none() {
 }
 
 /// Each mode as it is asked for, and the options that it has a use for beyond those of all.
-const MODES: [(&str, &[&str]); 6] = [
+const MODES: [(&str, &[&str]); 7] = [
     (
         "",
         &[
@@ -201,6 +201,21 @@ const MODES: [(&str, &[&str]); 6] = [
         ],
     ),
     ("--growth", &["frames"]),
+    (
+        "--arithmetic",
+        &[
+            "scene",
+            "ground",
+            "light",
+            "light-kind",
+            "range",
+            "camera",
+            "technique",
+            "size",
+            "face",
+            "rounds",
+        ],
+    ),
     (
         "--cost counts.json",
         &[
@@ -260,6 +275,13 @@ fn what_a_mode_has_no_use_for_is_refused() {
             }
         }
     }
+}
+
+#[test]
+fn arithmetic_takes_names_or_all() {
+    let names = |line| read(line).arithmetic.unwrap();
+    assert_eq!(names("--arithmetic"), ["all"]);
+    assert_eq!(names("--arithmetic fma,snapped"), ["fma", "snapped"]);
 }
 
 #[test]

@@ -136,6 +136,13 @@ pub struct Args {
           value_parser = times, group = "mode")]
     pub growth: Option<f64>,
 
+    /// Instead, draw the scenes and the hard cases with the shaders' arithmetic as drivers may choose it:
+    /// names, separated by commas, or all, as where none is given. Exits with 1 if a hard case fails that
+    /// should not.
+    #[arg(long, value_name = "NAME,..|all", num_args = 0..=1, default_missing_value = "all",
+          value_delimiter = ',', group = "mode")]
+    pub arithmetic: Option<Vec<String>>,
+
     /// Instead, set what receivers cost on a GPU, as `cargo bench --bench shader_cost -- --out FILE`
     /// counts it, against what they get wrong: every kernel, and other engines' receivers in our
     /// rendition.

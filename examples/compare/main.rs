@@ -6,6 +6,7 @@
 //! ```
 
 mod args;
+mod arithmetic;
 mod cost;
 mod date;
 mod growth;
@@ -72,6 +73,9 @@ fn run(args: &Args) -> Result<ExitCode> {
             0 => ExitCode::SUCCESS,
             _ => ExitCode::FAILURE,
         });
+    }
+    if let Some(names) = &args.arithmetic {
+        return other_arithmetic(args, names);
     }
     if let Some(times) = args.growth {
         let gpu = opened(args, [&args.out])?;
@@ -148,6 +152,35 @@ fn temporal(args: &Args, size: [u32; 2]) -> Result<()> {
             .with_context(|| format!("scene {}", scene.name))?;
     }
     Ok(())
+}
+
+fn other_arithmetic(args: &Args, names: &[String]) -> Result<ExitCode> {
+    let variants = arithmetic::variants(names)?;
+    let scenes = args.scenes.iter();
+    let plan = arithmetic::Plan {
+        scenes: scenes
+            .map(|name| asked_scene(args, name, args.size))
+            .collect::<Result<_>>()?,
+        techniques: args
+            .techniques
+            .0
+            .iter()
+            .map(|row| row.at(args.face))
+            .collect(),
+        size: args.size,
+        rounds: args.rounds,
+        variants,
+    };
+    let gpu = opened(args, [&args.out])?;
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    let command = format!(
+        "cargo run --release --example compare -- {}",
+        given.join(" ")
+    );
+    Ok(match arithmetic::run(&gpu, &plan, &command, &args.out)? {
+        0 => ExitCode::SUCCESS,
+        _ => ExitCode::FAILURE,
+    })
 }
 
 fn cost(args: &Args, counts: &Path) -> Result<()> {

@@ -69,12 +69,15 @@ impl Gpu {
             }
         };
         let support = Support::of_adapter(&adapter);
-        let timestamps = adapter.features()
-            & (wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+        // For timing, and for trying other arithmetic in shaders.
+        let tools = adapter.features()
+            & (wgpu::Features::TIMESTAMP_QUERY
+                | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
+                | wgpu::Features::SHADER_F64);
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("headless"),
-                required_features: (support.features() | timestamps) - refused,
+                required_features: (support.features() | tools) - refused,
                 required_limits: support.limits(),
                 ..Default::default()
             })

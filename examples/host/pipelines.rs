@@ -184,7 +184,7 @@ fn shader(device: &wgpu::Device, label: &str, parts: &[&str]) -> wgpu::ShaderMod
     let source = [&shared[..], parts].concat().join("\n");
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
+        source: wgpu::ShaderSource::Wgsl(shadows::rewriting::rewritten(source.into())),
     })
 }
 

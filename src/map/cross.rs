@@ -158,10 +158,7 @@ fn pipeline(
     layout: &wgpu::BindGroupLayout,
     descriptor: &CubeCrossDescriptor<'_>,
 ) -> wgpu::RenderPipeline {
-    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(crate::wgsl::CUBE_CROSS.into()),
-    });
+    let shader = crate::shader::module(device, label, crate::wgsl::CUBE_CROSS);
     let linear = descriptor.encoding == DepthEncoding::LinearDistance;
     let constants = [("linear", f64::from(u8::from(linear)))];
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

@@ -5,7 +5,8 @@ use crate::error::PcfError;
 use crate::support::{has_cube_gather, has_gather};
 
 /// Whether the shaders of square kernels read four texels with one texture gather, or fetch each by
-/// itself. Both read the same texels, and give the same visibility bit for bit.
+/// itself. Both read the same texels, and give the same visibility bit for bit. Exhaustive: there is no
+/// third way.
 ///
 /// [`Hard`](crate::Kernel::Hard) and the disks gather nothing, and are the same with any.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -26,7 +26,7 @@ impl Visibility for u8 {
     }
 }
 
-/// How one pixel of a technique compares.
+/// How one pixel of a technique compares. Exhaustive: right, or wrong in one of two ways at one of two places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
     /// No surface that faces the light within its range.

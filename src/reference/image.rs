@@ -9,7 +9,7 @@ use super::camera::{Camera, PixelRay};
 use super::geometry::{Geometry, SurfacePoint};
 use crate::{HomogeneousLight, SpotLight};
 
-/// What a pixel of the reference shows.
+/// What a pixel of the reference shows. Exhaustive: every pixel is one of these.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     /// No surface.
@@ -33,6 +33,7 @@ impl Class {
 
 /// What the ray through a pixel centre meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hit {
     /// Place in the list given to [`ReferenceScene::new`](super::ReferenceScene::new).
     pub object: u32,

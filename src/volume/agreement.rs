@@ -13,6 +13,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::*;
 use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
+use crate::volume::near_plane::NearPlane;
 use crate::volume::params::Arguments;
 use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, StartFrom, View};
 use gpu::Gpu;
@@ -197,7 +198,7 @@ fn counted(gpu: &Gpu, params: &[u8], records: &[EdgeRecord]) -> Vec<i32> {
         buffer(bytemuck::cast_slice(records), storage),
         buffer(&zeros, storage | wgpu::BufferUsages::COPY_SRC),
     ];
-    let source = Feed::Records.source(DepthConvention::InfiniteReverse) + COUNT;
+    let source = Feed::Records.source(DepthConvention::InfiniteReverse, NearPlane::Clipped) + COUNT;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
         source: wgpu::ShaderSource::Wgsl(source.into()),

@@ -3,6 +3,7 @@
 use super::debug::VolumeDebugDescriptor;
 use super::draw::Feed;
 use super::layout::uniform;
+use super::near_plane::NearPlane;
 use super::plan::Faces;
 use super::screen::SCREEN;
 use crate::DepthConvention;
@@ -19,12 +20,12 @@ const CASTER_BIAS_ULPS: i32 = 16;
 
 impl Feed {
     /// The shader of faces, edges and casters.
-    fn debug_source(self, depth: DepthConvention) -> String {
+    fn debug_source(self, depth: DepthConvention, near: NearPlane) -> String {
         let own = match self {
             Self::Pulled => PULLED,
             Self::Records => RECORDS,
         };
-        [&self.source(depth), own, COLOR].join("\n")
+        [&self.source(depth, near), own, COLOR].join("\n")
     }
 }
 
@@ -42,7 +43,7 @@ impl FeedPipelines {
         let layout = feed.layout(factory.device, factory.label);
         let make = |entry_point, faces, lines, depth: Test| {
             factory.make(&Recipe {
-                source: feed.debug_source(factory.descriptor.depth),
+                source: feed.debug_source(factory.descriptor.depth, factory.near()),
                 entry_point,
                 buffers: &feed.vertex_buffers(faces),
                 layout: Some(&layout),
@@ -154,17 +155,20 @@ pub(super) struct Factory<'a> {
 }
 
 impl Factory<'_> {
+    fn near(&self) -> NearPlane {
+        NearPlane::of(self.device.features(), self.descriptor.depth)
+    }
+
     fn make(&self, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
         let (device, label) = (self.device, Some(self.label));
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(recipe.source.as_str().into()),
-        });
+        let module = crate::shader::module(device, self.label, recipe.source.as_str());
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,
             bind_group_layouts: &[recipe.layout, Some(self.colors)],
             immediate_size: 0,
         });
+        let constants = self.near().depth(self.descriptor.depth);
+        let of_faces = recipe.layout.and(constants);
         let compilation_options = wgpu::PipelineCompilationOptions::default();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label,
@@ -172,7 +176,10 @@ impl Factory<'_> {
             vertex: wgpu::VertexState {
                 module: &module,
                 entry_point: Some(recipe.entry_point),
-                compilation_options: compilation_options.clone(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: of_faces.as_slice(),
+                    ..Default::default()
+                },
                 buffers: recipe.buffers,
             },
             primitive: wgpu::PrimitiveState {
@@ -233,9 +240,9 @@ mod tests {
     fn every_shader_is_valid_without_any_capability() {
         let screen = [SCREEN, COLOR].join("\n");
         let depths = [DepthConvention::InfiniteReverse, DepthConvention::Standard];
-        let feeds = depths
-            .into_iter()
-            .flat_map(|depth| [Feed::Pulled, Feed::Records].map(|feed| feed.debug_source(depth)));
+        let feeds = depths.into_iter().flat_map(|depth| {
+            [Feed::Pulled, Feed::Records].map(|feed| feed.debug_source(depth, NearPlane::Passed))
+        });
         for source in feeds.chain([screen]) {
             let module = naga::front::wgsl::parse_str(&source)
                 .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));

@@ -30,7 +30,11 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// Formats of the pass's colour attachments, which are left as they are. Default none.
     pub color_formats: &'a [Option<wgpu::TextureFormat>],
     /// How far light caps are pushed away from the viewer, in units of the depth format's last
-    /// place. Default 16: more than the 6 that a host was measured to be off by near the origin.
+    /// place. Default 16: more than the 6 that a host was measured to be off by near the origin. GPUs take
+    /// depth from corners on a grid of 1/256 of a pixel, where a unit may be a whole step: a host of other
+    /// arithmetic may want 512 there (`docs/arithmetic.md`), of a float format under infinite reverse-Z.
+    /// Elsewhere a unit is one of depth 1, and 512 of them are decimetres at ten metres, which volumes that
+    /// start from away-facing triangles show.
     ///
     /// A light cap lies in a surface that the host draws, so "behind what is visible" is the right
     /// answer wherever it is drawn. 0 is enough for a host that computes its positions with
@@ -38,8 +42,9 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// effect on where shadows fall, except for casters that the host itself does not draw.
     ///
     /// Other arithmetic rounds the more, the larger world coordinates are beside the distance from the
-    /// eye. What is seen from 10 units away took up to 64 at 100 units from the origin and 1024 at 1000
-    /// (`Depth32FloatStencil8`; a host that multiplies `p * (v * (m * x))` or `(p * v * m) * x`). Count
+    /// eye. What is seen from 10 units away took up to 512 at 100 units from the origin and 1024 at 1000
+    /// (`Depth32FloatStencil8`; a host that multiplies `p * (v * (m * x))` or `(p * v * m) * x`; corners
+    /// on the rasteriser's grid, as GPUs have them). Count
     /// such scenes from a point near the eye ([`View::placed`](crate::View::placed)), or raise this.
     ///
     /// Where depth is not 0 at infinity, units of the last place of the depth there are added to those

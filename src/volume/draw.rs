@@ -4,6 +4,7 @@ use super::counter::{self, Counter, Counting};
 use super::kept::Slot;
 use super::layout::{storage, uniform};
 use super::method::Count;
+use super::near_plane::NearPlane;
 use super::params::{Arguments, CasterParams};
 use super::plan::{Draw, Faces};
 use super::renderer::Drawn;
@@ -15,6 +16,9 @@ use crate::mesh::{CasterMesh, EdgeRecord, MeshKind};
 use crate::wgsl::POSITION;
 
 const EXTRUDE: &str = include_str!("../../shaders/volume_extrude.wgsl");
+const CORNER: &str = include_str!("../../shaders/volume_corner.wgsl");
+const CORNER_CUT: &str = include_str!("../../shaders/volume_corner_cut.wgsl");
+const CLIP_DISTANCES: &str = include_str!("../../shaders/volume_clip_distances.wgsl");
 const AS_IS: &str = include_str!("../../shaders/volume_depth_as_is.wgsl");
 const STEPS: &str = include_str!("../../shaders/volume_depth_steps.wgsl");
 const DRAW: &str = include_str!("../../shaders/volume_draw.wgsl");
@@ -45,14 +49,21 @@ pub(super) enum Feed {
 
 impl Feed {
     /// The shader of all faces.
-    pub fn source(self, depth: DepthConvention) -> String {
+    pub fn source(self, depth: DepthConvention, near: NearPlane) -> String {
+        let (extension, corner) = match near {
+            NearPlane::Clipped | NearPlane::Passed => ("", CORNER),
+            NearPlane::Cut => (CLIP_DISTANCES, CORNER_CUT),
+        };
         let set_back = match depth {
             DepthConvention::InfiniteReverse => AS_IS,
             DepthConvention::FiniteReverse | DepthConvention::Standard => STEPS,
         };
         match self {
-            Self::Pulled => [POSITION, set_back, EXTRUDE, DRAW].join("\n"),
-            Self::Records => [POSITION, set_back, EXTRUDE, LIGHT_SIDE, VERTEX].join("\n"),
+            Self::Pulled => [extension, POSITION, set_back, EXTRUDE, corner, DRAW].join("\n"),
+            Self::Records => [
+                extension, POSITION, set_back, EXTRUDE, corner, LIGHT_SIDE, VERTEX,
+            ]
+            .join("\n"),
         }
     }
 
@@ -132,6 +143,8 @@ pub(super) struct Style {
     /// Whether faces that are clockwise on screen are the volume's front.
     pub clockwise: bool,
     pub part: Part,
+    /// Whether depth is clipped though the projection has a far plane: see `Form`.
+    pub clipped: bool,
 }
 
 impl Style {
@@ -184,18 +197,17 @@ impl DrawPipelines {
         label: &str,
     ) -> Self {
         let layout = feed.layout(device, label);
-        let module = |source: String| {
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(label),
-                source: wgpu::ShaderSource::Wgsl(source.into()),
-            })
-        };
+        let module = |source: String| crate::shader::module(device, label, source);
+        let near = NearPlane::of(device.features(), descriptor.depth);
         let factory = Factory {
             device,
             descriptor,
             feed,
+            near,
             label,
-            module: module(feed.source(descriptor.depth)),
+            module: module(feed.source(descriptor.depth, near)),
+            clipped: (descriptor.depth.clips_far())
+                .then(|| module(feed.source(DepthConvention::InfiniteReverse, NearPlane::Clipped))),
             counting: (descriptor.counter == Counter::Exact)
                 .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -211,11 +223,19 @@ impl DrawPipelines {
         let kinds = KINDS.map(|(count, faces)| (count, faces, Part::Whole));
         let kinds = kinds.iter().chain(parts);
         let styles = kinds.flat_map(|&(count, faces, part)| {
-            [false, true].map(|clockwise| Style {
-                count,
-                faces,
-                clockwise,
-                part,
+            let clips = descriptor.depth.clips_far();
+            let may_be_clipped = clips && (count, faces) == (Count::Fail, Faces::LightCap);
+            let clipped = [false, true]
+                .into_iter()
+                .take(1 + usize::from(may_be_clipped));
+            clipped.flat_map(move |clipped| {
+                [false, true].map(|clockwise| Style {
+                    count,
+                    faces,
+                    clockwise,
+                    part,
+                    clipped,
+                })
             })
         });
         let pipelines = styles.map(|style| (style, factory.make(style))).collect();
@@ -307,8 +327,11 @@ struct Factory<'a> {
     device: &'a wgpu::Device,
     descriptor: &'a ShadowVolumeDescriptor<'a>,
     feed: Feed,
+    near: NearPlane,
     label: &'a str,
     module: wgpu::ShaderModule,
+    /// The same for faces that the rasteriser clips.
+    clipped: Option<wgpu::ShaderModule>,
     /// Holds the fragment shader, where that is what counts.
     counting: Option<wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
@@ -321,31 +344,35 @@ impl Factory<'_> {
         let nearer = self.descriptor.depth.nearer();
         let counting = self.descriptor.counter.counting(style.count, nearer);
         let targets = self.targets(&counting);
-        let (module, fragment) = match &self.counting {
+        let (counting_module, fragment) = match &self.counting {
             Some(counting) => (counting, "shadows_volume_count"),
             None => (&self.module, "shadows_volume_nothing"),
         };
         // A pass without colour needs no fragment stage, and is faster without.
         let fragment = (!targets.is_empty()).then(|| wgpu::FragmentState {
-            module,
+            module: counting_module,
             entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         });
-        let steps = [("depth_steps", f64::from(self.bias(style)))];
-        let constants = match self.descriptor.depth {
-            DepthConvention::InfiniteReverse => &[][..],
-            DepthConvention::FiniteReverse | DepthConvention::Standard => &steps,
+        let unclipped_depth = self.descriptor.depth.clips_far() && !style.clipped;
+        let module = match &self.clipped {
+            Some(clipped) if style.clipped => clipped,
+            _ => &self.module,
         };
+        let steps = ("depth_steps", f64::from(self.bias(style)));
+        let near_depth = self.near.depth(self.descriptor.depth);
+        let of_unclipped = [Some(steps), near_depth].into_iter().flatten();
+        let constants: Vec<_> = of_unclipped.filter(|_| unclipped_depth).collect();
         self.device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(&label),
                 layout: Some(&self.layout),
                 vertex: wgpu::VertexState {
-                    module: &self.module,
+                    module,
                     entry_point: Some(faces.entry_point()),
                     compilation_options: wgpu::PipelineCompilationOptions {
-                        constants,
+                        constants: &constants,
                         ..Default::default()
                     },
                     buffers: &self.feed.vertex_buffers(faces),
@@ -361,7 +388,7 @@ impl Factory<'_> {
                         Part::Back => Some(wgpu::Face::Front),
                     },
                     // Faces beyond a finite far plane must count; clamped, they do.
-                    unclipped_depth: self.descriptor.depth.clips_far(),
+                    unclipped_depth,
                     ..Default::default()
                 },
                 depth_stencil: Some(self.depth_stencil(style, counting)),

@@ -11,8 +11,9 @@
 //! - z-pass needs no cap that cannot lie between N and P: no light cap, for P is the first surface
 //!   that the host draws and the light cap is such a surface, and no dark cap at infinity.
 //!
-//! Where far faces are kept by `unclipped_depth`, near ones are, too: rays then start at the eye
-//! (from infinity behind it in an orthographic view), and the pyramid is that much larger.
+//! Where far faces are kept by `unclipped_depth`, near ones are, too, unless the vertex shaders cut them
+//! (see `near_plane.rs`): rays then start at the eye (from infinity behind it in an orthographic view),
+//! and the pyramid is that much larger.
 //!
 //! **The dark cap** closes the sides, so its boundary must be theirs, projected to infinity. The
 //! light cap projected there is one such chain; a fan from one point over the silhouette is another.
@@ -24,11 +25,12 @@
 //! In a plane, where finite volumes end, any two caps with one boundary are the same chain, and the
 //! fan serves.
 
-use glam::{DVec4, Vec4Swizzles as _};
+use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 use super::descriptor::ShadowVolumeDescriptor;
 use super::far_end::{Ends, FarEnd};
 use super::hull::Hull;
+use super::near_plane::NearPlane;
 use super::scissor::{self, Rect};
 use super::world_box::WorldBox;
 use super::{ShadowVolumeFrame, StartFrom};
@@ -82,16 +84,18 @@ pub(super) struct Options {
     pub extrusion: Extrusion,
     pub culling: bool,
     pub start_from: StartFrom,
+    pub near: NearPlane,
 }
 
 impl Options {
-    pub fn of(descriptor: &ShadowVolumeDescriptor<'_>) -> Self {
+    pub fn of(device: &wgpu::Device, descriptor: &ShadowVolumeDescriptor<'_>) -> Self {
         Self {
             method: descriptor.method,
             caps: descriptor.caps,
             extrusion: descriptor.extrusion,
             culling: descriptor.culling,
             start_from: descriptor.start_from,
+            near: NearPlane::of(device.features(), descriptor.depth),
         }
     }
 
@@ -134,6 +138,8 @@ pub(super) enum Skip {
 pub(super) struct Form {
     pub count: Count,
     pub dark_cap: DarkCap,
+    /// Whether the light cap is clipped, as the host's surfaces are.
+    pub light_cap_clipped: bool,
     /// Vertices of a side: 6 for a quad, 3 where its far edge is one point at infinity.
     pub side_vertices: u32,
     pub far: FarEnd,
@@ -153,6 +159,8 @@ pub(super) struct Rules {
     visible: Hull,
     /// From the receivers to the light: what misses it shadows none of them.
     receiving: Option<Hull>,
+    /// Of a view that clips both; positive between them.
+    near_and_far: Option<[DVec4; 2]>,
     light_reaches_view: bool,
 }
 
@@ -160,7 +168,7 @@ impl Rules {
     pub fn new(frame: &ShadowVolumeFrame<'_>, options: Options) -> Self {
         let light = frame.light.0.as_dvec4();
         let view = frame.view;
-        let origins = origins(view);
+        let origins = origins(view, options.near);
         let ends = Ends::new(frame, origins.clone());
         let range = ends.range;
         let receiving = ends
@@ -178,6 +186,7 @@ impl Rules {
             near: Hull::new(&with(&origins, unit(light))),
             visible: Hull::new(&frustum),
             receiving,
+            near_and_far: view.near_and_far_planes(),
             light_reaches_view,
             origins,
             ends,
@@ -224,6 +233,7 @@ impl Rules {
         Form {
             count,
             dark_cap,
+            light_cap_clipped: count == Count::Fail && self.is_cut_by_near_alone(world),
             side_vertices: if directional && !full && far.is_infinite() {
                 3
             } else {
@@ -231,6 +241,21 @@ impl Rules {
             },
             far,
         }
+    }
+
+    /// Whether the near plane may cut the caster, and the far plane, which the view has, certainly does not.
+    ///
+    /// Its light cap is then clipped in z-fail, which loses nothing by that. Cut where the host's surfaces
+    /// are, by the same arithmetic, it has their corners. From any other the rasteriser finds other depths:
+    /// a corner is moved by up to half of 1/256 of a pixel, and steep depth by more than any bias.
+    fn is_cut_by_near_alone(&self, world: &WorldBox) -> bool {
+        let within = |plane: DVec4| {
+            let normal = plane.xyz();
+            let size = normal.length() * world.reach(DVec3::ZERO) + plane.w.abs();
+            world.nearest(normal) + plane.w > 1e-5 * size
+        };
+        self.near_and_far
+            .is_some_and(|[near, far]| within(far) && !within(near))
     }
 
     /// The nearest end that leaves every shadow whole.
@@ -264,9 +289,9 @@ impl Rules {
 }
 
 /// The points from which rays start, such that all others are between them.
-fn origins(view: &View) -> Vec<DVec4> {
+fn origins(view: &View, near_plane: NearPlane) -> Vec<DVec4> {
     let near = view.near_corners().map(|corner| corner.extend(1.0));
-    if !view.depth().clips_far() {
+    if near_plane.ends_faces() {
         return near.to_vec();
     }
     let eye = view.eye();

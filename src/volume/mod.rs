@@ -30,6 +30,7 @@ mod light_pass;
 mod limits;
 mod mask;
 mod method;
+mod near_plane;
 mod params;
 mod plan;
 mod regions;

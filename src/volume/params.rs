@@ -98,6 +98,7 @@ mod tests {
     use crate::DepthConvention;
     use crate::volume::draw::Feed;
     use crate::volume::limits::WORKGROUP;
+    use crate::volume::near_plane::NearPlane;
     use crate::volume::silhouette;
     use crate::wgsl_layout::assert_layout;
 
@@ -112,18 +113,21 @@ mod tests {
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)))
     }
 
-    fn sources(depth: DepthConvention) -> [String; 4] {
+    fn sources(depth: DepthConvention, near: NearPlane) -> [String; 4] {
         [
             silhouette::facing_source(),
             silhouette::edges_source(),
-            Feed::Pulled.source(depth),
-            Feed::Records.source(depth),
+            Feed::Pulled.source(depth, near),
+            Feed::Records.source(depth, near),
         ]
     }
 
     #[test]
     fn every_shader_is_valid_without_any_capability() {
-        let every = CONVENTIONS.into_iter().flat_map(sources);
+        let every = CONVENTIONS.into_iter().flat_map(|depth| {
+            let near = NearPlane::of(wgpu::Features::empty(), depth);
+            sources(depth, near)
+        });
         for source in every {
             Validator::new(ValidationFlags::all(), Capabilities::empty())
                 .validate(&parse(&source))
@@ -132,8 +136,22 @@ mod tests {
     }
 
     #[test]
+    fn faces_cut_at_the_near_plane_need_clip_distances_alone() {
+        for depth in [DepthConvention::FiniteReverse, DepthConvention::Standard] {
+            for source in &sources(depth, NearPlane::Cut)[2..] {
+                let is_valid = |capabilities| {
+                    let mut validator = Validator::new(ValidationFlags::all(), capabilities);
+                    validator.validate(&parse(source)).is_ok()
+                };
+                assert!(is_valid(Capabilities::CLIP_DISTANCES), "{source}");
+                assert!(!is_valid(Capabilities::empty()), "{source}");
+            }
+        }
+    }
+
+    #[test]
     fn rust_and_wgsl_agree_on_every_offset() {
-        let [facing, edges, draw, vertex] = sources(DepthConvention::Standard);
+        let [facing, edges, draw, vertex] = sources(DepthConvention::Standard, NearPlane::Passed);
         for source in [facing, edges] {
             assert_layout!(
                 source,

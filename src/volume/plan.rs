@@ -259,6 +259,7 @@ impl Plan {
                     faces,
                     clockwise,
                     part,
+                    clipped: form.light_cap_clipped && faces == Faces::LightCap,
                 },
                 slot,
                 caster,

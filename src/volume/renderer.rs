@@ -7,6 +7,7 @@ use super::groups::{Groups, Parts};
 use super::kept::Kept;
 use super::layers;
 use super::method::Options;
+use super::near_plane::NearPlane;
 use super::plan::{Batch, Draw, Means, Outline, Plan, PlanLimits};
 use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
 use super::statistics::CasterState;
@@ -82,6 +83,7 @@ pub(super) struct Drawn<'a> {
     pub kept: &'a Kept,
     pub buffers: &'a Buffers,
     pub depth: DepthConvention,
+    pub near: NearPlane,
 }
 
 impl ShadowVolumeRenderer {
@@ -121,7 +123,7 @@ impl ShadowVolumeRenderer {
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             plan: Plan::default(),
-            options: Options::of(descriptor),
+            options: Options::of(device, descriptor),
             counter: descriptor.counter,
             keep: descriptor.keep_between_frames,
             prepared: false,
@@ -327,6 +329,7 @@ impl ShadowVolumeRenderer {
             kept: &self.kept,
             buffers: &self.buffers,
             depth: self.depth,
+            near: self.options.near,
         }
     }
 

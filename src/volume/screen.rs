@@ -28,10 +28,7 @@ pub(super) enum On {
 impl ScreenPipeline<'_> {
     pub fn make(self, device: &wgpu::Device) -> wgpu::RenderPipeline {
         let label = Some(self.label);
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(self.source.into()),
-        });
+        let module = crate::shader::module(device, self.label, self.source);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,
             bind_group_layouts: self.layout,

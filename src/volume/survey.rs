@@ -66,7 +66,7 @@ impl ShadowVolumeRenderer {
         let screen = Screen {
             size: target_size.map(f64::from),
             rect: drawn.plan.scissor.map(|(rect, _)| rect),
-            near_is_clipped: !drawn.depth.clips_far(),
+            near_is_clipped: drawn.near.ends_faces(),
         };
         let mut surveyor = Surveyor {
             screen,

@@ -14,9 +14,27 @@ pub const JOINED: &[&[&str]] = &[
     PULLED_STEPS,
     RECORDS,
     &[
+        "volume_clip_distances",
         "position",
         "volume_depth_steps",
         "volume_extrude",
+        "volume_corner_cut",
+        "volume_draw",
+    ],
+    &[
+        "volume_clip_distances",
+        "position",
+        "volume_depth_steps",
+        "volume_extrude",
+        "volume_corner_cut",
+        "volume_light_side",
+        "volume_vertex",
+    ],
+    &[
+        "position",
+        "volume_depth_steps",
+        "volume_extrude",
+        "volume_corner",
         "volume_light_side",
         "volume_vertex",
     ],
@@ -24,6 +42,7 @@ pub const JOINED: &[&[&str]] = &[
         "position",
         "volume_depth_as_is",
         "volume_extrude",
+        "volume_corner",
         "volume_draw",
         "volume_debug_pulled",
         "volume_debug",
@@ -32,6 +51,7 @@ pub const JOINED: &[&[&str]] = &[
         "position",
         "volume_depth_steps",
         "volume_extrude",
+        "volume_corner",
         "volume_light_side",
         "volume_vertex",
         "volume_debug_records",
@@ -59,6 +79,7 @@ pub const PULLED: &[&str] = &[
     "position",
     "volume_depth_as_is",
     "volume_extrude",
+    "volume_corner",
     "volume_draw",
 ];
 
@@ -67,6 +88,7 @@ pub const PULLED_STEPS: &[&str] = &[
     "position",
     "volume_depth_steps",
     "volume_extrude",
+    "volume_corner",
     "volume_draw",
 ];
 
@@ -75,6 +97,7 @@ pub const RECORDS: &[&str] = &[
     "position",
     "volume_depth_as_is",
     "volume_extrude",
+    "volume_corner",
     "volume_light_side",
     "volume_vertex",
 ];

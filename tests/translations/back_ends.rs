@@ -159,7 +159,11 @@ fn to_glsl(ready: &Ready<'_>) -> Result<String, String> {
 }
 
 /// What is not valid in a language, and why that is no matter.
-const EXCEPT: [(Language, &str); 4] = [
+const EXCEPT: [(Language, &str); 6] = [
+    // glslang does not know GL_EXT_clip_cull_distance, by which OpenGL ES has them.
+    (Language::Glsl, "@builtin(clip_distances)"),
+    // `Features::CLIP_DISTANCES`, which wgpu does not offer on D3D12.
+    (Language::Hlsl, "@builtin(clip_distances)"),
     // What joins or counts samples is refused there (`tests/gl/samples.rs`).
     (Language::Glsl, "@builtin(sample_index)"),
     (Language::Glsl, "textureNumSamples"),

@@ -9,7 +9,7 @@ const { create } = await import(pathToFileURL(path.join(packageFolder, 'index.js
 // Kept: once it is collected, Dawn crashes.
 globalThis.gpu = create(['backend=null']);
 const adapter = await gpu.requestAdapter();
-const device = await adapter.requestDevice();
+const device = await adapter.requestDevice({ requiredFeatures: ["clip-distances"] });
 const files = fs.readdirSync(folder).filter((file) => file.endsWith('.wgsl')).sort();
 for (const file of files) {
     device.pushErrorScope('validation');

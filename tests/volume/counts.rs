@@ -189,7 +189,10 @@ fn the_guard_adds_light_once_however_often_the_scene_is_drawn() {
             ..with(&mixed(lamp()), exact())
         };
         assert_eq!(light_pass(true).draw(&gpu).iter().max(), Some(&100));
-        assert_eq!(light_pass(false).draw(&gpu).iter().max(), Some(&200));
+        // At least twice: where two surfaces have the same depth at a sample, it is lit by both. (An
+        // NVIDIA H100 gives 214, which is three samples of 200 and one of 255.)
+        let most = light_pass(false).draw(&gpu).into_iter().max();
+        assert!(most >= Some(200), "{samples}: {most:?}");
     }
 }
 

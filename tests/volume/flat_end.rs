@@ -69,3 +69,19 @@ fn so_it_is_in_every_depth_convention_and_under_a_lamp() {
         }
     }
 }
+
+/// The broken twin: receivers said to end above the ground, where volumes then end, too. The same
+/// comparison finds that the sphere's shadow is missing from it.
+#[test]
+fn a_volume_that_ends_before_the_ground_is_found_out() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    for light in suns() {
+        let mut stage = stage(light, 1e3);
+        let truth = stage.truth();
+        let mut bounds = stage.receivers.expect("the stage has bounds");
+        bounds.min.y = 0.2;
+        stage.receivers = Some(bounds);
+        let found = truth.errors(&stage.draw(&gpu));
+        assert!(found.wrong > 300, "{light:?}: {found:?}");
+    }
+}

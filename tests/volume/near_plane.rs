@@ -1,5 +1,6 @@
-//! A near plane that cuts a caster. The host's surfaces are clipped there; volumes, where depth has a
-//! far plane, are not, and what both have in common rounds otherwise.
+//! A near plane that cuts a caster. The host's surfaces are clipped there. So are volumes, by clip distances
+//! where depth has a far plane. Where there are none they pass the plane, and what both have in common rounds
+//! otherwise: not enough to be seen on a software rasteriser, but on GPUs (docs/gpu.md).
 
 use shadows::glam::Vec3;
 use shadows::glam::camera::rh::{proj::directx as proj, view};
@@ -58,22 +59,40 @@ fn errors(gpu: &Gpu, stage: &Stage, method: Method, what: &str) -> Errors {
     found
 }
 
+/// With clip distances, and without where that is right.
+fn gpus() -> Vec<Gpu> {
+    let Some(gpu) = Gpu::for_test() else {
+        return Vec::new();
+    };
+    let mut gpus = vec![gpu];
+    if gpus[0].info.device_type == wgpu::DeviceType::Cpu {
+        gpus.extend(Gpu::for_test_without(wgpu::Features::CLIP_DISTANCES));
+    }
+    gpus
+}
+
 #[test]
 fn the_near_plane_may_cut_a_caster_in_every_convention_and_format() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    for format in [
+    let formats = [
         wgpu::TextureFormat::Depth24PlusStencil8,
         wgpu::TextureFormat::Depth32FloatStencil8,
-    ] {
+    ];
+    for gpu in gpus() {
         for depth in depths(&gpu) {
-            for (turn, stage) in stages(4, depth).enumerate() {
-                let stage = Stage { format, ..stage };
-                for method in [Method::Auto, Method::ZFail] {
-                    let what = format!("{turn}, {format:?}, {depth:?}, {method:?}");
-                    let found = errors(&gpu, &stage, method, &what);
-                    assert_eq!(found.wrong, 0, "{what}: {found:?}");
-                }
+            for format in formats {
+                assert_right(&gpu, format, depth);
             }
+        }
+    }
+}
+
+fn assert_right(gpu: &Gpu, format: wgpu::TextureFormat, depth: DepthConvention) {
+    for (turn, stage) in stages(4, depth).enumerate() {
+        let stage = Stage { format, ..stage };
+        for method in [Method::Auto, Method::ZFail] {
+            let what = format!("{turn}, {format:?}, {depth:?}, {method:?}");
+            let found = errors(gpu, &stage, method, &what);
+            assert_eq!(found.wrong, 0, "{what}: {found:?}");
         }
     }
 }
@@ -94,20 +113,29 @@ fn so_it_may_whichever_way_silhouettes_are_found() {
     }
 }
 
+/// The broken twin: near planes in the shadow of what they cut, and z-pass all the same.
 #[test]
-fn caps_that_are_set_back_by_a_unit_of_their_own_depth_are_not_enough() {
+fn forced_z_pass_is_found_out_there() {
     let Some(gpu) = Gpu::for_test() else { return };
-    if !depths(&gpu).contains(&DepthConvention::Standard) {
-        return;
-    }
-    let wrong: usize = stages(4, DepthConvention::Standard)
-        .map(|stage| {
-            let stage = Stage {
-                cap_bias_ulps: 1,
-                ..stage
-            };
-            errors(&gpu, &stage, Method::ZFail, "one unit").wrong
-        })
+    let wrong: usize = stages(4, DepthConvention::InfiniteReverse)
+        .map(|stage| errors(&gpu, &stage, Method::ZPass, "forced").wrong)
         .sum();
-    assert!(wrong > 20, "{wrong}");
+    assert!(wrong > 1000, "{wrong}");
+}
+
+/// Caps that are clipped where the host's surfaces are have their very depths, and need no bias.
+#[test]
+fn caps_that_the_near_plane_cuts_need_no_bias() {
+    for gpu in gpus() {
+        for depth in depths(&gpu) {
+            for stage in stages(4, depth) {
+                let stage = Stage {
+                    cap_bias_ulps: 0,
+                    ..stage
+                };
+                let found = errors(&gpu, &stage, Method::ZFail, "no bias");
+                assert_eq!(found.wrong, 0, "{depth:?}: {found:?}");
+            }
+        }
+    }
 }

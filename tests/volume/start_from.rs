@@ -228,10 +228,16 @@ fn a_host_of_other_arithmetic_sees_no_fighting() {
             cap_bias_ulps: 0,
             ..stage
         };
-        let without = own(&unbiased);
-        eprintln!("{method:?}: {with_bias} pixels with the bias, {without} without");
+        // Which order shows it is a matter of the rasteriser's own rounding.
+        let without = [Arithmetic::Premultiplied, Arithmetic::OneByOne].map(|arithmetic| {
+            own(&Stage {
+                arithmetic,
+                ..unbiased.clone()
+            })
+        });
+        eprintln!("{method:?}: {with_bias} pixels with the bias, {without:?} without");
         assert_eq!(with_bias, 0, "{method:?}");
-        assert!(without > 100, "{method:?}: {without}");
+        assert!(without[0] + without[1] > 100, "{method:?}: {without:?}");
     }
 }
 

@@ -16,29 +16,30 @@ enum Mode {
     HardCases,
     Temporal,
     Growth,
+    Arithmetic,
     Cost,
 }
 
-use Mode::{Compare, Cost, Growth, HardCases, Sweep, Temporal};
+use Mode::{Arithmetic, Compare, Cost, Growth, HardCases, Sweep, Temporal};
 
 /// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
 /// Options that are not here are of use to all.
 const USES: [(&str, &[Mode]); 16] = [
-    ("scenes", &[Compare, Sweep, Temporal, Cost]),
-    ("ground", &[Compare, Sweep, Temporal, Cost]),
-    ("light", &[Compare, Sweep, Temporal, Cost]),
-    ("light_kind", &[Compare, Sweep, Temporal]),
-    ("range", &[Compare, Sweep, Temporal, Cost]),
-    ("camera", &[Compare, Sweep, Temporal, Cost]),
-    ("techniques", &[Compare, Sweep, Temporal]),
-    ("size", &[Compare, Sweep, Cost]),
-    ("face", &[Compare, Temporal, Cost]),
+    ("scenes", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("ground", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("light", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("light_kind", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("range", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("camera", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("techniques", &[Compare, Sweep, Temporal, Arithmetic]),
+    ("size", &[Compare, Sweep, Cost, Arithmetic]),
+    ("face", &[Compare, Temporal, Cost, Arithmetic]),
     ("frames", &[Compare, Sweep, Growth]),
     ("seed", &[Compare]),
     ("export", &[Compare]),
     ("error_at_most", &[Sweep]),
     ("time_at_most", &[Sweep]),
-    ("rounds", &[HardCases]),
+    ("rounds", &[HardCases, Arithmetic]),
     ("steps", &[Temporal]),
 ];
 
@@ -49,6 +50,7 @@ impl Mode {
             _ if args.hard_cases => HardCases,
             _ if args.temporal.is_some() => Temporal,
             _ if args.growth.is_some() => Growth,
+            _ if args.arithmetic.is_some() => Arithmetic,
             _ if args.cost.is_some() => Cost,
             _ => Compare,
         }
@@ -62,6 +64,7 @@ impl Mode {
             HardCases => Some("--hard-cases"),
             Temporal => Some("--temporal"),
             Growth => Some("--growth"),
+            Arithmetic => Some("--arithmetic"),
             Cost => Some("--cost"),
         }
     }

@@ -39,6 +39,14 @@ impl Expect {
 
 /// What is expected of a technique on a case; `software` is whether the adapter is no GPU.
 pub fn expected(case: &Case, technique: &Technique, software: bool) -> Expect {
+    let on_hardware = match software {
+        true => None,
+        false => limits::of_hardware(case.name, &technique.name),
+    };
+    on_hardware.map_or_else(|| anywhere(case, technique, software), Expect::Limit)
+}
+
+fn anywhere(case: &Case, technique: &Technique, software: bool) -> Expect {
     let usual = match &technique.config {
         _ if technique.name == SIXTEEN_BITS && !case.sixteen_bits => return Expect::Nothing,
         _ if FINE.iter().any(|fine| fine.1 == technique.name) && !case.fine => {

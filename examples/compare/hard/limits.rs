@@ -19,7 +19,14 @@ pub fn of(case: &str, technique: &str) -> Option<Limit> {
     Some(row.limit)
 }
 
+/// The limit on hardware, if one is known there that software drivers have not.
+pub fn of_hardware(case: &str, technique: &str) -> Option<Limit> {
+    let row = ON_HARDWARE.iter().find(|row| row.is_of(case, technique))?;
+    Some(row.limit)
+}
+
 /// A known limit, and what has it. The first that fits counts.
+#[derive(Clone, Copy)]
 pub struct Known {
     /// A case's name, or `*` for all of them.
     pub case: &'static str,
@@ -78,6 +85,12 @@ const POSITIONS: &str = "f32 positions are rounded by more than texels and pixel
 const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels";
 const TWENTY_FOUR_BITS: &str =
     "steps of 2^-24, where depth is near / distance: 0.7 m at 500 m from a near plane of 2 cm";
+
+const SNAPPED: &str = "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L 1e-5 the ground is nearer \
+     than that to the sides of a volume whose caster stands on it";
+
+/// Those of hardware alone. Bounds are of the arithmetic `snapped` on a software driver.
+pub const ON_HARDWARE: [Known; 1] = [known("Grazing light", "volume*", SNAPPED, [2.8, 0.0, 2.9])];
 
 /// All of them.
 pub const ALL: &[Known] = &[

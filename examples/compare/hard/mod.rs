@@ -32,7 +32,7 @@ use crate::table::{ROWS, volume};
 use crate::technique::{Config, Technique};
 
 /// Of the pictures, in pixels.
-const SIZE: [u32; 2] = [320, 240];
+pub const SIZE: [u32; 2] = [320, 240];
 /// Texels along a map's side.
 const SIDE: u32 = 512;
 /// The named techniques that are tried.
@@ -72,11 +72,12 @@ pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
     let cases: Vec<Case> = cases::all().collect();
     let bar = progress(cases.len() as u64 * u64::from(rounds), "hard cases");
     let row = |case: &Case| {
-        let techniques = &techniques;
+        let (techniques, limits) = (techniques.as_slice(), [].as_slice());
         Trial {
             gpu,
             case,
             techniques,
+            limits,
         }
         .run(rounds, &bar)
     };

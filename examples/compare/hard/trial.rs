@@ -10,6 +10,7 @@ use super::SIZE;
 use super::cases::Case;
 use super::expect::{Expect, expected, is_software};
 use super::judge::{Frame, judge};
+use super::limits::Known;
 use super::outcome::Outcome;
 use super::seams::Rates;
 use super::situation::Situation;
@@ -26,6 +27,8 @@ pub struct Trial<'a> {
     pub gpu: &'a Gpu,
     pub case: &'a Case,
     pub techniques: &'a [Technique],
+    /// What else is known not to be right.
+    pub limits: &'a [Known],
 }
 
 /// What each technique gave, and the first situation's picture.
@@ -73,7 +76,12 @@ impl Trial<'_> {
     }
 
     fn expected(&self, technique: &Technique) -> Expect {
-        expected(self.case, technique, is_software(self.gpu))
+        let mut limits = self.limits.iter();
+        let known = limits.find(|known| known.is_of(self.case.name, &technique.name));
+        match known {
+            Some(known) => Expect::Limit(known.limit),
+            None => expected(self.case, technique, is_software(self.gpu)),
+        }
     }
 
     /// What each technique gave, and the first situation's picture.

@@ -157,8 +157,5 @@ fn caster_shader(device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
         false => crate::wgsl::CUBE_CASTER,
         true => crate::wgsl::CUBE_CASTER_GL,
     };
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    })
+    crate::shader::module(device, label, source)
 }

@@ -66,6 +66,7 @@ impl Pass {
         entry_point: &str,
         read_only: [bool; 6],
     ) -> Self {
+        let module = crate::shader::module(device, label, source);
         let label = Some(label);
         let stage = wgpu::ShaderStages::COMPUTE;
         let mut entries = vec![uniform(stage, size_of::<BatchParams>())];
@@ -77,10 +78,6 @@ impl Pass {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label,
             entries: &entries,
-        });
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(source.into()),
         });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label,

@@ -1,0 +1,73 @@
+//! Small functions put in the place of their calls, as drivers do before they choose their arithmetic.
+
+use naga::{Expression, Function, Handle, Module, Statement};
+
+use super::rebuild::{Rules, Work, operands};
+
+type Value = Handle<Expression>;
+
+pub struct Inline;
+
+impl Rules for Inline {
+    fn rewrite(&self, old: Value, work: &mut Work<'_>) -> Option<Value> {
+        let Expression::CallResult(callee) = work.old(old) else {
+            return None;
+        };
+        let module = work.module;
+        let callee = &module.functions[*callee];
+        let value = formula(module, callee)?;
+        let arguments = work.arguments(old);
+        Some(in_place(callee, value, &arguments, work))
+    }
+}
+
+/// What a function gives that is no more than one formula, without variables and branches.
+fn formula(module: &Module, function: &Function) -> Option<Value> {
+    let [before @ .., last] = &*function.body else {
+        return None;
+    };
+    let plain = |statement: &Statement| match statement {
+        Statement::Emit(_) => true,
+        Statement::Call {
+            function, result, ..
+        } => result.is_some() && formula(module, &module.functions[*function]).is_some(),
+        _ => false,
+    };
+    match *last {
+        Statement::Return { value } if before.iter().all(plain) => value,
+        _ => None,
+    }
+}
+
+fn in_place(callee: &Function, value: Value, arguments: &[Value], work: &mut Work<'_>) -> Value {
+    let module = work.module;
+    let mut made: Vec<Value> = Vec::new();
+    for (handle, expression) in callee.expressions.iter() {
+        let new = match expression {
+            Expression::FunctionArgument(place) => arguments[*place as usize],
+            Expression::CallResult(inner) => {
+                let (function, given) = (&module.functions[*inner], call(callee, handle));
+                let given: Vec<Value> = given.iter().map(|one| made[one.index()]).collect();
+                let value = formula(module, function).expect("only formulas are called");
+                in_place(function, value, &given, work)
+            }
+            other => {
+                let mut copy = other.clone();
+                operands(&mut copy, &mut |operand| *operand = made[operand.index()]);
+                work.add(copy)
+            }
+        };
+        made.push(new);
+    }
+    made[value.index()]
+}
+
+fn call(function: &Function, wanted: Value) -> &[Value] {
+    let arguments = function.body.iter().find_map(|statement| match statement {
+        Statement::Call {
+            arguments, result, ..
+        } if *result == Some(wanted) => Some(arguments),
+        _ => None,
+    });
+    arguments.expect("every result is of a call")
+}
