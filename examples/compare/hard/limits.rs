@@ -113,18 +113,18 @@ pub const ALL: &[Known] = &[
         ONE_DEPTH,
         [0.01, 0.0, 0.58],
     ),
-    known("Scale", "flat-hw", ONE_DEPTH, [0.0, 0.01, 0.04]),
+    known("Scale", "flat-hw", ONE_DEPTH, [0.0, 0.01, 0.052]),
     known(
         "Far from the origin, plain f32",
         "cube-hw",
         POSITIONS,
-        [0.004, 0.0025, 1.9],
+        [0.016, 0.0025, 1.9],
     ),
     known(
         "Far from the origin, plain f32",
         "flat-hw",
         POSITIONS,
-        [0.0042, 0.083, 1.4],
+        [0.009, 0.083, 1.4],
     ),
     known(
         "Camera inside a shadow volume",
