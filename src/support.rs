@@ -46,8 +46,8 @@ pub struct Support {
     /// maps that are nearer to their light than its near plane.
     pub depth_clip_control: bool,
     /// Clip distances: under projections with a finite far plane the faces of shadow volumes are cut at the
-    /// near plane, as the host's surfaces are. Without, up to 60 % of the pixels of single frames were wrong
-    /// on an NVIDIA H200 where the near plane cuts a caster (`docs/gpu.md`).
+    /// near plane, as the host's surfaces are. Without, up to 90 % of the interior pixels of single
+    /// pictures were wrong on an NVIDIA H200 where the near plane cuts a caster (`docs/gpu.md`).
     pub clip_distances: bool,
     /// `Depth32FloatStencil8`: stencil beside float depth.
     pub depth32float_stencil8: bool,
