@@ -135,6 +135,11 @@ impl Casters {
         self.different.is_empty() && casters.len() == self.compared.len()
     }
 
+    /// How many the last [`compare`](Self::compare) found to be not what they were, or gone.
+    pub fn changes(&self, casters: &[Caster]) -> usize {
+        self.different.len() + self.compared.len().saturating_sub(casters.len())
+    }
+
     /// Takes over what [`compare`](Self::compare) found. Gives what that changes: those that are gone
     /// from the end of the list first, the last of them before the others.
     pub fn update(&mut self, casters: &[Caster]) -> impl Iterator<Item = Change<'_>> {
