@@ -134,8 +134,8 @@ impl CubeShadowMap {
         }
         let lights = frame.lights.iter().copied().map(LightProjection::Point);
         let lights: Vec<_> = lights.collect();
-        self.slots
-            .take_over(&lights, &mut self.casters, frame.casters);
+        self.casters.update(frame.casters);
+        self.slots.take_over(&lights, &mut self.casters);
         self.allocate(device);
         let revision = self.texture_revision();
         self.gpu.replace_lights(device, queue, revision);

@@ -5,7 +5,7 @@ use glam::DAffine3;
 use super::instances::{Instance, Instances, instance};
 use super::pipelines::{PipelineKey, Pipelines};
 use crate::map::plan::Slot;
-use crate::map::projection::{FlatFrame, MOST_TILES, NearPlane};
+use crate::map::projection::{MOST_TILES, NearPlane};
 use crate::map::sides::{CasterSides, Cull};
 use crate::mesh::{Caster, CasterMesh};
 use crate::scene::Casters;
@@ -78,28 +78,6 @@ fn batch(
         });
         instances.extend(run.iter().map(|&(.., row)| rows[row as usize]));
     }
-}
-
-/// The draws of a flat map's casters, and their instances.
-pub(crate) fn draws_of_flat(
-    frame: &FlatFrame,
-    sides: CasterSides,
-    casters: &Casters,
-    all: &[Caster],
-) -> (Vec<Draw>, Vec<Instance>) {
-    let light_from_world = DAffine3::from_translation(-frame.origin.as_dvec3());
-    let frustum = frame.frustum();
-    let on_map = casters.records().iter().zip(all);
-    let on_map = on_map.filter(|(record, _)| frustum.holds(record));
-    let (mut members, mut rows) = (Vec::<Member>::new(), Vec::new());
-    for (record, caster) in on_map {
-        let cull = Cull::of(sides, record, frame.is_clear_of(&record.bounds));
-        members.push((record.mesh, cull, rows.len() as u32));
-        rows.push(instance(&(light_from_world * caster.transform())));
-    }
-    let (mut draws, mut instances) = (Vec::new(), Vec::with_capacity(rows.len()));
-    batch(&mut members, &rows, casters, &mut instances, &mut draws);
-    (draws, instances)
 }
 
 /// What is drawn on one tile, and on the layer under it.

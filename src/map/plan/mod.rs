@@ -11,7 +11,6 @@ mod static_layer;
 mod tile_masks;
 mod visibility;
 
-pub(crate) use content::{Content, Signature, Texels};
 pub(crate) use choice::{Rules, SlotPlan, Tally, casters_drawn, choose_tiles, follow};
 pub(crate) use flat_place::FlatPlace;
 pub(crate) use schedule::longest_wait;

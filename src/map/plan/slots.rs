@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use super::slot::Slot;
 use crate::map::projection::LightProjection;
-use crate::mesh::Caster;
 use crate::scene::Casters;
 
 /// Frames in which a light reaches no caster after which its texels are given back: enough that a
@@ -25,6 +24,8 @@ pub(crate) struct Slots {
     reordered: u64,
     // Kept only for its memory: the casters that a light reaches.
     reached: Vec<u32>,
+    /// Whether the casters went on without the slots.
+    behind: bool,
 }
 
 impl Slots {
@@ -35,6 +36,7 @@ impl Slots {
             order: Vec::new(),
             reordered: 0,
             reached: Vec::new(),
+            behind: false,
         }
     }
 
@@ -51,13 +53,8 @@ impl Slots {
         self.reordered
     }
 
-    /// Takes over a frame's lights and casters, after the casters were compared.
-    pub fn take_over(
-        &mut self,
-        lights: &[LightProjection],
-        casters: &mut Casters,
-        all: &[Caster],
-    ) {
+    /// Takes over a frame's lights, after the casters were updated.
+    pub fn take_over(&mut self, lights: &[LightProjection], casters: &mut Casters) {
         let order = assign(lights, &self.slots, &self.order);
         let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
         self.reordered += u64::from(moved);
@@ -66,24 +63,19 @@ impl Slots {
             wanted[slot] = Some(light);
         }
         self.order = order;
-        let many = casters.changes(all) * lights.len() > MANY;
-        // Lights that change are sorted out once, after the casters.
+        let changes = casters.changes();
+        let anew = std::mem::take(&mut self.behind) || changes.len() * lights.len() > MANY;
+        // Those that change are sorted out by what they reach, the others by what changed.
         let mut changed = vec![false; self.slots.len()];
         for ((slot, light), changed) in self.slots.iter_mut().zip(&wanted).zip(&mut changed) {
-            *changed = slot.light() != *light || many && light.is_some();
+            *changed = slot.light() != *light || anew && light.is_some();
             if *changed {
                 slot.leave_light(*light);
             }
         }
-        let changes = casters.update(all);
-        match many {
-            // All lights have let go of all casters.
-            true => changes.for_each(drop),
-            false => changes.for_each(|change| {
-                self.slots.iter_mut().for_each(|slot| slot.apply(&change));
-            }),
+        for change in changes {
+            self.slots.iter_mut().for_each(|slot| slot.apply(&change));
         }
-        let count = casters.records().len();
         for ((slot, light), changed) in self.slots.iter_mut().zip(wanted).zip(changed) {
             let Some(light) = light.filter(|_| changed) else {
                 continue;
@@ -91,10 +83,16 @@ impl Slots {
             self.reached.clear();
             match light.sphere().filter(|_| slot.cull) {
                 Some((centre, range)) => casters.within(centre, range, &mut self.reached),
-                None => self.reached.extend(0..count as u32),
+                None => self.reached.extend(0..casters.records().len() as u32),
             }
             slot.set_light(light.clone(), casters.records(), &self.reached);
         }
+    }
+
+    /// Learns that casters were updated for a frame whose lights were refused: what changed is not
+    /// known any more when the next one comes.
+    pub fn miss_update(&mut self) {
+        self.behind = true;
     }
 
     /// Counts the frames in which a light reaches no caster. Gives the slots whose texels no light
@@ -152,14 +150,19 @@ fn assign(lights: &[LightProjection], slots: &[Slot], before: &[usize]) -> Vec<u
         for (choice, light) in chosen.iter_mut().zip(lights) {
             if choice.is_none() {
                 let alike = holders.get(&light.key()).into_iter().flatten().rev();
-                *choice = alike.copied().find(|&slot| holds(slot, light) && take(slot));
+                *choice = alike
+                    .copied()
+                    .find(|&slot| holds(slot, light) && take(slot));
             }
         }
     }
     for (i, (choice, light)) in chosen.iter_mut().zip(lights).enumerate() {
         let like = |slot: usize| slots[slot].light().is_some_and(|held| held.is_like(light));
         if choice.is_none() {
-            *choice = before.get(i).copied().filter(|&slot| like(slot) && take(slot));
+            *choice = before
+                .get(i)
+                .copied()
+                .filter(|&slot| like(slot) && take(slot));
         }
     }
     let unused = |slot: &usize| slots[*slot].light().is_none();

@@ -95,7 +95,8 @@ impl StaticLayer {
     ) {
         self.scheduled = None;
         let from = self.ripe(projection, now);
-        let right = |held: &Held| held.projection == *projection && since(held.until) == held.content;
+        let right =
+            |held: &Held| held.projection == *projection && since(held.until) == held.content;
         self.mode = match self.holds {
             Some(held) if right(&held) => {
                 self.copies += 1;

@@ -20,9 +20,7 @@ pub(crate) fn visible_tiles(
 ) -> u8 {
     let of_view = |frustum| match light {
         LightProjection::Point(light) => visible_faces(frustum, light, reach, size),
-        LightProjection::Spot(frame) => {
-            u8::from(!frustum.misses(&around_cone(frame, reach, size)))
-        }
+        LightProjection::Spot(frame) => u8::from(!frustum.misses(&around_cone(frame, reach, size))),
         LightProjection::Cascades(_) => light.all(),
     };
     match views {

@@ -7,8 +7,8 @@ mod near;
 mod spot;
 mod tiles;
 
-pub use cube::CubeFace;
 pub(crate) use cube::ALL_FACES;
+pub use cube::CubeFace;
 pub(crate) use directional::{Fit, LightBox, fit_directional};
 pub(crate) use flat::FlatFrame;
 pub(crate) use near::NearPlane;

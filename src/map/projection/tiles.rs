@@ -156,7 +156,9 @@ impl TileSides {
                 touched_faces(&bounds, f64::from(light.range))
             }
             Self::Frusta(frusta) => frusta.iter().enumerate().fold(0, |mask, (tile, frustum)| {
-                let holds = frustum.as_ref().is_some_and(|frustum| frustum.holds(record));
+                let holds = frustum
+                    .as_ref()
+                    .is_some_and(|frustum| frustum.holds(record));
                 mask | u8::from(holds) << tile
             }),
         }
