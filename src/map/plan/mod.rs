@@ -9,6 +9,9 @@ mod face_masks;
 mod faces;
 mod flat_place;
 mod schedule;
+// Not used until the atlas is.
+#[allow(dead_code)]
+mod sizing;
 mod slot;
 mod slots;
 mod static_layer;
