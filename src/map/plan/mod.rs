@@ -8,6 +8,9 @@ mod content;
 mod face_masks;
 mod faces;
 mod flat_place;
+// Not used until the atlas is.
+#[allow(dead_code)]
+mod importance;
 mod schedule;
 // Not used until the atlas is.
 #[allow(dead_code)]
