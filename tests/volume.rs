@@ -38,6 +38,8 @@ mod near_plane;
 mod passes;
 #[path = "volume/pictures.rs"]
 mod pictures;
+#[path = "volume/pipelines.rs"]
+mod pipelines;
 #[path = "volume/random.rs"]
 mod random;
 #[path = "volume/receivers.rs"]
