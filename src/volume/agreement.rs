@@ -14,6 +14,7 @@ use wgpu::util::DeviceExt as _;
 use super::*;
 use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
 use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::gpu::draw_pipelines::Feed;
 use crate::volume::plan::params::Arguments;
 use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, StartFrom, View};
 use gpu::Gpu;
