@@ -146,7 +146,7 @@ impl CubeGpu {
         (casters, all): (&Casters, &[Caster]),
     ) {
         if let Some(least) = layer_least {
-            slot.choose_modes(drawn, |_| least, casters);
+            slot.choose_modes(drawn, least, casters);
             for (bit, face) in slot.tiles.iter().enumerate() {
                 let built = matches!(face.layer.mode(), DrawMode::Build(_));
                 if drawn & 1 << bit != 0 && built {

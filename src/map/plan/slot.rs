@@ -279,7 +279,7 @@ impl Slot {
 
     /// Decides how the tiles of a mask are drawn: on layers of at least so many triangles of static
     /// casters, or all at once.
-    pub fn choose_modes(&mut self, mask: u8, least: impl Fn(usize) -> u64, casters: &Casters) {
+    pub fn choose_modes(&mut self, mask: u8, least: u64, casters: &Casters) {
         let Some(current) = &self.current else { return };
         for (bit, tile) in self.tiles.iter_mut().enumerate() {
             let projection = current.light.tile(bit);
@@ -287,7 +287,7 @@ impl Slot {
                 && mask & 1 << bit != 0
             {
                 let (masks, frame) = (&self.masks, casters.frame());
-                tile.layer.choose(&projection, frame, least(bit), |frame| {
+                tile.layer.choose(&projection, frame, least, |frame| {
                     let on_tile = masks.touching(1 << bit).map(|at| &casters.records()[at]);
                     Content::of(on_tile.filter(|record| record.since <= frame))
                 });
