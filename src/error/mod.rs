@@ -1,5 +1,7 @@
 //! Errors: one enum per operation. Every message says what to change.
 
+mod atlas;
+mod cascades;
 mod light;
 mod map;
 mod mesh;
@@ -10,6 +12,8 @@ mod tiles;
 mod volume;
 mod volume_debug;
 
+pub use atlas::ShadowAtlasError;
+pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};

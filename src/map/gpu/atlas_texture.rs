@@ -121,11 +121,7 @@ impl AtlasTexture {
             depth_or_array_layers: layers,
             ..before.size()
         };
-        encoder.copy_texture_to_texture(
-            before.as_image_copy(),
-            self.texture.as_image_copy(),
-            size,
-        );
+        encoder.copy_texture_to_texture(before.as_image_copy(), self.texture.as_image_copy(), size);
         true
     }
 

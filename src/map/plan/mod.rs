@@ -22,6 +22,6 @@ pub(crate) use importance::{LitSphere, Screen, importance};
 pub(crate) use residents::{Claim, Residents};
 pub(crate) use schedule::longest_wait;
 pub use sizing::TileSize;
-pub(crate) use slot::Slot;
+pub(crate) use slot::{Slot, Tile};
 pub(crate) use slots::Slots;
 pub(crate) use static_layer::DrawMode;

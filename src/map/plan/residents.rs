@@ -70,11 +70,7 @@ impl Residents {
 
     /// Gives the claimants tiles of the sizes that they can have, and all others none. Tells the slots
     /// whose tiles came, went, or are elsewhere now. With an error nothing has changed.
-    pub fn settle(
-        &mut self,
-        slots: usize,
-        claims: &[Claim],
-    ) -> Result<Vec<usize>, TileSizeError> {
+    pub fn settle(&mut self, slots: usize, claims: &[Claim]) -> Result<Vec<usize>, TileSizeError> {
         self.slots.resize_with(slots, Resident::default);
         let requests: Vec<SizeRequest> = claims.iter().map(|claim| self.request(claim)).collect();
         let standings = choose_sizes(&requests, self.allocator.capacity())?;
@@ -91,10 +87,12 @@ impl Residents {
         for (index, (slot, claim)) in self.slots.iter_mut().zip(&claimed).enumerate() {
             slot.standing = claim.map(|(_, standing)| standing);
             let (tiles, size) = claim.map_or((0, 0), |(tiles, standing)| (tiles, standing.size));
-            let stays = slot.places.len() == tiles
-                && slot.places.iter().all(|place| place.size == size);
+            let stays =
+                slot.places.len() == tiles && slot.places.iter().all(|place| place.size == size);
             if !stays {
-                slot.places.drain(..).for_each(|place| self.allocator.free(place));
+                slot.places
+                    .drain(..)
+                    .for_each(|place| self.allocator.free(place));
                 moved.push(index);
                 homeless.push((size, index, tiles));
             }
@@ -194,7 +192,11 @@ mod tests {
         assert_eq!(residents.settle(8, &claims).map(|moved| moved.len()), Ok(8));
         assert_eq!(residents.settle(8, &claims), Ok(vec![]));
         let before = residents.places(5).to_vec();
-        let fewer: Vec<Claim> = claims.iter().filter(|claim| claim.slot != 2).copied().collect();
+        let fewer: Vec<Claim> = claims
+            .iter()
+            .filter(|claim| claim.slot != 2)
+            .copied()
+            .collect();
         assert_eq!(residents.settle(8, &fewer), Ok(vec![2]));
         assert_eq!(residents.places(5), before);
         assert!(residents.places(2).is_empty());

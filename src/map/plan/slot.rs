@@ -233,6 +233,17 @@ impl Slot {
         joint && self.mask_of(|bit, tile| tile.shown != self.projection(bit)) != 0
     }
 
+    /// The tiles of which receivers must be told something before they are told anything of the light:
+    /// cascades, which lie in each other's place where one is missing.
+    pub fn urgent(&self) -> u8 {
+        match self.light() {
+            Some(LightProjection::Cascades(_)) => {
+                self.mask_of(|bit, tile| tile.shown.is_none() && self.projection(bit).is_some())
+            }
+            _ => 0,
+        }
+    }
+
     pub fn empty(&self) -> u8 {
         self.mask_of(|_, tile| tile.content.is_empty())
     }

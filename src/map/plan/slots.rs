@@ -40,6 +40,13 @@ impl Slots {
         }
     }
 
+    /// Makes places for so many lights at least.
+    pub fn grow(&mut self, count: usize) {
+        if count > self.slots.len() {
+            self.slots.resize_with(count, || Slot::new(true));
+        }
+    }
+
     pub fn order(&self) -> &[usize] {
         &self.order
     }
@@ -87,6 +94,28 @@ impl Slots {
             }
             slot.set_light(light.clone(), casters.records(), &self.reached);
         }
+    }
+
+    /// Gives a slot another projection of its light, after it was taken over.
+    pub fn refit(&mut self, slot: usize, light: LightProjection, casters: &Casters) {
+        let slot = &mut self.slots[slot];
+        if slot.light() != Some(&light) {
+            self.reached.clear();
+            self.reached.extend(0..casters.records().len() as u32);
+            slot.leave_light(Some(&light));
+            slot.set_light(light, casters.records(), &self.reached);
+        }
+    }
+
+    /// Counts the frames in which a light reaches no caster. Whether that is so short that its texels
+    /// stay.
+    pub fn needs_texels(&mut self, slot: usize, has_some: bool) -> bool {
+        let slot = &mut self.slots[slot];
+        slot.idle = match slot.casting {
+            0 => slot.idle.saturating_add(1),
+            _ => 0,
+        };
+        slot.casting > 0 || has_some && slot.idle < IDLE
     }
 
     /// Learns that casters were updated for a frame whose lights were refused: what changed is not
