@@ -1,5 +1,8 @@
 //! Errors: one enum per operation. Every message says what to change.
 
+// Public with the atlas, as is `tiles`.
+#[allow(dead_code)]
+mod cascades;
 mod light;
 mod map;
 mod mesh;
@@ -12,6 +15,7 @@ mod tiles;
 mod volume;
 mod volume_debug;
 
+pub(crate) use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};

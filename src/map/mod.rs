@@ -1,6 +1,9 @@
 //! Shadow maps.
 
 mod bias;
+// Not used until the atlas is.
+#[allow(dead_code)]
+mod cascades;
 mod cross;
 mod cube;
 mod cube_descriptor;
