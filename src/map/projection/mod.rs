@@ -12,12 +12,14 @@ mod placement;
 #[allow(dead_code)]
 mod slices;
 mod spot;
+mod tiles;
 
+pub(crate) use cube::ALL_FACES;
 pub use cube::CubeFace;
-pub(crate) use cube::{ALL_FACES, clear_of_near, touched_faces};
 pub(crate) use directional::{Fit, fit_directional};
 pub(crate) use flat::FlatFrame;
 pub(crate) use light_box::LightBox;
 pub(crate) use near::NearPlane;
 pub(crate) use placement::{MapShape, Placed};
 pub(crate) use spot::fit_spot;
+pub(crate) use tiles::{LightProjection, MOST_TILES, TileProjection, TileSides};
