@@ -318,6 +318,7 @@ impl ShadowAtlas {
         self.statistics
     }
 
+    #[allow(dead_code)] // until receivers read it
     pub(crate) fn light_buffer(&self) -> &wgpu::Buffer {
         self.gpu.lights().buffer()
     }

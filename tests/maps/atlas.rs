@@ -264,7 +264,7 @@ fn nothing_that_came_before_is_seen_in_any_tile() {
 }
 
 fn size_of_step(step: usize) -> u32 {
-    if step % 2 == 0 { 64 } else { 128 }
+    if step.is_multiple_of(2) { 64 } else { 128 }
 }
 
 #[test]

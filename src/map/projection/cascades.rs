@@ -122,5 +122,5 @@ fn cover(
 }
 
 #[cfg(test)]
-#[path = "cascades_tests.rs"]
+#[path = "cascades_tests/mod.rs"]
 mod tests;
