@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 use crate::atlas::{assert_few, atlas, descriptor, draw, layers, room, texels, wrong_texels};
 use crate::common::own_pass::OwnPass;
 use crate::common::shapes::{Shape, sphere};
-use glam::{Affine3A, Mat4, Vec3};
+use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::error::{CasterError, CubeShadowMapError};
 use shadows::mesh::Bounds;
@@ -113,7 +113,7 @@ impl Leaf {
             self.shape.indices.iter().map(of)
         };
         let positions: Vec<Vec3> = asked.casters.iter().flat_map(place).collect();
-        OwnPass::new(device, &Mat4::from(asked.clip_from_world), &positions)
+        OwnPass::new(device, &asked.clip_from_world, &positions)
     }
 
     /// The casters with all that the host draws as meshes of ours.
