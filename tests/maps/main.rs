@@ -1,5 +1,6 @@
 //! Shadow maps as they are drawn: every texel, what is cached and what is left out, each against an exact answer.
 
+mod atlas;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_budget;
