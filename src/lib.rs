@@ -222,8 +222,9 @@ pub use map::{
     Allocation, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit,
     CascadeSplit, Cascades, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
     CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FaceState,
-    FaceStatistics, FlatLight, LocalLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame,
-    ShadowMap, ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize, texture_from_clip,
+    FaceStatistics, FlatLight, HostDraw, LocalLight, ShadowAtlas, ShadowAtlasDescriptor,
+    ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize,
+    texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
 pub use pcf::{

@@ -4,12 +4,15 @@ use glam::Mat4;
 
 use super::atlas_descriptor::{AtlasFrame, AtlasView, LEAST_TILE, ShadowAtlasDescriptor};
 use super::atlas_statistics::AtlasStatistics;
-use super::gpu::{AtlasGpu, AtlasKind, Draw, LightRecord, Resized, TileTexture, Tiles, TooLarge};
+use super::gpu::{
+    AtlasGpu, AtlasKind, Draw, DrawByHost, HostDraw, LightRecord, Resized, TileTexture, Tiled,
+    Tiles, TooLarge,
+};
 use super::plan::{
     Claim, LitSphere, Place, Residents, Rules, Screen, Slot, SlotPlan, Slots, Tally, casters_drawn,
     choose_tiles, follow, importance, longest_wait,
 };
-use super::projection::{LightProjection, TileProjection, fit_spot};
+use super::projection::{LightProjection, SlotLight, TileProjection, fit_spot};
 use super::statistics::{Clock, FaceState, FaceStatistics};
 use super::suns::{Sun, Suns};
 use super::{AtlasLight, StaticLayers};
@@ -59,6 +62,8 @@ pub struct ShadowAtlas {
     lights: usize,
     views: usize,
     of_light: Vec<(usize, usize)>,
+    /// For each slot its light and view in the last frame.
+    names: Vec<(usize, usize)>,
     gpu: AtlasGpu,
     submissions: Submissions,
     statistics: AtlasStatistics,
@@ -134,7 +139,7 @@ impl ShadowAtlas {
             budget: descriptor.max_tiles_per_frame,
             static_layers: descriptor.static_layers,
             adapter: device.adapter_info(),
-            casters: Casters::default(),
+            casters: Casters::with_host_drawn(),
             slots: Slots::new(0, true),
             suns: Suns::new(reach, gpu.unclipped_depth()),
             residents: Residents::new(layer_size, descriptor.most_layers(device), LEAST_TILE),
@@ -142,6 +147,7 @@ impl ShadowAtlas {
             lights: 0,
             views: 1,
             of_light: Vec::new(),
+            names: Vec::new(),
             gpu,
             submissions: Submissions::default(),
             statistics: AtlasStatistics::default(),
@@ -203,6 +209,13 @@ impl ShadowAtlas {
             let (first, count) = self.of_light.last().copied().unwrap_or_default();
             self.of_light.push((first + count, run.len()));
         }
+        self.names.clear();
+        self.names.resize(self.slots.len(), (0, 0));
+        for (place, entry) in entries.iter().enumerate() {
+            if let Some(slot) = self.slots.of_light(place) {
+                self.names[slot] = (entry.index, entry.view.map_or(0, |(view, _)| view));
+            }
+        }
         self.write_lights(&entries);
         self.plans = plans;
         self.statistics = AtlasStatistics {
@@ -222,12 +235,56 @@ impl ShadowAtlas {
     /// lights as they were; of an atlas that was never drawn they see all lights dark. What is recorded
     /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
     /// ([`AtlasStatistics::encoder_dropped`]).
+    ///
+    /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
+    /// missing from what this draws. Their tiles count as not drawn, so that the next frame draws them
+    /// again. Hosts that have any call [`encode_with`](Self::encode_with).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        self.encode_tiles(encoder, None);
+    }
+
+    /// As [`encode`](Self::encode), and asks the host to draw what only it can: `draw` is called within the
+    /// pass of each tile that such casters touch, after all else on that tile, once for the tile, or
+    /// once for its static casters and once for the others ([`StaticLayers`](crate::StaticLayers)).
+    ///
+    /// Viewport and scissor are set, and must stay. The pass has no colour target, one sample and a depth
+    /// target of the atlas's [`format`](ShadowAtlasDescriptor::format); compare with `Greater`, write
+    /// depth, and let vertices be at [`clip_from_world`](HostDraw::clip_from_world) times their position,
+    /// with `unclipped_depth` where the device has
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), so that what is nearer than the near
+    /// plane casts. On wgpu's GL back end, let the fragment shader of lights with a position write
+    /// clip z times its position's w as `frag_depth`: the rasteriser's own depth has too few digits there
+    /// (see [`Support`](crate::Support)).
+    pub fn encode_with(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        mut draw: impl FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>),
+    ) {
+        self.encode_tiles(encoder, Some(&mut draw));
+    }
+
+    fn encode_tiles(&mut self, encoder: &mut wgpu::CommandEncoder, draw: Option<DrawByHost<'_>>) {
         let mut recorded = self.gpu.upload(encoder);
-        self.gpu.encode(encoder, &self.slots, &self.residents);
-        for slot in self.slots.iter_mut() {
+        let host_draws = draw.is_some();
+        let tiles = Tiled {
+            slots: &self.slots,
+            residents: &self.residents,
+            names: &self.names,
+        };
+        self.gpu.encode(encoder, &tiles, draw);
+        for (index, slot) in self.slots.iter_mut().enumerate() {
             recorded |= slot.pending != 0;
-            slot.encoded(slot.pending);
+            let pending = slot.pending;
+            slot.encoded(pending);
+            if !host_draws {
+                let missing = |tile: &usize| {
+                    let draws = self.gpu.draws().of(index, *tile);
+                    pending & 1 << tile != 0
+                        && !(draws.tile.host.is_empty() && draws.layer.host.is_empty())
+                };
+                let tiles: Vec<usize> = (0..slot.tiles.len()).filter(missing).collect();
+                tiles.into_iter().for_each(|tile| slot.spoil(tile));
+            }
         }
         if recorded {
             self.submissions.watch(encoder);
@@ -351,7 +408,10 @@ impl ShadowAtlas {
         let size = |entry: usize, of: &Entry<'_>| before[entry].unwrap_or(of.light.size().most());
         let mut projections = Vec::with_capacity(entries.len());
         for (place, entry) in entries.iter().enumerate() {
-            projections.push(self.project(frame, entry, size(place, entry))?);
+            projections.push(SlotLight {
+                projection: self.project(frame, entry, size(place, entry))?,
+                filter: entry.light.filter(),
+            });
         }
         self.suns
             .keep(entries.iter().filter(|of| of.sun.is_some()).count());

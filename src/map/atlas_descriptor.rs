@@ -1,7 +1,10 @@
 //! What an atlas is made from and told each frame.
 
+use std::num::NonZeroU32;
+
 use super::encoding::{quantum, texel_bytes};
 use super::plan::TileSize;
+use super::projection::CasterFilter;
 use super::{Bias, Cascades, CasterSides, DepthBounds, StaticLayers};
 use crate::error::ShadowAtlasError;
 use crate::mesh::{Bounds, Caster};
@@ -110,6 +113,7 @@ pub struct AtlasLight {
     cascades: Cascades,
     size: TileSize,
     pinned: bool,
+    filter: CasterFilter,
 }
 
 impl AtlasLight {
@@ -124,6 +128,7 @@ impl AtlasLight {
                 most: 1024,
             },
             pinned: false,
+            filter: CasterFilter::ALL,
         }
     }
 
@@ -139,6 +144,7 @@ impl AtlasLight {
                 most: 1024,
             },
             pinned: false,
+            filter: CasterFilter::ALL,
         }
     }
 
@@ -156,6 +162,19 @@ impl AtlasLight {
         }
     }
 
+    /// The same, casting the shadows of casters alone that are on any of these layers, a bit each
+    /// ([`Caster::layers`]).
+    pub fn with_layers(mut self, layers: u32) -> Self {
+        self.filter.layers = layers;
+        self
+    }
+
+    /// The same, casting no shadow of what is its owner's ([`Caster::owner`]): a lamp's own shade.
+    pub fn owned_by(mut self, owner: NonZeroU32) -> Self {
+        self.filter.owner = Some(owner);
+        self
+    }
+
     /// The light.
     pub fn light(&self) -> Light {
         self.light
@@ -167,6 +186,10 @@ impl AtlasLight {
 
     pub(super) fn size(&self) -> TileSize {
         self.size
+    }
+
+    pub(super) fn filter(&self) -> CasterFilter {
+        self.filter
     }
 
     pub(super) fn is_pinned(&self) -> bool {

@@ -88,14 +88,16 @@ pub enum CascadeSplit {
     Practical {
         /// 1: each cascade is as many times as far as the one before it, so that all have about as many
         /// texels a pixel, which wastes the first ones where nothing is near. 0: all are equally long.
-        /// Default 0.75. 0 to 1.
+        /// Default 0.85: over flat ground seen from 1.7 above it, for distances of 100 to 1000 and near
+        /// planes of 0.01 to 1, the texels that pixels see are in the mean at most 1.33 times as wide as
+        /// with the best value for each. 0 to 1.
         lambda: f32,
     },
 }
 
 impl Default for CascadeSplit {
     fn default() -> Self {
-        Self::Practical { lambda: 0.75 }
+        Self::Practical { lambda: 0.85 }
     }
 }
 

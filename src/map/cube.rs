@@ -8,7 +8,7 @@ use super::gpu::{CubeGpu, Draw, TooLarge, most_tiles};
 use super::plan::{
     Rules, Slot, SlotPlan, Slots, Tally, casters_drawn, choose_tiles, follow, longest_wait,
 };
-use super::projection::{CubeFace, LightProjection};
+use super::projection::{CubeFace, LightProjection, SlotLight};
 use super::statistics::{Clock, CubeStatistics, FaceStatistics};
 use crate::Radius;
 use crate::error::CubeShadowMapError;
@@ -117,7 +117,7 @@ impl CubeShadowMap {
             self.invalidate();
         }
         let lights = frame.lights.iter().copied().map(LightProjection::Point);
-        let lights: Vec<_> = lights.collect();
+        let lights: Vec<_> = lights.map(SlotLight::from).collect();
         self.casters.update(frame.casters);
         self.slots.take_over(&lights, &mut self.casters);
         self.allocate(device);

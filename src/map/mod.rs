@@ -30,6 +30,7 @@ pub use cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
 pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
+pub use gpu::HostDraw;
 pub(crate) use gpu::{FlatLightUniform, LightUniform};
 pub use plan::TileSize;
 pub use projection::CubeFace;

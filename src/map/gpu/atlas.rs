@@ -1,8 +1,10 @@
 //! All that an atlas has on the GPU.
 
+use glam::Mat4;
+
 use super::atlas_lights::AtlasLights;
 use super::atlas_texture::{AtlasTexture, Resized};
-use super::draws::{Draw, DrawLists};
+use super::draws::{Draw, DrawLists, ListedDraws};
 use super::encode::{Drawing, begin_depth_pass};
 use super::instances::{Instances, TooLarge};
 use super::light_record::TilePlace;
@@ -42,6 +44,37 @@ pub(crate) struct AtlasGpu {
     instances: Instances,
     draws: DrawLists,
     uploads: Uploads,
+}
+
+/// What the host is asked to draw on one tile.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct HostDraw<'a> {
+    /// The light's place in the last frame.
+    pub light: usize,
+    /// The view's, for a directional light.
+    pub view: usize,
+    /// The face of a point light, in the order of [`CubeFace::ALL`](crate::CubeFace::ALL), or the cascade of
+    /// a directional light.
+    pub tile: usize,
+    /// World space to clip space. The frame is left-handed: triangles that are counter-clockwise seen from
+    /// the light are clockwise on the tile.
+    pub clip_from_world: Mat4,
+    /// Texels along the tile's side.
+    pub size: u32,
+    /// The places in the last frame's casters of those that are to be drawn.
+    pub casters: &'a [usize],
+}
+
+/// Draws what only the host can.
+pub(crate) type DrawByHost<'a> = &'a mut dyn FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>);
+
+/// The lights whose tiles are drawn.
+pub(crate) struct Tiled<'a> {
+    pub slots: &'a Slots,
+    pub residents: &'a Residents,
+    /// Light and view of each slot.
+    pub names: &'a [(usize, usize)],
 }
 
 /// A tile that the next encode draws.
@@ -216,48 +249,60 @@ impl AtlasGpu {
     }
 
     /// Draws the pending tiles, those of a layer in one pass.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, slots: &Slots, residents: &Residents) {
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        tiled: &Tiled<'_>,
+        mut by_host: Option<DrawByHost<'_>>,
+    ) {
+        let slots = tiled.slots.iter().enumerate();
         let mut pending: Vec<Pending> = slots
-            .iter()
-            .enumerate()
-            .flat_map(|(index, slot)| pending_tiles(index, slot, residents))
+            .flat_map(|(index, slot)| pending_tiles(index, slot, tiled.residents))
             .collect();
         pending.sort_by_key(|tile| tile.place.layer);
         for tiles in pending.chunk_by(|a, b| a.place.layer == b.place.layer) {
-            self.encode_layer(encoder, slots, residents, tiles);
+            self.encode_statics(encoder, tiled, tiles, &mut by_host);
+            self.encode_layer(encoder, tiled, tiles, &mut by_host);
+        }
+    }
+
+    /// Draws what is static on some tiles of a layer, where that is to be copied.
+    fn encode_statics(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        tiled: &Tiled<'_>,
+        tiles: &[Pending],
+        by_host: &mut Option<DrawByHost<'_>>,
+    ) {
+        let built = |tile: &&Pending| matches!(tile.mode(tiled), DrawMode::Build(_));
+        let built: Vec<&Pending> = tiles.iter().filter(built).collect();
+        let layer = tiles[0].place.layer;
+        let Some(statics) = self.texture.statics(layer).filter(|_| !built.is_empty()) else {
+            return;
+        };
+        let label = format!("{} static layer {layer}", self.label);
+        let mut pass = begin_depth_pass(encoder, &label, &statics.view, wgpu::LoadOp::Load);
+        for tile in built {
+            set_tile(&mut pass, tile.place);
+            self.fill.clear(&mut pass);
+            let draws = &self.draws.of(tile.slot, tile.tile).layer;
+            self.record(&mut pass, tiled, tile, draws, by_host);
         }
     }
 
     fn encode_layer(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        slots: &Slots,
-        residents: &Residents,
+        tiled: &Tiled<'_>,
         tiles: &[Pending],
+        by_host: &mut Option<DrawByHost<'_>>,
     ) {
         let layer = tiles[0].place.layer;
-        let mode = |tile: &Pending| slots[tile.slot].tiles[tile.tile].layer.mode();
-        let statics = self.texture.statics(layer);
-        let built = tiles
-            .iter()
-            .filter(|tile| matches!(mode(tile), DrawMode::Build(_)));
-        let built: Vec<&Pending> = built.collect();
-        if let Some(statics) = statics.filter(|_| !built.is_empty()) {
-            let label = format!("{} static layer {layer}", self.label);
-            let load = wgpu::LoadOp::Load;
-            let mut pass = begin_depth_pass(encoder, &label, &statics.view, load);
-            for tile in built {
-                set_tile(&mut pass, tile.place);
-                self.fill.clear(&mut pass);
-                let draws = self.draws.of(tile.slot, tile.tile);
-                self.record(&mut pass, tile, &draws.layer);
-            }
-        }
         let Some(view) = self.texture.layer(layer) else {
             return; // prepare made a layer wherever there is a tile
         };
         // Where all of a layer is drawn anew nothing of it need be read.
-        let whole = tiles.len() == residents.count_in(layer);
+        let whole = tiles.len() == tiled.residents.count_in(layer);
         let load = match whole {
             true => wgpu::LoadOp::Clear(DepthEncoding::MajorAxis.clear_depth()),
             false => wgpu::LoadOp::Load,
@@ -266,25 +311,55 @@ impl AtlasGpu {
         let mut pass = begin_depth_pass(encoder, &label, view, load);
         for tile in tiles {
             set_tile(&mut pass, tile.place);
-            match (mode(tile), statics) {
+            match (tile.mode(tiled), self.texture.statics(layer)) {
                 (DrawMode::Copy(_) | DrawMode::Build(_), Some(statics)) => {
                     self.fill.copy(&mut pass, &statics.source);
                 }
                 _ if !whole => self.fill.clear(&mut pass),
                 _ => {}
             }
-            let draws = self.draws.of(tile.slot, tile.tile);
-            self.record(&mut pass, tile, &draws.tile);
+            let draws = &self.draws.of(tile.slot, tile.tile).tile;
+            self.record(&mut pass, tiled, tile, draws, by_host);
         }
     }
 
-    fn record(&self, pass: &mut wgpu::RenderPass<'_>, tile: &Pending, draws: &[Draw]) {
+    fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        tiled: &Tiled<'_>,
+        tile: &Pending,
+        listed: &ListedDraws,
+        by_host: &mut Option<DrawByHost<'_>>,
+    ) {
         let drawing = Drawing {
             uniforms: &self.uniforms,
             pipelines: &self.pipelines,
             instances: &self.instances,
         };
-        drawing.record(pass, uniform_index(tile.slot, tile.tile), draws);
+        drawing.record(pass, uniform_index(tile.slot, tile.tile), &listed.draws);
+        let projection = tiled.slots[tile.slot].projection(tile.tile);
+        if let (Some(draw), Some(projection)) = (by_host, projection)
+            && !listed.host.is_empty()
+        {
+            let (light, view) = tiled.names[tile.slot];
+            let from_light = projection.clip_from_light(tile.tile, self.near_plane);
+            let clip_from_world = from_light * Mat4::from_translation(-projection.origin());
+            let asked = HostDraw {
+                light,
+                view,
+                tile: tile.tile,
+                clip_from_world,
+                size: tile.place.size,
+                casters: &listed.host,
+            };
+            draw(pass, &asked);
+        }
+    }
+}
+
+impl Pending {
+    fn mode(&self, tiled: &Tiled<'_>) -> DrawMode {
+        tiled.slots[self.slot].tiles[self.tile].layer.mode()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::map::plan::Slot;
 use crate::map::projection::{MOST_TILES, NearPlane};
 use crate::map::sides::{CasterSides, Cull};
 use crate::mesh::{Caster, CasterMesh};
-use crate::scene::Casters;
+use crate::scene::{Casters, Record};
 
 /// One draw call: a mesh, and where its instances lie.
 #[derive(Clone, Debug)]
@@ -83,8 +83,22 @@ fn batch(
 /// What is drawn on one tile, and on the layer under it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TileDraws {
-    pub tile: Vec<Draw>,
-    pub layer: Vec<Draw>,
+    pub tile: ListedDraws,
+    pub layer: ListedDraws,
+}
+
+/// Draws in one pass: those of the map, and the places of casters that the host draws.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ListedDraws {
+    pub draws: Vec<Draw>,
+    pub host: Vec<usize>,
+}
+
+impl ListedDraws {
+    const NONE: Self = Self {
+        draws: Vec::new(),
+        host: Vec::new(),
+    };
 }
 
 /// The draws of all tiles of a map that the next encode draws.
@@ -107,8 +121,8 @@ impl DrawLists {
     /// What is drawn on a tile of a slot.
     pub fn of(&self, slot: usize, tile: usize) -> &TileDraws {
         const NONE: &TileDraws = &TileDraws {
-            tile: Vec::new(),
-            layer: Vec::new(),
+            tile: ListedDraws::NONE,
+            layer: ListedDraws::NONE,
         };
         let tiles = self.slots.get(slot);
         tiles.and_then(|tiles| tiles.get(tile)).unwrap_or(NONE)
@@ -116,7 +130,7 @@ impl DrawLists {
 
     pub fn iter(&self) -> impl Iterator<Item = &Draw> {
         let tiles = self.slots.iter().flatten();
-        tiles.flat_map(|draws| draws.tile.iter().chain(&draws.layer))
+        tiles.flat_map(|draws| draws.tile.draws.iter().chain(&draws.layer.draws))
     }
 
     pub fn instances(&self) -> &[Instance] {
@@ -165,6 +179,10 @@ impl DrawLists {
         self.members.iter_mut().flatten().for_each(Vec::clear);
         for at in slot.masks().touching(mask) {
             let (caster, record) = (&all[at], &casters.records()[at]);
+            if record.host_drawn {
+                self.add_host_drawn((index, slot), at, mask, record);
+                continue;
+            }
             let clear = projection.is_clear_of(&record.bounds, near_plane);
             let member = (
                 record.mesh,
@@ -187,8 +205,26 @@ impl DrawLists {
             }
         }
         for (draws, members) in self.slots[index].iter_mut().zip(&mut self.members) {
-            for (draws, members) in [&mut draws.tile, &mut draws.layer].into_iter().zip(members) {
+            for (listed, members) in [&mut draws.tile, &mut draws.layer].into_iter().zip(members) {
+                let draws = &mut listed.draws;
                 batch(members, &self.rows, casters, &mut self.instances, draws);
+            }
+        }
+    }
+
+    fn add_host_drawn(
+        &mut self,
+        (index, slot): (usize, &Slot),
+        caster: usize,
+        mask: u8,
+        record: &Record,
+    ) {
+        let on = slot.masks().get(caster) & mask;
+        for (tile, draws) in self.slots[index].iter_mut().enumerate() {
+            if on & 1 << tile != 0 {
+                let (in_tile, in_layer) = slot.lists(tile, record);
+                draws.tile.host.extend(in_tile.then_some(caster));
+                draws.layer.host.extend(in_layer.then_some(caster));
             }
         }
     }

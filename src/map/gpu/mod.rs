@@ -17,7 +17,8 @@ mod texture;
 mod tile_fill;
 mod uniforms;
 
-pub(crate) use atlas::{AtlasGpu, AtlasKind};
+pub use atlas::HostDraw;
+pub(crate) use atlas::{AtlasGpu, AtlasKind, DrawByHost, Tiled};
 pub(crate) use atlas_texture::Resized;
 pub(crate) use cube::CubeGpu;
 pub(crate) use cube_lights::LightUniform;

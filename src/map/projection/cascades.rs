@@ -2,7 +2,7 @@
 
 use super::flat::FlatFrame;
 use super::light_box::{LightAxes, LightBox};
-use super::placement::{Cover, MapShape, Placed, Placement};
+use super::placement::{COARSE, Cover, FINE, MapShape, Placed, Placement};
 use super::slices::{Slice, box_of, box_of_sphere, slices};
 use crate::error::CascadeError;
 use crate::map::cascades::{CascadeFit, Cascades, DepthBounds};
@@ -34,7 +34,9 @@ pub(crate) struct Cascade {
 
 /// A light's cascades for a view, near ones first; none where nothing casts or nothing is seen.
 ///
-/// Each covers every point of its slice, with what kernels reach to spare, that may receive a shadow.
+/// Each covers every point of its slice, with what kernels reach to spare, that may receive a shadow. Of
+/// other points between a map's sides it says nothing unless they are 16 of its widths behind its near
+/// plane: casters before that are pulled onto it.
 ///
 /// # Errors
 /// [`CascadeError`] if a number is out of range, by itself or all together in `f32`. (Light, view and
@@ -93,7 +95,7 @@ fn slack(of: &CascadesOf<'_>) -> Result<f64, CascadeError> {
 /// What a cascade has to cover: what is seen, of what casts and receives. `None` if that is nothing.
 ///
 /// The width of a stable fit goes by the size of each, and not by how much of them meets, which changes
-/// as the camera walks.
+/// as the camera walks. Where it goes by a distance, it always is the same, and need not go in coarse steps.
 fn cover(
     of: &CascadesOf<'_>,
     casters: &LightBox,
@@ -108,16 +110,24 @@ fn cover(
     if across.extent().min_element() < 0.0 {
         return None;
     }
-    let extent = match of.cascades.fit {
-        CascadeFit::Stable => scene.extent().min(seen.extent() + 2.0 * reach),
-        CascadeFit::Tight => across.extent(),
+    let (extent, widths) = match of.cascades.fit {
+        CascadeFit::Stable => {
+            let scene = scene.extent().max_element();
+            let around = seen.extent().max_element() + 2.0 * reach;
+            match around <= scene && of.depth_bounds.is_none() {
+                true => (around, FINE),
+                false => (around.min(scene), COARSE),
+            }
+        }
+        CascadeFit::Tight => (across.extent().max_element(), COARSE),
     };
     let nearest = |received: &LightBox| received.min.z.max(seen.min.z);
     Some(Cover {
         across,
-        extent: extent.max_element(),
+        extent,
         nearest_receiver: received.map_or(seen.min.z, nearest),
         slack,
+        widths,
     })
 }
 

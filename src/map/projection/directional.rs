@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::flat::FlatFrame;
 use super::light_box::{LightAxes, LightBox};
-use super::placement::{Cover, MapShape, Placed, Placement};
+use super::placement::{COARSE, Cover, MapShape, Placed, Placement};
 use crate::mesh::Bounds;
 use crate::{DirectionalLight, View};
 
@@ -50,6 +50,7 @@ pub(crate) fn fit_directional(fit: &Fit<'_>) -> Option<(FlatFrame, Placed)> {
         extent: extent.max_element(),
         nearest_receiver,
         slack: 0.0,
+        widths: COARSE,
     };
     let placement = Placement {
         axes: &axes,

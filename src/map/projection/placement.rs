@@ -13,6 +13,10 @@ const BOUND_WIDTHS: f64 = 16.0;
 /// The same camera, rounded to `f32` in two ways, sees sizes that differ by no larger share.
 const SAME: f64 = 1e-6;
 
+/// Widths to choose from in an octave: of maps of what changes in size with every frame, and of others.
+pub(super) const COARSE: f64 = 4.0;
+pub(super) const FINE: f64 = 64.0;
+
 /// What is the same for all maps of a kind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MapShape {
@@ -47,6 +51,8 @@ pub(super) struct Cover {
     pub nearest_receiver: f64,
     /// Texels by which what is covered may move before the map does.
     pub slack: f64,
+    /// Widths to choose from in an octave: [`COARSE`] or [`FINE`].
+    pub widths: f64,
 }
 
 /// What maps of one light are placed by.
@@ -59,8 +65,7 @@ pub(super) struct Placement<'a> {
 impl Placement<'_> {
     /// The frame of a map, no larger than it has to be.
     ///
-    /// Widths go in steps of a quarter octave, and the last one stays while it is no more than a step
-    /// too wide; the grid of texels is fixed in the world (Valient, "Stable Rendering of Cascaded Shadow
+    /// Widths go in steps, and the last one stays while it is no more than a step too wide; the grid of texels is fixed in the world (Valient, "Stable Rendering of Cascaded Shadow
     /// Maps", ShaderX6, 2008). So shadows do not shimmer when the camera moves or turns.
     pub fn place(&self, cover: &Cover, last: Option<Placed>) -> (FlatFrame, Placed) {
         let size = f64::from(self.shape.size);
@@ -110,10 +115,11 @@ impl Placement<'_> {
         // The frame's origin is rounded, too.
         let need = cover.extent.max(self.least_extent(cover)) + 2.0 * rounding;
         let need = need / (1.0 - share);
-        let step = ((need * (1.0 + SAME)).log2() * 4.0).ceil() / 4.0;
+        let step = ((need * (1.0 + SAME)).log2() * cover.widths).ceil();
+        let wide = |step: f64| (step / cover.widths).exp2();
         match last {
-            Some(last) if last.width >= need && last.width <= (step + 0.26).exp2() => last.width,
-            _ => step.exp2(),
+            Some(last) if last.width >= need && last.width <= wide(step + 1.04) => last.width,
+            _ => wide(step),
         }
     }
 
@@ -177,6 +183,7 @@ mod tests {
             extent,
             nearest_receiver: min.z,
             slack: 0.25,
+            widths: COARSE,
         }
     }
 

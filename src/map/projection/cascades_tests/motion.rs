@@ -72,6 +72,12 @@ fn a_camera_that_turns_in_place_changes_no_frame() {
     assert!(changes_in_a_turn(CascadeFit::Tight, Vec3::ONE, normal) > 200);
 }
 
+/// Where a camera is on its way.
+fn place(step: u32) -> Vec3 {
+    let step = step as f32;
+    Vec3::new(0.05 * step, 2.0 + (0.1 * step).sin(), 8.0 - 0.03 * step)
+}
+
 /// What a camera does to the cascades of a light on its way: for each step and cascade, the frame and
 /// the one before.
 fn walk(
@@ -154,18 +160,63 @@ fn a_camera_that_walks_moves_stable_cascades_by_whole_texels() {
 #[test]
 fn a_cascade_stays_until_the_camera_has_walked_its_margin() {
     let normal = |eye, along| perspective(50.0, eye, along);
-    let moved = |margin| {
+    let path: f32 = (1..300)
+        .map(|step| place(step).distance(place(step - 1)))
+        .sum();
+    let moves = |margin| {
         let cascades = Cascades {
             margin,
             ..fitted(CascadeFit::Stable)
         };
         let steps = walk(&cascades, normal, 0.0);
-        // Of the last cascade, which is 230 wide.
-        let last: Vec<_> = steps.iter().skip(3).step_by(4).copied().collect();
-        (grid_motion(&steps).1, grid_motion(&last).1)
+        [0, 1, 2, 3].map(|cascade| {
+            let steps: Vec<_> = steps.iter().skip(cascade).step_by(4).copied().collect();
+            (2.0 / steps[0].0.scale, grid_motion(&steps).1)
+        })
     };
-    let (all, last) = moved(1.0 / 32.0);
-    assert!(all < 60 && last <= 4, "{all} {last}");
-    let (all, last) = moved(0.0);
-    assert!(all > 600 && last > 40, "{all} {last}");
+    let margin = 1.0 / 32.0;
+    let total = |moves: [(f32, usize); 4]| moves.iter().map(|(_, moves)| moves).sum::<usize>();
+    for (width, moved) in moves(margin) {
+        let most = path / (margin * width);
+        assert!(moved as f32 <= most, "{width} wide: {moved}, not {most}");
+    }
+    // The broken twin: without a margin they follow.
+    let (stay, follow) = (total(moves(margin)), total(moves(0.0)));
+    assert!(10 * stay < follow, "{stay} {follow}");
+}
+
+#[test]
+fn depths_seen_that_change_a_little_change_no_size() {
+    let (light, view) = (sun(), perspective(50.0, Vec3::ONE, Vec3::X));
+    // How often sizes change while the farthest that is seen goes to and fro by a share of itself.
+    let resized = |share: f32, fit| {
+        let cascades = fitted(fit);
+        let mut last = Vec::new();
+        let mut scales: Vec<f32> = Vec::new();
+        let mut resized = 0;
+        for frame in 0..40 {
+            let farthest = 40.0 * (1.0 + share * (0.7 * frame as f32).sin());
+            let depth_bounds = Some(DepthBounds {
+                nearest: 1.0,
+                farthest,
+            });
+            let now = fit_cascades(&CascadesOf {
+                depth_bounds,
+                last: &last,
+                ..of(&view, &light, &cascades)
+            })
+            .unwrap();
+            last = placed(&now);
+            let now: Vec<f32> = frames(&now).iter().map(|frame| frame.scale).collect();
+            // The first ones find the greatest.
+            let changed = now.iter().zip(&scales).filter(|(a, b)| a != b).count();
+            resized += if frame > 9 { changed } else { 0 };
+            scales = now;
+        }
+        resized
+    };
+    for fit in FITS {
+        assert_eq!(resized(0.08, fit), 0, "{fit:?}");
+        assert!(resized(0.4, fit) > 10, "{fit:?}");
+    }
 }
