@@ -8,7 +8,7 @@ fn shadows_cube_whole(receiver: ShadowsCubeReceiver, size: f32, corner: vec2f, r
 // Whether casters are nearer than the plane at the texels around a corner: bottom left, bottom right,
 // top right, top left. Its depths are `columns` (left, right) and `rows` (top, bottom) together.
 fn shadows_cube_blocked(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
@@ -16,11 +16,9 @@ fn shadows_cube_blocked(
     columns: vec2f,
     rows: vec2f,
 ) -> vec4<bool> {
-    // Halfway between the texel centres, so no rounding of the address picks other texels.
-    let direction = vec3f(receiver.half_size, corner);
-    let found = shadows_cube_gather(map, map_sampler, receiver, direction);
+    let found = shadows_cube_gather(map, map_sampler, receiver, corner);
     let depths = columns.xyyx + rows.yyxx;
-    let step = 2.0 / size;
+    let step = 2.0 * receiver.step;
     let s = step * (corner.x + vec4f(-0.5, 0.5, 0.5, -0.5));
     let t = step * (corner.y + vec4f(0.5, 0.5, -0.5, -0.5));
     return shadows_cube_nearer(receiver, depths, found, 1.0 + s * s + t * t);

@@ -22,10 +22,15 @@ struct ShadowsCubeLight {
     // the size is even, else 0.
     centre: f32,
     // What would be the same for every receiver: a little less than half of the size, so that scaled by it
-    // only a direction's major axis is as long as half of a face; 2 / size; the range, squared; the depth that
+    // no direction is rounded to beyond a face; 2 / size; the range, squared; the depth that
     // bounds those of planes, for a receiver at distance `half_size` along the major axis.
     half_size: f32,
     texel: f32,
     range_squared: f32,
     bound: f32,
+    // Half of the size: the middle of a face, in texels from its corner; and one over the size.
+    middle: f32,
+    step: f32,
+    // WebGL 2 takes uniforms in units of 16 bytes.
+    padding: vec2f,
 }

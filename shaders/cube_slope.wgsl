@@ -1,7 +1,7 @@
 // The plane of a receiver on a cube map from the derivatives of its position, or from the map. `reach`:
 // how far from the receiver a tap's texel may be, in texels and in the world.
 fn shadows_cube_derived(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,
     position: vec3f,
@@ -30,7 +30,7 @@ fn shadows_cube_derived(
 
 // The same from the map.
 fn shadows_cube_mapped(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,
     position: vec3f,
@@ -44,9 +44,9 @@ fn shadows_cube_mapped(
     var receiver: ShadowsCubeReceiver;
     receiver.face = face;
     receiver.texel = shadows_cube_across(face, from_light) * (light.half_size / major);
-    receiver.centre = light.centre;
-    receiver.half_size = light.half_size;
-    receiver.cube = light.cube;
+    receiver.middle = light.middle;
+    receiver.layer = shadows_cube_layer(light.cube, face);
+    receiver.step = light.step;
     receiver.quantum = light.quantum;
     receiver.range_over_near = light.range / light.near;
     let found = shadows_cube_slopes(map, map_sampler, receiver, light.size, taps);
@@ -66,22 +66,17 @@ fn shadows_cube_mapped(
 }
 
 fn shadows_cube_stored_at(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
     texel: vec2f,
 ) -> f32 {
-    let direction = vec3f(receiver.half_size, texel + 0.5);
-    let world = shadows_cube_to_world(receiver.face, direction);
-    let found = shadows_cube_fetch(map, map_sampler, receiver, world);
-    let step = 2.0 / size;
-    let squared = step * step * dot(direction, direction);
-    return shadows_cube_depth(receiver, vec4f(found), vec4f(squared)).x;
+    return shadows_cube_stored(map, map_sampler, receiver, size, texel + 0.5);
 }
 
 // The receiver's texel, or the nearest that has others to all sides on the same face.
 fn shadows_cube_inner(receiver: ShadowsCubeReceiver, size: f32) -> vec2f {
-    let most = receiver.half_size - 1.5;
+    let most = receiver.middle - 1.5;
     return shadows_cube_floor(receiver, clamp(receiver.texel, vec2f(-most), vec2f(most)));
 }

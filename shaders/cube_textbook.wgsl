@@ -1,7 +1,7 @@
 // The method as textbooks have it: one tap, and a constant bias of 0.15 in world units. (A map of
 // distances and a constant offset: Gerasimov, "Omnidirectional Shadow Mapping", GPU Gems, 2004.)
 fn shadows_cube_textbook(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,
     position: vec3f,
@@ -10,7 +10,7 @@ fn shadows_cube_textbook(
     let from_light = position - light.position;
     var receiver: ShadowsCubeReceiver;
     receiver.cube = light.cube;
-    let nearest = shadows_cube_fetch(map, map_sampler, receiver, from_light) * light.range;
+    let nearest = shadows_cube_fetch_in(map, map_sampler, receiver, from_light) * light.range;
     let distance = length(from_light);
     return select(1.0, 0.0, nearest + 0.15 < distance || distance > light.range);
 }

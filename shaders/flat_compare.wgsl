@@ -8,7 +8,7 @@ fn shadows_flat_whole(receiver: ShadowsFlatReceiver, size: f32, corner: vec2f, r
 // Whether casters are nearer than the plane at the texels around a corner: bottom left, bottom right,
 // top right, top left. Its depths are `columns` (left, right) and `rows` (top, bottom) together.
 fn shadows_flat_blocked(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
     size: f32,

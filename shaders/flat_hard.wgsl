@@ -1,6 +1,6 @@
 // One tap on the nearest texel (Williams, "Casting Curved Shadows on Curved Surfaces", 1978).
 fn shadows_flat_filter(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
     size: f32,

@@ -6,7 +6,7 @@
 //
 // `normal` is of any length and either sign, and its end may be off by `doubt`.
 fn shadows_flat_hardware(
-    map: texture_depth_2d,
+    map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
     light: ShadowsFlatLight,
     position: vec3f,
@@ -40,7 +40,7 @@ fn shadows_flat_hardware(
     let bias = light.normal_offset * (abs(steepness.x) + abs(steepness.y));
     let nearest = own + rise.x + rise.y + bias + slope * unknown;
     let reference = clamp(nearest, 0.0, max(bound, 0.0)) + light.quantum;
-    let share = textureSampleCompareLevel(map, map_sampler, place * light.step, reference);
+    let share = textureSampleCompareLevel(map, map_sampler, place * light.step, 0, reference);
     // Exactly 0 or 1 where all texels agree, however a sampler rounds the sum of their weights.
     let lit = saturate(share * (1.0 + 0x1p-16) - 0x1p-17);
     let on_map = shadows_flat_inside(light.size, place - 0.5) & (away > 0.0) & (light.quantum >= 0.0);

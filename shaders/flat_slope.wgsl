@@ -1,7 +1,7 @@
 // The plane of a receiver on a flat map from the derivatives of its position, or from the map. `reach`:
 // how far from the receiver a tap's texel may be, in texels and in the world.
 fn shadows_flat_derived(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsFlatLight,
     position: vec3f,
@@ -30,7 +30,7 @@ fn shadows_flat_derived(
 
 // The same from the map.
 fn shadows_flat_mapped(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsFlatLight,
     position: vec3f,
@@ -64,7 +64,7 @@ fn shadows_flat_mapped(
 }
 
 fn shadows_flat_stored_at(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
     size: f32,

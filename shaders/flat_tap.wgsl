@@ -3,7 +3,7 @@
 // Depth of the receiver's plane and the depth stored, at the texel that `local` falls on; `local` is
 // a point of the plane along the axes of the light's frame.
 fn shadows_flat_look(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
     size: f32,
@@ -14,7 +14,7 @@ fn shadows_flat_look(
     let place = local.yz * (receiver.texels / select(1.0, local.x, receiver.spot)) + 0.5 * size;
     let texel = floor(select(place, receiver.texel, behind));
     let centre = texel + 0.5;
-    let found = textureSampleLevel(map, map_sampler, centre * receiver.step, 0.0).x;
+    let found = textureSampleLevel(map, map_sampler, centre * receiver.step, 0, 0.0).x;
     // A directional light's receivers may be behind the map's end (depth 0), and the gap to their
     // blockers is measured to where they are. An empty texel is behind them wherever that is.
     let nothing = select(-3e38, 0.0, receiver.spot);

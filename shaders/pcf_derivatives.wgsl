@@ -23,7 +23,7 @@ fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
 // of two counts: the other may reach over the edge of what the texel shows. `taps` is 5, or 0 where
 // nothing is asked: drivers that run both sides of a branch run a loop once at least.
 fn shadows_cube_slopes(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,

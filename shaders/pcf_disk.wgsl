@@ -1,5 +1,5 @@
 // What kernels on a disk share: their parameters, the disk in the receiver's tangent plane, and
-// its taps.
+// its taps where the receiver's tile holds them all.
 
 struct ShadowsCubeKernel {
     // Of the disk: so many texels, plus so much in world units, at the receiver.
@@ -49,7 +49,7 @@ fn shadows_cube_radius(receiver: ShadowsCubeReceiver, kernel: ShadowsCubeKernel)
 
 // Depths at one tap: the plane's and the stored one.
 fn shadows_cube_tap(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
@@ -63,8 +63,8 @@ fn shadows_cube_tap(
 // The share of taps that are lit. Where `first` of them agree, the rest is taken to agree with them
 // (0: never). Offsets are in a texture: a uniform array given as a parameter is copied for every pixel. And
 // it is sampled: a load is guarded against coordinates outside by asking for the size, once a tap.
-fn shadows_cube_lit(
-    map: texture_cube<f32>,
+fn shadows_cube_lit_on(
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
@@ -95,7 +95,11 @@ fn shadows_cube_lit(
             break if i >= end;
         }
     }
-    // Exactly 0 or 1 where all taps agree, though a GPU's quotient of equal numbers need not be 1:
-    // stretched around one half by more than that, and cut off.
-    return saturate(1.0 + 0x1p-17 - f32(end - lit) * ((1.0 + 0x1p-16) / f32(end)));
+    return shadows_cube_share(end - lit, end);
+}
+
+// How much is lit where so many of some taps are blocked. Exactly 0 or 1 where all taps agree, though a
+// GPU's quotient of equal numbers need not be 1: stretched around one half by more than that, and cut off.
+fn shadows_cube_share(blocked: u32, taps: u32) -> f32 {
+    return saturate(1.0 + 0x1p-17 - f32(blocked) * ((1.0 + 0x1p-16) / f32(taps)));
 }

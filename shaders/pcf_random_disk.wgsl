@@ -3,7 +3,7 @@
 // "Efficient Soft-Edged Shadows Using Pixel Shader Branching", GPU Gems 2, 2005). The outermost ring
 // comes first.
 fn shadows_cube_filter(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,

@@ -16,7 +16,7 @@ fn shadows_cube_pair(i: i32, s: f32) -> vec2f {
 }
 
 fn shadows_cube_filter(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,

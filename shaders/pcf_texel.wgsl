@@ -3,7 +3,7 @@
 // mirrors it at the receiver stands in. Within half a texel of the horizon that may not see it either,
 // and is compared with the receiver's own depth.
 fn shadows_cube_texel(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,

@@ -1,7 +1,7 @@
 // A Vogel disk (Vogel, "A better way to construct the sunflower head", 1979), turned from pixel to
 // pixel. The offsets come from a table: no sine or cosine.
 fn shadows_cube_filter(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,

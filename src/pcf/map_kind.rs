@@ -3,7 +3,7 @@
 use super::text::TEXEL;
 use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowMap};
 
-const CUBE_TAP: &str = include_str!("../../shaders/cube_tap.wgsl");
+const CUBE_TEXEL: &str = include_str!("../../shaders/cube_texel.wgsl");
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -79,12 +79,23 @@ impl<'a> From<&'a ShadowMap> for AnyMap<'a> {
     }
 }
 
+/// How shaders get at lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lights {
+    /// One, in a uniform buffer.
+    One,
+    /// All of a map, in a storage buffer.
+    Storage,
+    /// The same in a uniform buffer, on devices without storage buffers.
+    Uniform,
+}
+
 /// What a sampler is made to read.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reads {
     pub map: MapKind,
     pub encoding: DepthEncoding,
-    pub many_lights: bool,
+    pub lights: Lights,
     pub flat_lights: FlatLights,
     /// Whether its sampler has a border of depth 0.
     pub border: bool,
@@ -96,6 +107,7 @@ pub(super) struct Reads {
 pub(super) struct MapWgsl {
     reads: Reads,
     pub light: &'static str,
+    /// What kind of light is read, or of a cube its faces.
     pub kind: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
@@ -105,10 +117,11 @@ pub(super) struct MapWgsl {
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
+    pub disk: &'static str,
+    pub search: &'static str,
     /// All that [`Kernel::Hard`](super::Kernel::Hard) takes.
-    pub hard: [&'static str; 2],
+    pub hard: &'static [&'static str],
     pub slope: &'static str,
-    pub compare: &'static str,
     pub hardware: &'static str,
 }
 
@@ -139,70 +152,56 @@ impl MapWgsl {
             texel: "",
             four: include_str!("../../shaders/flat_compare.wgsl"),
             tap: include_str!("../../shaders/flat_tap.wgsl"),
-            hard: [TEXEL, include_str!("../../shaders/flat_hard.wgsl")],
+            disk: include_str!("../../shaders/flat_disk.wgsl"),
+            search: include_str!("../../shaders/flat_search.wgsl"),
+            hard: &[include_str!("../../shaders/flat_hard.wgsl")],
             slope: include_str!("../../shaders/flat_slope.wgsl"),
-            compare: "",
             hardware: include_str!("../../shaders/flat_hardware.wgsl"),
         }
     }
 
     fn cube(reads: Reads) -> Self {
-        let (fetch, gather) = match reads.many_lights {
-            false => (
-                include_str!("../../shaders/cube_fetch.wgsl"),
-                include_str!("../../shaders/cube_gather.wgsl"),
-            ),
-            true => (
-                include_str!("../../shaders/cube_array_fetch.wgsl"),
-                include_str!("../../shaders/cube_array_gather.wgsl"),
-            ),
-        };
-        let gather = match reads.gather {
-            true => gather,
-            false => include_str!("../../shaders/cube_gather_fetches.wgsl"),
-        };
         Self {
             reads,
             light: include_str!("../../shaders/cube_light.wgsl"),
-            kind: "",
+            kind: include_str!("../../shaders/cube_face.wgsl"),
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
             depth: match reads.encoding {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
                 DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
             },
             edge: "",
-            fetch,
-            gather,
-            texel: include_str!("../../shaders/cube_texel.wgsl"),
-            four: include_str!("../../shaders/cube_four.wgsl"),
-            tap: CUBE_TAP,
-            hard: [CUBE_TAP, include_str!("../../shaders/cube_hard.wgsl")],
-            slope: include_str!("../../shaders/cube_slope.wgsl"),
-            compare: match reads.many_lights {
-                false => include_str!("../../shaders/cube_compare.wgsl"),
-                true => include_str!("../../shaders/cube_array_compare.wgsl"),
+            fetch: include_str!("../../shaders/cube_fetch.wgsl"),
+            gather: match reads.gather {
+                true => include_str!("../../shaders/cube_gather.wgsl"),
+                false => include_str!("../../shaders/cube_gather_fetches.wgsl"),
             },
+            texel: CUBE_TEXEL,
+            four: include_str!("../../shaders/cube_four.wgsl"),
+            tap: include_str!("../../shaders/cube_tap.wgsl"),
+            disk: include_str!("../../shaders/cube_disk.wgsl"),
+            search: include_str!("../../shaders/cube_search.wgsl"),
+            hard: &[
+                CUBE_TEXEL,
+                TEXEL,
+                include_str!("../../shaders/cube_hard.wgsl"),
+            ],
+            slope: include_str!("../../shaders/cube_slope.wgsl"),
             hardware: include_str!("../../shaders/cube_hardware.wgsl"),
         }
     }
 
-    /// Whether the map is an array with a cube for each light.
-    pub fn many_lights(&self) -> bool {
-        self.reads.many_lights
+    /// How shaders get at its lights.
+    pub fn lights(&self) -> Lights {
+        self.reads.lights
     }
 
-    /// Kernels are written for one cube map, and are WGSL as they stand. On other maps they differ
-    /// in the texture's type, and on flat ones in the names.
+    /// Kernels are written for cube maps, and are WGSL as they stand. On flat ones they differ in the
+    /// names.
     pub fn adapt(&self, wgsl: &str) -> String {
-        match (self.reads.map, self.reads.many_lights) {
-            (MapKind::Cube, false) => wgsl.to_owned(),
-            (MapKind::Cube, true) => wgsl
-                .replace("texture_cube<f32>", "texture_cube_array<f32>")
-                .replace("texture_depth_cube,", "texture_depth_cube_array,")
-                .replace("texture_depth_cube;", "texture_depth_cube_array;"),
-            (MapKind::Flat, _) => wgsl
-                .replace("texture_cube<f32>", "texture_2d<f32>")
-                .replace("texture_depth_cube", "texture_depth_2d")
+        match self.reads.map {
+            MapKind::Cube => wgsl.to_owned(),
+            MapKind::Flat => wgsl
                 .replace("ShadowsCube", "ShadowsFlat")
                 .replace("shadows_cube_", "shadows_flat_"),
         }

@@ -1,13 +1,15 @@
 //! The WGSL of a kernel on a kind of map: the files that it takes, and the function that hosts call.
 
 use super::Kernel;
-use super::map_kind::MapWgsl;
+use super::map_kind::{Lights, MapWgsl};
+use crate::map::UNIFORM_LIGHTS;
 
 const SQUARE: &str = include_str!("../../shaders/pcf_square.wgsl");
 const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
 const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
 const CONTACT: &str = include_str!("../../shaders/pcf_contact.wgsl");
 pub(super) const TEXEL: &str = include_str!("../../shaders/pcf_texel.wgsl");
+const SEARCH: &str = include_str!("../../shaders/pcf_search.wgsl");
 const DISK: &str = include_str!("../../shaders/pcf_disk.wgsl");
 const NOISE: &str = include_str!("../../shaders/pcf_noise.wgsl");
 const DERIVATIVES: &str = include_str!("../../shaders/pcf_derivatives.wgsl");
@@ -48,21 +50,17 @@ impl Extra {
 /// The functions of a kernel, and no other's.
 pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     if kernel == Kernel::HardwareBilinear {
-        let text = [
-            own.light,
-            own.kind,
-            own.edge,
-            own.compare,
-            own.hardware,
-            HARDWARE,
-        ];
+        let text = [own.light, own.kind, own.edge, own.hardware, HARDWARE];
         return own.adapt(&text.join("\n"));
     }
     let (weights, last) = match kernel {
         Kernel::Hard => (None, own.hard.to_vec()),
-        Kernel::RandomDisk(_) => (None, vec![DISK, RANDOM_DISK]),
-        Kernel::Vogel(_) => (None, vec![DISK, NOISE, VOGEL]),
-        Kernel::ContactHardening(_) => (None, vec![DISK, NOISE, CONTACT]),
+        Kernel::RandomDisk(_) => (None, vec![DISK, own.disk, RANDOM_DISK]),
+        Kernel::Vogel(_) => (None, vec![DISK, own.disk, NOISE, VOGEL]),
+        Kernel::ContactHardening(_) => (
+            None,
+            vec![DISK, own.disk, SEARCH, own.search, NOISE, CONTACT],
+        ),
         _ => (kernel.weights(), vec![SQUARE]),
     };
     let map: &[&str] = match (kernel.uses_pixel(), &weights) {
@@ -94,7 +92,17 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
 
 /// The textbook's receiver.
 pub(super) fn textbook(own: &MapWgsl) -> String {
-    own.adapt(&[own.light, own.receiver, own.depth, own.fetch, TEXTBOOK].join("\n"))
+    own.adapt(
+        &[
+            own.light,
+            own.kind,
+            own.receiver,
+            own.depth,
+            own.fetch,
+            TEXTBOOK,
+        ]
+        .join("\n"),
+    )
 }
 
 /// The function that hosts call: what every kernel does before its first tap.
@@ -109,7 +117,7 @@ fn entry(kernel: Kernel) -> String {
     format!(
         "
 fn {function}(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,{parameters}
     position: vec3f,
@@ -122,7 +130,7 @@ fn {function}(
 }}
 
 fn {function}_derived(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     light: ShadowsCubeLight,{parameters}
     position: vec3f,
@@ -178,14 +186,15 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
 /// The bindings of one group, and functions that read them.
 pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> String {
     let function = kernel.map_or(TEXTBOOK_FUNCTION, Kernel::function);
-    let (lights, index, light, element) = match own.many_lights() {
-        false => ("uniform> shadows_light: ShadowsCubeLight", "", "", ""),
-        true => (
-            "storage, read> shadows_light: array<ShadowsCubeLight>",
-            "light: u32, ",
-            "light, ",
-            "[light]",
-        ),
+    let many = format!("uniform> shadows_light: array<ShadowsCubeLight, {UNIFORM_LIGHTS}>");
+    let lights = match own.lights() {
+        Lights::One => "uniform> shadows_light: ShadowsCubeLight",
+        Lights::Storage => "storage, read> shadows_light: array<ShadowsCubeLight>",
+        Lights::Uniform => &many,
+    };
+    let (index, light, element) = match own.lights() {
+        Lights::One => ("", "", ""),
+        _ => ("light: u32, ", "light, ", "[light]"),
     };
     let takes_pixel = kernel.is_some_and(Kernel::uses_pixel);
     let extra = Extra::of(takes_pixel);
@@ -202,8 +211,8 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
         ),
     };
     let (map, sampler) = match kernel {
-        Some(Kernel::HardwareBilinear) => ("texture_depth_cube", "sampler_comparison"),
-        _ => ("texture_cube<f32>", "sampler"),
+        Some(Kernel::HardwareBilinear) => ("texture_depth_2d_array", "sampler_comparison"),
+        _ => ("texture_2d_array<f32>", "sampler"),
     };
     let derived = derived(kernel, &format!("shadows_light{element}"), light);
     own.adapt_module(&format!(

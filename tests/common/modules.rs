@@ -9,7 +9,7 @@ pub const JOINED: &[&[&str]] = &[
     &["volume_exact_samples"],
     FACE,
     &["cube_caster", "cube_caster_gl"],
-    &["cube_cross"],
+    &["cube_light", "cube_cross"],
     PULLED,
     PULLED_STEPS,
     RECORDS,

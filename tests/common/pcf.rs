@@ -1,7 +1,6 @@
 //! Every configuration of a `PcfSampler`, and hosts that ask it.
 #![allow(dead_code)] // each test uses its own part
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shadows::{
     DepthEncoding, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu,
 };
@@ -269,13 +268,4 @@ pub fn visibility_name(map: MapKind) -> &'static str {
         MapKind::Flat => "shadows_flat_visibility",
         _ => "shadows_visibility",
     }
-}
-
-/// Parses and validates WGSL as a device with cube arrays would.
-pub fn validate_arrays(wgsl: &str) -> Result<naga::Module, String> {
-    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
-        .validate(&module)
-        .map_err(|e| e.emit_to_string(wgsl))?;
-    Ok(module)
 }

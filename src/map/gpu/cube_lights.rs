@@ -3,13 +3,20 @@
 use super::buffers::buffer;
 use super::uniforms::UNIFORM_STRIDE;
 use crate::map::encoding::quantum;
+use crate::support::has_storage;
 use crate::uploads::Uploads;
 use crate::{Bias, PointLight};
+
+/// What a uniform buffer of lights holds on devices without storage buffers: all that WebGL 2 binds of one.
+const UNIFORM_BYTES: u64 = 16_384;
+
+/// The lights that such a buffer has room for.
+pub(crate) const UNIFORM_LIGHTS: u32 = (UNIFORM_BYTES / size_of::<LightUniform>() as u64) as u32;
 
 /// Where a light's depths are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Depths {
-    /// In this cube of the array (0 if each light has a texture of its own).
+    /// In six layers of the texture, from six times this one on (0 if each light has a texture of its own).
     Cube(i32),
     /// Nowhere: no caster is in range, so receivers in range are lit.
     NoCaster,
@@ -35,6 +42,9 @@ pub(crate) struct LightUniform {
     pub texel: f32,
     pub range_squared: f32,
     pub bound: f32,
+    pub middle: f32,
+    pub step: f32,
+    pub padding: [f32; 2],
 }
 
 impl LightUniform {
@@ -68,6 +78,9 @@ impl LightUniform {
             texel,
             range_squared: light.range * light.range,
             bound: 32.0 * scale,
+            middle: 0.5 * size as f32,
+            step: 1.0 / size as f32,
+            padding: [0.0; 2],
         }
     }
 }
@@ -87,7 +100,7 @@ pub(crate) struct CubeLights {
 struct Buffers {
     /// One every [`UNIFORM_STRIDE`] bytes.
     uniforms: wgpu::Buffer,
-    /// One after the other; only for maps that are cube arrays.
+    /// One after the other; only for maps whose lights share a texture.
     all: Option<wgpu::Buffer>,
 }
 
@@ -97,7 +110,10 @@ impl Buffers {
         let size = size_of::<LightUniform>() as u64;
         Self {
             uniforms: make(UNIFORM_STRIDE, wgpu::BufferUsages::UNIFORM),
-            all: array.then(|| make(size, wgpu::BufferUsages::STORAGE)),
+            all: array.then(|| match has_storage(device) {
+                true => make(size, wgpu::BufferUsages::STORAGE),
+                false => buffer(device, label, UNIFORM_BYTES, wgpu::BufferUsages::UNIFORM),
+            }),
         }
     }
 }
@@ -161,7 +177,7 @@ impl CubeLights {
         })
     }
 
-    /// All of them, of a cube array.
+    /// All of them, where they share a texture.
     pub fn all(&self) -> Option<&wgpu::Buffer> {
         self.buffers.all.as_ref()
     }
@@ -197,7 +213,10 @@ mod tests {
             half_size,
             texel,
             range_squared,
-            bound
+            bound,
+            middle,
+            step,
+            padding
         );
     }
 }

@@ -15,11 +15,11 @@ mod texture;
 mod uniforms;
 
 pub(crate) use cube::CubeGpu;
-pub(crate) use cube_lights::LightUniform;
+pub(crate) use cube_lights::{LightUniform, UNIFORM_LIGHTS};
 pub(crate) use draws::{Draw, draws_of_flat};
 pub(crate) use encode::{Drawing, begin_depth_pass};
 pub(crate) use flat_light::{FlatLightBuffer, FlatLightUniform};
 pub(crate) use instances::{INSTANCE_SIZE, Instances, TooLarge};
 pub(crate) use pipelines::{PipelineKind, Pipelines, can_pull_casters};
-pub(crate) use texture::create_texture;
+pub(crate) use texture::{array_view, create_texture, layer_view};
 pub(crate) use uniforms::{FaceUniform, FaceUniforms, most_tiles};
