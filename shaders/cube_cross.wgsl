@@ -42,7 +42,7 @@ fn fragment(in: Corner) -> @location(0) vec4f {
     let layer = 6 * light.cube + face;
     let stored = textureSampleLevel(map, map_sampler, in.cell - cell, max(layer, 0), 0.0).x;
     // A light without casters is in no cube.
-    if light.cube < 0 || stored == select(0.0, 1.0, linear) {
+    if (light.cube < 0) | (stored == select(0.0, 1.0, linear)) {
         return vec4f(0.0, 0.0, 0.25, 1.0);
     }
     let along = select(light.near / (stored * light.range), stored, linear);

@@ -1,13 +1,13 @@
 // Texels of a cube map.
 
-// The stored depth at a place on the receiver's own face, in texels from its middle.
+// The stored depth at a place on the receiver's own face, in texels from its corner.
 fn shadows_cube_fetch(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     place: vec2f,
 ) -> f32 {
-    return textureSampleLevel(map, map_sampler, place * receiver.step + 0.5, receiver.layer, 0.0).x;
+    return textureSampleLevel(map, map_sampler, place * receiver.step, receiver.layer, 0.0).x;
 }
 
 // The depth of what is stored there.
@@ -20,7 +20,8 @@ fn shadows_cube_stored(
 ) -> f32 {
     let found = shadows_cube_fetch(map, map_sampler, receiver, place);
     let step = 2.0 * receiver.step;
-    let squared = 1.0 + step * step * dot(place, place);
+    let from_middle = place - receiver.middle;
+    let squared = 1.0 + step * step * dot(from_middle, from_middle);
     return shadows_cube_depth(receiver, vec4f(found), vec4f(squared)).x;
 }
 

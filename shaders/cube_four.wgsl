@@ -23,3 +23,8 @@ fn shadows_cube_blocked(
     let t = step * (corner.y + vec4f(0.5, 0.5, -0.5, -0.5));
     return shadows_cube_nearer(receiver, depths, found, 1.0 + s * s + t * t);
 }
+
+// The receiver as its texels are looked at one by one.
+fn shadows_cube_again(receiver: ShadowsCubeReceiver, corner: vec2f, s: vec2f) -> ShadowsCubeReceiver {
+    return receiver;
+}

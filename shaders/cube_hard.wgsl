@@ -6,9 +6,9 @@ fn shadows_cube_filter(
     size: f32,
 ) -> f32 {
     // The receiver's own texel never leaves its face.
-    let off = 0.5 - fract(receiver.texel + receiver.middle);
-    let centre = receiver.texel + off;
-    let depth = receiver.own + dot(receiver.slope, off);
+    let place = receiver.texel + receiver.middle;
+    let centre = floor(place) + 0.5;
+    let depth = receiver.own + dot(receiver.slope, centre - place);
     let stored = shadows_cube_stored(map, map_sampler, receiver, size, centre);
     var lit = select(0.0, 1.0, min(depth, receiver.bound) >= stored);
     // A texel that does not see the receiver's plane (it lies beyond the plane's horizon) says nothing of the
@@ -16,7 +16,7 @@ fn shadows_cube_filter(
     // not a branch: see pcf_square.wgsl.
     let rounds = select(0, 1, depth <= receiver.horizon);
     for (var i = 0; i < rounds; i++) {
-        lit = shadows_cube_texel(map, map_sampler, receiver, size, centre - 0.5);
+        lit = shadows_cube_texel(map, map_sampler, receiver, size, centre - receiver.middle - 0.5);
     }
     return lit;
 }

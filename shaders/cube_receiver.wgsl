@@ -11,7 +11,9 @@ struct ShadowsCubeReceiver {
     texel: vec2f,
     // How the plane's depth changes from texel to texel, along the face's axes (right, down).
     slope: vec2f,
-    // The plane's depth at the receiver. Stands in for that at a texel which does not see the plane, so that
+    // The plane's depth at the face's corner.
+    corner: f32,
+    // The same at the receiver. Stands in for that at a texel which does not see the plane, so that
     // nothing behind the receiver shadows it.
     own: f32,
     // No tap takes the plane for nearer than this depth, a thirty-second of the receiver's distance:
@@ -19,8 +21,9 @@ struct ShadowsCubeReceiver {
     bound: f32,
     // Depth of the plane's horizon: no receiver is at this depth or below.
     horizon: f32,
-    // From the light, the same with length 1, and the unit normal, along the face's axes (forward, right, down).
+    // From the light, along the face's axes (forward, right, down).
     local: vec3f,
+    // The same with length 1, and the unit normal, along the world's axes.
     ray: vec3f,
     normal: vec3f,
     // World width of a texel at the receiver.
@@ -85,13 +88,12 @@ fn shadows_cube_receiver(
     let normal = shadows_cube_across(face, derived.normal);
     receiver.slope = normal * select(-per_length, per_length, facing > 0.0);
     receiver.own = abs(facing) * per_length * to_face + step;
+    receiver.corner = receiver.own - dot(receiver.slope, receiver.texel + light.middle);
     receiver.bound = light.bound * to_face + step;
     receiver.horizon = step;
     receiver.local = vec3f(major, across);
-    receiver.ray = receiver.local * inverseSqrt(squared);
-    let ahead = shadows_cube_ahead(face, derived.normal);
-    let toward = select(1.0, -1.0, facing > 0.0) * inverseSqrt(derived.squared);
-    receiver.normal = vec3f(ahead, normal) * toward;
+    receiver.ray = from_light * inverseSqrt(squared);
+    receiver.normal = derived.normal * (select(1.0, -1.0, facing > 0.0) * inverseSqrt(derived.squared));
     receiver.width = major * light.texel;
     receiver.half_size = light.half_size;
     receiver.cube = light.cube;

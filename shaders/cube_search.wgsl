@@ -4,11 +4,12 @@ fn shadows_cube_search(
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
     size: f32,
-    disk: ShadowsCubeDisk,
+    in_world: ShadowsCubeDisk,
     offsets: texture_3d<f32>,
     layer: f32,
     taps: u32,
 ) -> vec3f {
+    let disk = shadows_cube_on_face(receiver, in_world);
     let holds = shadows_cube_holds(receiver, disk);
     var found = shadows_cube_search_on(
         map, map_sampler, receiver, size, disk, offsets, layer, select(0u, taps, holds),
@@ -20,7 +21,7 @@ fn shadows_cube_search(
         let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
         at += 0.5 * layer;
         let depths = shadows_cube_tap_over(map, map_sampler, receiver, size, disk, offset);
-        found += select(vec3f(0.0), vec3f(depths, 1.0), depths.x < depths.y);
+        found += vec3f(depths, 1.0) * select(0.0, 1.0, depths.x < depths.y);
     }
     return found;
 }

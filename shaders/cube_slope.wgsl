@@ -72,7 +72,7 @@ fn shadows_cube_stored_at(
     size: f32,
     texel: vec2f,
 ) -> f32 {
-    return shadows_cube_stored(map, map_sampler, receiver, size, texel + 0.5);
+    return shadows_cube_stored(map, map_sampler, receiver, size, texel + 0.5 + receiver.middle);
 }
 
 // The receiver's texel, or the nearest that has others to all sides on the same face.

@@ -11,9 +11,8 @@ fn shadows_cube_look(
 ) -> vec2f {
     let place = local.yz * (receiver.half_size / local.x) + receiver.middle;
     let centre = floor(place) + 0.5;
-    let from_middle = centre - receiver.middle;
-    let stored = shadows_cube_stored(map, map_sampler, receiver, size, from_middle);
-    let depth = receiver.own + dot(receiver.slope, from_middle - receiver.texel);
+    let stored = shadows_cube_stored(map, map_sampler, receiver, size, centre);
+    let depth = receiver.corner + dot(receiver.slope, centre);
     return shadows_cube_seen(receiver, depth, stored);
 }
 

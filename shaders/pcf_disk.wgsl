@@ -19,7 +19,8 @@ struct ShadowsCubeKernel {
     padding: u32,
 }
 
-// The disk's axes, as long as its radius, along the same axes as `receiver.local`.
+// The disk's axes, as long as its radius, along the same axes as `receiver.normal`; of taps, as
+// `receiver.local`.
 struct ShadowsCubeDisk {
     across: vec3f,
     along: vec3f,

@@ -17,7 +17,7 @@ fn shadows_cube_search_on(
         let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
         at += 0.5 * layer;
         let depths = shadows_cube_tap(map, map_sampler, receiver, size, disk, offset);
-        found += select(vec3f(0.0), vec3f(depths, 1.0), depths.x < depths.y);
+        found += vec3f(depths, 1.0) * select(0.0, 1.0, depths.x < depths.y);
     }
     return found;
 }

@@ -60,6 +60,7 @@ fn shadows_cube_filter(
     let end = select(side * side, 0, whole);
     shadow = select(0.0, shadow, whole);
     let first = corner - f32(shadows_cube_pairs);
+    let edge = shadows_cube_again(receiver, corner, s);
     for (var i = 0; i < end; i++) {
         let x = i % side;
         let y = i / side;
@@ -67,7 +68,7 @@ fn shadows_cube_filter(
         let down = shadows_cube_pair(y / 2, s.y);
         let weight = select(across.x, across.y, (x & 1) == 1) * select(down.x, down.y, (y & 1) == 1);
         let texel = first + vec2f(f32(x), f32(y));
-        shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, receiver, size, texel));
+        shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, edge, size, texel));
     }
     // Exactly 0 or 1 where all texels agree, however a GPU rounds the products and their sum: stretched
     // around one half by more than that, and cut off. One half stays one half.

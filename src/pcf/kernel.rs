@@ -88,7 +88,8 @@ pub enum Kernel {
     /// say nothing of the normal, all is lit but what is behind something very near the light, since this
     /// kernel cannot ask the map for a slope: pass a normal there.
     ///
-    /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only, and no cube arrays on GL.
+    /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only. On a cube its taps end where the face
+    /// does: within half a texel of an edge the outermost texels count alone.
     HardwareBilinear,
     /// Random disk: a table of jittered, stratified offsets, picked by the pixel.
     RandomDisk(RandomDisk),

@@ -27,7 +27,7 @@ impl TilePlace {
         debug_assert!(self.x < Self::MOST_TEXELS && self.x.is_multiple_of(Self::UNIT));
         debug_assert!(self.y < Self::MOST_TEXELS && self.y.is_multiple_of(Self::UNIT));
         debug_assert!(self.layer < Self::MOST_LAYERS);
-        self.x / Self::UNIT | (self.y / Self::UNIT) << 10 | self.layer << 20
+        (self.x / Self::UNIT) | ((self.y / Self::UNIT) << 10) | (self.layer << 20)
     }
 }
 
@@ -190,7 +190,7 @@ impl LightRecord {
     pub fn with_further(self, further: u32) -> Self {
         debug_assert!(further <= Self::MOST_FURTHER);
         Self {
-            kind: self.kind | further << Self::FURTHER_SHIFT,
+            kind: self.kind | (further << Self::FURTHER_SHIFT),
             ..self
         }
     }
