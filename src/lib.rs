@@ -219,5 +219,5 @@ pub use volume::{
     Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
     LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
     ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
-    VolumeDebug, VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
+    VolumeDebug, VolumeDebugDescriptor, VolumePipelines, VolumeStatistics, VolumeSurvey,
 };

@@ -135,19 +135,22 @@ impl Casters {
         self.different.is_empty() && casters.len() == self.compared.len()
     }
 
-    /// Takes over what [`compare`](Self::compare) found. Gives what that changes: those that are gone
-    /// from the end of the list first, the last of them before the others.
-    pub fn update(&mut self, casters: &[Caster]) -> impl Iterator<Item = Change<'_>> {
+    /// Takes over what [`compare`](Self::compare) found: see [`changes`](Self::changes).
+    pub fn update(&mut self, casters: &[Caster]) {
         if !self.are_unchanged(casters) {
             self.take_over(casters);
         } else {
             self.replaced.clear();
         }
-        let records = &self.records;
+    }
+
+    /// What the last [`update`](Self::update) changed: those that are gone from the end of the list
+    /// first, the last of them before the others.
+    pub fn changes(&self) -> impl ExactSizeIterator<Item = Change<'_>> {
         self.replaced.iter().map(|(index, old)| Change {
             index: *index as usize,
             old: old.as_ref(),
-            new: records.get(*index as usize),
+            new: self.records.get(*index as usize),
         })
     }
 

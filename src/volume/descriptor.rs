@@ -1,10 +1,12 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
-use super::method::{Caps, Extrusion, Method};
-use super::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
-use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::mesh::Bounds;
+use crate::volume::decide::method::{Caps, Extrusion, Method};
+use crate::volume::gpu::counter;
+use crate::volume::light_pass::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
+use crate::volume::plan::limits;
+use crate::volume::{Counter, Silhouettes, StartFrom};
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
@@ -111,7 +113,7 @@ impl ShadowVolumeDescriptor<'_> {
 
 impl ShadowVolumeDescriptor<'_> {
     /// Whether the device can do what the descriptor asks for.
-    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+    pub(crate) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
         let format = self.depth_stencil_format;
         if !matches!(
             format,
@@ -160,7 +162,7 @@ impl ShadowVolumeDescriptor<'_> {
 }
 
 /// Whether the device keeps what lies beyond a far plane.
-pub(super) fn check_depth(
+pub(crate) fn check_depth(
     device: &wgpu::Device,
     depth: DepthConvention,
 ) -> Result<(), ShadowVolumeError> {

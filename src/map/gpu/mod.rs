@@ -16,7 +16,7 @@ mod uniforms;
 
 pub(crate) use cube::CubeGpu;
 pub(crate) use cube_lights::{LightUniform, UNIFORM_LIGHTS};
-pub(crate) use draws::{Draw, draws_of_flat};
+pub(crate) use draws::{Draw, DrawLists};
 pub(crate) use encode::{Drawing, begin_depth_pass};
 pub(crate) use flat_light::{FlatLightBuffer, FlatLightUniform};
 pub(crate) use instances::{INSTANCE_SIZE, Instances, TooLarge};

@@ -2,7 +2,9 @@
 
 use crate::error::ShadowMapError;
 use crate::map::flat_descriptor::{FlatLight, ShadowFrame};
-use crate::map::projection::{Fit, FlatFrame, LightBox, NearPlane, fit_directional, fit_spot};
+use crate::map::projection::{
+    Fit, FlatFrame, LightBox, LightProjection, NearPlane, fit_directional, fit_spot,
+};
 use crate::mesh::Bounds;
 use crate::scene::{Casters, Record};
 use crate::{DirectionalLight, Radius, View};
@@ -60,28 +62,33 @@ impl FlatPlace {
         self.frame.as_ref()
     }
 
-    /// Takes over a frame's light and casters, after the casters were compared. Whether what the map
-    /// shows may be something else now.
+    /// Finds where the map lies for a frame, after the casters were updated.
     pub fn take_over(
         &mut self,
         frame: &ShadowFrame<'_>,
-        casters: &mut Casters,
-    ) -> Result<bool, ShadowMapError> {
+        casters: &Casters,
+    ) -> Result<(), ShadowMapError> {
         let asked = Asked::of(frame);
-        let unchanged = casters.are_unchanged(frame.casters);
+        let unchanged = casters.changes().len() == 0;
         if unchanged && self.asked == Some(asked) {
-            return Ok(false);
+            return Ok(());
         }
         // Until all of it has succeeded, nothing is known to be what it was.
-        let known = self.asked.take().is_some() && unchanged;
+        self.asked = None;
         if !unchanged {
-            casters.update(frame.casters).for_each(drop);
             self.caster_box = None;
         }
-        let before = self.frame;
         self.place(frame, casters.records())?;
         self.asked = Some(asked);
-        Ok(!known || self.frame != before)
+        Ok(())
+    }
+
+    /// The light's only tile.
+    pub fn projection(&self) -> LightProjection {
+        match self.frame {
+            Some(frame) if frame.perspective => LightProjection::Spot(frame),
+            frame => LightProjection::Cascades(Box::new([frame])),
+        }
     }
 
     fn place(&mut self, frame: &ShadowFrame<'_>, casters: &[Record]) -> Result<(), ShadowMapError> {
