@@ -5,7 +5,7 @@ use crate::cubes::{draw, draw_frame, faces, fresh};
 use crate::receivers::{ask, ask_group};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
-use shadows::error::{CubeShadowMapError, PcfError};
+use shadows::error::PcfError;
 use shadows::{
     Allocation, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel,
     PcfDescriptor, PcfSampler, PointLight, glam,
