@@ -6,7 +6,7 @@
 
 @group(0) @binding(0) var map: texture_2d_array<f32>;
 @group(0) @binding(1) var map_sampler: sampler;
-@group(0) @binding(2) var<uniform> light: ShadowsCubeLight;
+@group(0) @binding(2) var<uniform> light: ShadowsLight;
 
 // Whether texels hold distance / range rather than near / (distance along the major axis).
 override linear: bool = false;
@@ -39,12 +39,13 @@ fn fragment(in: Corner) -> @location(0) vec4f {
     if face < 0 {
         discard;
     }
-    let layer = 6 * light.cube + face;
-    let stored = textureSampleLevel(map, map_sampler, in.cell - cell, max(layer, 0), 0.0).x;
-    // A light without casters is in no cube.
-    if (light.cube < 0) | (stored == select(0.0, 1.0, linear)) {
+    let layer = i32(light.tiles.x >> 20u) + face;
+    let stored = textureSampleLevel(map, map_sampler, in.cell - cell, layer, 0.0).x;
+    // A light without casters has no layers.
+    let drawn = light.kind == 1u;
+    if !drawn | (stored == select(0.0, 1.0, linear)) {
         return vec4f(0.0, 0.0, 0.25, 1.0);
     }
-    let along = select(light.near / (stored * light.range), stored, linear);
+    let along = select(1.0 / (stored * light.forward.z), stored, linear);
     return vec4f(vec3f(1.0 - min(along, 1.0)), 1.0);
 }

@@ -15,19 +15,17 @@ fn shadows_cube_tap_over(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     disk: ShadowsCubeDisk,
     offset: vec2f,
 ) -> vec2f {
     let local = receiver.local + offset.x * disk.across + offset.y * disk.along;
-    return shadows_cube_look_over(map, map_sampler, receiver, size, local);
+    return shadows_cube_look_over(map, map_sampler, receiver, local);
 }
 
 fn shadows_cube_lit(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     in_world: ShadowsCubeDisk,
     offsets: texture_3d<f32>,
     column: vec2f,
@@ -38,7 +36,7 @@ fn shadows_cube_lit(
     let disk = shadows_cube_on_face(receiver, in_world);
     let holds = shadows_cube_holds(receiver, disk);
     let lit = shadows_cube_lit_on(
-        map, map_sampler, receiver, size, disk, offsets, column, layer, select(0u, taps, holds), first,
+        map, map_sampler, receiver, disk, offsets, column, layer, select(0u, taps, holds), first,
     );
     var blocked = 0u;
     let end = select(taps, 0u, holds);
@@ -47,7 +45,7 @@ fn shadows_cube_lit(
         let pair = textureSampleLevel(offsets, map_sampler, at, 0.0);
         let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
         at.z += 0.5 * layer;
-        let depths = shadows_cube_tap_over(map, map_sampler, receiver, size, disk, offset);
+        let depths = shadows_cube_tap_over(map, map_sampler, receiver, disk, offset);
         blocked += select(0u, 1u, depths.x < depths.y);
     }
     return select(shadows_cube_share(blocked, taps), lit, holds);

@@ -1,4 +1,4 @@
-// The faces of a cube, which are layers of a 2D array.
+// The faces of a cube, each of which is a tile.
 
 // Which face of the cube a direction falls on, and which of the face's axes (forward, right, down) point the
 // way of the world's. All as truth values, for which GPUs have registers of their own.
@@ -59,8 +59,8 @@ fn shadows_cube_to_world(face: ShadowsCubeFace, v: vec3f) -> vec3f {
     );
 }
 
-// The layer of one of the faces.
-fn shadows_cube_layer(cube: i32, face: ShadowsCubeFace) -> i32 {
+// The tile of one of the faces.
+fn shadows_cube_tile(light: ShadowsLight, face: ShadowsCubeFace) -> ShadowsTile {
     let pair = select(select(4, 2, face.y_major), 0, face.x_major);
-    return 6 * cube + pair + i32(!face.forward);
+    return shadows_tile_of(light, pair, !face.forward);
 }

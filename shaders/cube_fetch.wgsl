@@ -7,7 +7,8 @@ fn shadows_cube_fetch(
     receiver: ShadowsCubeReceiver,
     place: vec2f,
 ) -> f32 {
-    return textureSampleLevel(map, map_sampler, place * receiver.step, receiver.layer, 0.0).x;
+    let at = place * receiver.light.step + receiver.tile.corner;
+    return textureSampleLevel(map, map_sampler, at, receiver.tile.layer, 0.0).x;
 }
 
 // The depth of what is stored there.
@@ -15,12 +16,11 @@ fn shadows_cube_stored(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     place: vec2f,
 ) -> f32 {
     let found = shadows_cube_fetch(map, map_sampler, receiver, place);
-    let step = 2.0 * receiver.step;
-    let from_middle = place - receiver.middle;
+    let step = 2.0 * receiver.light.step;
+    let from_middle = place - receiver.light.middle;
     let squared = 1.0 + step * step * dot(from_middle, from_middle);
     return shadows_cube_depth(receiver, vec4f(found), vec4f(squared)).x;
 }
@@ -33,7 +33,9 @@ fn shadows_cube_fetch_in(
     direction: vec3f,
 ) -> f32 {
     let face = shadows_cube_face(direction);
-    let to_face = 0.5 / shadows_cube_major(direction);
-    let at = shadows_cube_across(face, direction) * to_face + 0.5;
-    return textureSampleLevel(map, map_sampler, at, shadows_cube_layer(receiver.cube, face), 0.0).x;
+    let light = receiver.light;
+    let tile = shadows_cube_tile(light, face);
+    let to_face = light.middle * light.step / shadows_cube_major(direction);
+    let at = shadows_cube_across(face, direction) * to_face + tile.middle;
+    return textureSampleLevel(map, map_sampler, at, tile.layer, 0.0).x;
 }

@@ -6,5 +6,6 @@ fn shadows_cube_gather(
     receiver: ShadowsCubeReceiver,
     corner: vec2f,
 ) -> vec4f {
-    return textureGather(0, map, map_sampler, corner * receiver.step + 0.5, receiver.layer);
+    let at = corner * receiver.light.step + receiver.tile.middle;
+    return textureGather(0, map, map_sampler, at, receiver.tile.layer);
 }

@@ -7,8 +7,8 @@ fn shadows_cube_gather(
     receiver: ShadowsCubeReceiver,
     corner: vec2f,
 ) -> vec4f {
-    let least = corner + (receiver.middle - 0.5);
-    let most = corner + (receiver.middle + 0.5);
+    let least = corner + (receiver.light.middle - 0.5);
+    let most = corner + (receiver.light.middle + 0.5);
     return vec4f(
         shadows_cube_fetch(map, map_sampler, receiver, vec2f(least.x, most.y)),
         shadows_cube_fetch(map, map_sampler, receiver, most),

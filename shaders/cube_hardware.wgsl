@@ -11,7 +11,7 @@
 fn shadows_cube_hardware(
     map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     normal: vec3f,
     doubt: f32,
@@ -27,16 +27,17 @@ fn shadows_cube_hardware(
     let facing = max(abs(dot(normal, from_light)) - rounding, 1e-37);
     // The bias along the normal is one more share of a texel.
     let slope = (texel + light.normal_offset) * ((steepness + 1e-30) / facing);
-    let near = light.scale * light.half_size;
+    let near = light.depth_per;
     let own = near / major;
     // No nearer than a thirty-second of the receiver's distance, as for all kernels.
     let reference = min(own + near * slope, 32.0 * own) + light.quantum;
-    // Samplers end at the layer's edge.
-    let at = shadows_cube_across(face, from_light) * (0.5 / major) + 0.5;
-    let layer = shadows_cube_layer(light.cube, face);
-    let share = textureSampleCompareLevel(map, map_sampler, at, layer, reference);
+    let tile = shadows_cube_tile(light, face);
+    let place = shadows_cube_across(face, from_light) * (light.texels / major);
+    let at = shadows_tile_blend(light, tile, place);
+    let share = textureSampleCompareLevel(map, map_sampler, at, tile.layer, reference);
     // Exactly 0 or 1 where all texels agree, however a sampler rounds the sum of their weights.
     let lit = saturate(share * (1.0 + 0x1p-16) - 0x1p-17);
-    let drawn = select(lit, select(0.0, 1.0, light.cube == -1), light.cube < 0);
-    return select(0.0, drawn, dot(from_light, from_light) <= light.range_squared);
+    let drawn = select(1.0, lit, shadows_casts(light));
+    let reached = dot(from_light, from_light) <= light.range_squared;
+    return select(0.0, drawn, reached & (shadows_kind(light) == 1u));
 }

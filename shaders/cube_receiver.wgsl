@@ -31,15 +31,9 @@ struct ShadowsCubeReceiver {
     // Whether the map says what the receiver sees, and if not, whether it is lit.
     asks: bool,
     lit: bool,
-    cube: i32,
-    // Of the array, with the face.
-    layer: i32,
-    step: f32,
-    centre: f32,
-    half_size: f32,
-    middle: f32,
-    quantum: f32,
-    range_over_near: f32,
+    // Of the light, and of the receiver's face.
+    light: ShadowsLight,
+    tile: ShadowsTile,
 }
 
 // What is known of a receiver's plane.
@@ -53,13 +47,13 @@ struct ShadowsCubeDerived {
 }
 
 // A normal that the host knows.
-fn shadows_cube_given(light: ShadowsCubeLight, position: vec3f, normal: vec3f) -> ShadowsCubeDerived {
+fn shadows_cube_given(light: ShadowsLight, position: vec3f, normal: vec3f) -> ShadowsCubeDerived {
     let facing = dot(normal, position - light.position);
     return ShadowsCubeDerived(normal, dot(normal, normal), facing, abs(facing));
 }
 
 fn shadows_cube_receiver(
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     derived: ShadowsCubeDerived,
 ) -> ShadowsCubeReceiver {
@@ -76,50 +70,45 @@ fn shadows_cube_receiver(
     // The light within the bias of the receiver's plane: nothing is between them. Nor is there at the
     // light itself, or where there is no plane: there the bias and what it is taken from are 0.
     let reached = squared <= light.range_squared;
-    receiver.asks = reached & (light.cube >= 0) & (left > 0.0);
-    receiver.lit = reached & (light.cube >= -1);
+    let point = shadows_kind(light) == 1u;
+    receiver.asks = reached & point & shadows_casts(light) & (left > 0.0);
+    receiver.lit = reached & point;
     let face = shadows_cube_face(from_light);
     receiver.face = face;
-    let per_length = light.scale / left;
+    let per_length = light.forward.x / left;
     let across = shadows_cube_across(face, from_light);
-    let to_face = light.half_size / major;
+    let to_face = light.texels / major;
     let step = shadows_cube_step(light.quantum);
     receiver.texel = across * to_face;
     let normal = shadows_cube_across(face, derived.normal);
     receiver.slope = normal * select(-per_length, per_length, facing > 0.0);
     receiver.own = abs(facing) * per_length * to_face + step;
     receiver.corner = receiver.own - dot(receiver.slope, receiver.texel + light.middle);
-    receiver.bound = light.bound * to_face + step;
+    receiver.bound = light.forward.y * to_face + step;
     receiver.horizon = step;
     receiver.local = vec3f(major, across);
     receiver.ray = from_light * inverseSqrt(squared);
     receiver.normal = derived.normal * (select(1.0, -1.0, facing > 0.0) * inverseSqrt(derived.squared));
     receiver.width = major * light.texel;
-    receiver.half_size = light.half_size;
-    receiver.cube = light.cube;
-    receiver.layer = shadows_cube_layer(light.cube, face);
-    receiver.step = light.step;
-    receiver.middle = light.middle;
-    receiver.centre = light.centre;
-    receiver.quantum = light.quantum;
-    receiver.range_over_near = light.range / light.near;
+    receiver.light = light;
+    receiver.tile = shadows_cube_tile(light, face);
     return receiver;
 }
 
 // Where the receiver is between the centres of texels, 0 .. 1.
 fn shadows_cube_between(receiver: ShadowsCubeReceiver) -> vec2f {
-    return fract(receiver.texel + receiver.centre);
+    return fract(receiver.texel + receiver.light.centre);
 }
 
 // The corner of a place's texel toward that of the face.
 fn shadows_cube_floor(receiver: ShadowsCubeReceiver, place: vec2f) -> vec2f {
-    return floor(place + receiver.middle) - receiver.middle;
+    return floor(place + receiver.light.middle) - receiver.light.middle;
 }
 
 // Depth of the receiver's plane in a direction along the face's axes (forward, right, down), in texels.
 fn shadows_cube_at(receiver: ShadowsCubeReceiver, coordinates: vec3f) -> f32 {
     // What the gradient is along the face's axis: at the receiver the plane has its own depth.
-    let forward = (receiver.own - dot(receiver.slope, receiver.texel)) / receiver.half_size;
+    let forward = (receiver.own - dot(receiver.slope, receiver.texel)) / receiver.light.texels;
     return receiver.own + dot(receiver.slope, coordinates.yz - receiver.texel)
-        + forward * (coordinates.x - receiver.half_size);
+        + forward * (coordinates.x - receiver.light.texels);
 }

@@ -3,7 +3,6 @@ fn shadows_cube_search(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     in_world: ShadowsCubeDisk,
     offsets: texture_3d<f32>,
     layer: f32,
@@ -12,7 +11,7 @@ fn shadows_cube_search(
     let disk = shadows_cube_on_face(receiver, in_world);
     let holds = shadows_cube_holds(receiver, disk);
     var found = shadows_cube_search_on(
-        map, map_sampler, receiver, size, disk, offsets, layer, select(0u, taps, holds),
+        map, map_sampler, receiver, disk, offsets, layer, select(0u, taps, holds),
     );
     let end = select(taps, 0u, holds);
     var at = 0.25 * layer;
@@ -20,7 +19,7 @@ fn shadows_cube_search(
         let pair = textureSampleLevel(offsets, map_sampler, vec3f(0.5, 0.5, at), 0.0);
         let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
         at += 0.5 * layer;
-        let depths = shadows_cube_tap_over(map, map_sampler, receiver, size, disk, offset);
+        let depths = shadows_cube_tap_over(map, map_sampler, receiver, disk, offset);
         found += vec3f(depths, 1.0) * select(0.0, 1.0, depths.x < depths.y);
     }
     return found;

@@ -6,12 +6,11 @@ fn shadows_cube_look(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     local: vec3f,
 ) -> vec2f {
-    let place = local.yz * (receiver.half_size / local.x) + receiver.middle;
+    let place = local.yz * (receiver.light.texels / local.x) + receiver.light.middle;
     let centre = floor(place) + 0.5;
-    let stored = shadows_cube_stored(map, map_sampler, receiver, size, centre);
+    let stored = shadows_cube_stored(map, map_sampler, receiver, centre);
     let depth = receiver.corner + dot(receiver.slope, centre);
     return shadows_cube_seen(receiver, depth, stored);
 }
@@ -35,19 +34,18 @@ fn shadows_cube_look_over(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     local: vec3f,
 ) -> vec2f {
     // The faces' grids are one grid in the three axes, and on each face the major axis stays as it is. Scaled
     // to a little less than half of the map, so that no other axis is rounded to beyond the last texel.
     let a = abs(local);
     let most = max(a.x, max(a.y, a.z));
-    let place = local * (receiver.half_size / most);
-    let texel = floor(place + receiver.middle) + (0.5 - receiver.middle);
+    let place = local * (receiver.light.texels / most);
+    let texel = floor(place + receiver.light.middle) + (0.5 - receiver.light.middle);
     let direction = select(texel, place, a >= vec3f(most));
     let world = shadows_cube_to_world(receiver.face, direction);
     let found = vec4f(shadows_cube_fetch_in(map, map_sampler, receiver, world));
-    let step = 2.0 * receiver.step;
+    let step = 2.0 * receiver.light.step;
     let squared = step * step * dot(direction, direction);
     let stored = shadows_cube_depth(receiver, found, vec4f(squared)).x;
     return shadows_cube_seen(receiver, shadows_cube_at(receiver, direction), stored);

@@ -1,8 +1,8 @@
-// Four texels of a flat map.
+// Four texels of a tile.
 
 // Whether the texels around all corners within `reach` of this one can be gathered.
-fn shadows_flat_whole(receiver: ShadowsFlatReceiver, size: f32, corner: vec2f, reach: f32) -> bool {
-    return shadows_flat_gathers(size, corner, reach);
+fn shadows_flat_whole(receiver: ShadowsFlatReceiver, corner: vec2f, reach: f32) -> bool {
+    return shadows_flat_gathers(receiver.light, corner, reach);
 }
 
 // Whether casters are nearer than the plane at the texels around a corner: bottom left, bottom right,
@@ -11,13 +11,12 @@ fn shadows_flat_blocked(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
-    size: f32,
     corner: vec2f,
     columns: vec2f,
     rows: vec2f,
 ) -> vec4<bool> {
     // What is farther than a directional light's range is not behind what is empty.
-    let stored = shadows_flat_stored(map, map_sampler, receiver, size, corner);
+    let stored = shadows_flat_stored(map, map_sampler, receiver, corner);
     let depths = columns.xyyx + rows.yyxx;
     return max(depths, vec4f(0.0)) < stored;
 }

@@ -3,7 +3,6 @@ fn shadows_flat_lit(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
-    size: f32,
     disk: ShadowsFlatDisk,
     offsets: texture_3d<f32>,
     column: vec2f,
@@ -12,6 +11,6 @@ fn shadows_flat_lit(
     first: u32,
 ) -> f32 {
     return shadows_flat_lit_on(
-        map, map_sampler, receiver, size, disk, offsets, column, layer, taps, first,
+        map, map_sampler, receiver, disk, offsets, column, layer, taps, first,
     );
 }

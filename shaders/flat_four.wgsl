@@ -4,8 +4,8 @@ fn shadows_flat_stored(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
-    size: f32,
     corner: vec2f,
 ) -> vec4f {
-    return textureGather(0, map, map_sampler, corner * receiver.step, 0);
+    let at = corner * receiver.light.step + receiver.tile.middle;
+    return textureGather(0, map, map_sampler, at, receiver.tile.layer);
 }

@@ -3,13 +3,12 @@ fn shadows_flat_search(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
-    size: f32,
     disk: ShadowsFlatDisk,
     offsets: texture_3d<f32>,
     layer: f32,
     taps: u32,
 ) -> vec3f {
     return shadows_flat_search_on(
-        map, map_sampler, receiver, size, disk, offsets, layer, taps,
+        map, map_sampler, receiver, disk, offsets, layer, taps,
     );
 }

@@ -5,8 +5,7 @@ fn shadows_cube_filter(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
-    kernel: ShadowsCubeKernel,
+    kernel: ShadowsKernel,
     offsets: texture_3d<f32>,
     pixel: vec2f,
 ) -> f32 {
@@ -19,7 +18,7 @@ fn shadows_cube_filter(
     let spread = sqrt(f32(kernel.taps) / f32(kernel.first_taps));
     let search = shadows_cube_turned(shadows_cube_disk(receiver, spread * widest, stretch), turn);
     let found = shadows_cube_search(
-        map, map_sampler, receiver, size, search, offsets, kernel.layer, kernel.first_taps,
+        map, map_sampler, receiver, search, offsets, kernel.layer, kernel.first_taps,
     );
     let blocked = found.z;
     let searched = f32(kernel.first_taps);
@@ -30,7 +29,7 @@ fn shadows_cube_filter(
     let disk = shadows_cube_turned(shadows_cube_disk(receiver, radius, stretch), turn);
     // One tap rather than a branch: drivers that run both sides of a branch leave a loop.
     let lit = shadows_cube_lit(
-        map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), kernel.layer,
+        map, map_sampler, receiver, disk, offsets, vec2f(0.5), kernel.layer,
         select(kernel.taps, 1u, agree), 0u,
     );
     return select(lit, select(1.0, 0.0, blocked > 0.0), agree);

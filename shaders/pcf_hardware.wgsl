@@ -3,7 +3,7 @@
 fn shadows_cube_hardware_bilinear(
     map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     normal: vec3f,
 ) -> f32 {
@@ -14,7 +14,7 @@ fn shadows_cube_hardware_bilinear(
 fn shadows_cube_hardware_derived(
     map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     x: vec3f,
     y: vec3f,

@@ -4,7 +4,6 @@ fn shadows_cube_search_on(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     disk: ShadowsCubeDisk,
     offsets: texture_3d<f32>,
     layer: f32,
@@ -16,7 +15,7 @@ fn shadows_cube_search_on(
         let pair = textureSampleLevel(offsets, map_sampler, vec3f(0.5, 0.5, at), 0.0);
         let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
         at += 0.5 * layer;
-        let depths = shadows_cube_tap(map, map_sampler, receiver, size, disk, offset);
+        let depths = shadows_cube_tap(map, map_sampler, receiver, disk, offset);
         found += vec3f(depths, 1.0) * select(0.0, 1.0, depths.x < depths.y);
     }
     return found;

@@ -49,7 +49,7 @@ pub enum CubeShadowMapError {
     },
     /// No light at all, or more than the texture's layers or a buffer of matrices can hold.
     #[error(
-        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in one texture if they share it, and 204 lights then on devices without storage buffers; 1536 bytes of matrices each)"
+        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in one texture if they share it, and 128 lights then on devices without storage buffers; 1536 bytes of matrices each)"
     )]
     Slots {
         /// Lights asked for.

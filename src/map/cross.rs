@@ -2,7 +2,7 @@
 
 use super::cube::CubeShadowMap;
 use super::encoding::DepthEncoding;
-use super::gpu::LightUniform;
+use super::gpu::LightRecord;
 use crate::error::CubeShadowMapError;
 
 /// How to make a [`CubeCross`].
@@ -144,7 +144,7 @@ fn layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
                 wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
                     has_dynamic_offset: false,
-                    min_binding_size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+                    min_binding_size: wgpu::BufferSize::new(size_of::<LightRecord>() as u64),
                 },
             ),
         ],

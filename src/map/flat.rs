@@ -5,9 +5,9 @@ use glam::{Mat4, Vec4};
 use super::encoding::{DepthEncoding, texel_bytes};
 use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 use super::gpu::{
-    Draw, DrawLists, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, FlatLightUniform,
-    INSTANCE_SIZE, Instances, PipelineKind, Pipelines, TooLarge, array_view, begin_depth_pass,
-    can_pull_casters, create_texture, layer_view,
+    Draw, DrawLists, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, INSTANCE_SIZE, Instances,
+    LightRecord, PipelineKind, Pipelines, TilePlace, TileTexture, Tiles, TooLarge, array_view,
+    begin_depth_pass, can_pull_casters, create_texture, layer_view,
 };
 use super::plan::{FlatPlace, Rules, SlotPlan, Slots, choose_tiles, follow};
 use super::projection::NearPlane;
@@ -168,10 +168,8 @@ impl ShadowMap {
         if self.is_pending() {
             self.record_draws(device, frame.casters)?;
         }
-        let (size, format) = (self.size, self.texture.format());
-        let frame_shown = self.place.frame();
-        let light = FlatLightUniform::new(frame_shown, &self.bias, size, format);
-        self.light.write(&mut self.uploads, light);
+        let record = self.light_record();
+        self.light.write(&mut self.uploads, record);
         self.statistics = ShadowMapStatistics {
             not_encoded,
             encoder_dropped,
@@ -353,6 +351,23 @@ impl ShadowMap {
             self.uniforms.write(&mut self.uploads, 0, uniform);
         }
         Ok(())
+    }
+
+    /// What receivers are told of the light.
+    fn light_record(&self) -> LightRecord {
+        let texture = TileTexture {
+            side: self.size,
+            bias: self.bias,
+            format: self.texture.format(),
+        };
+        let tile = Tiles::At {
+            size: self.size,
+            places: [TilePlace::layer(0)],
+        };
+        match self.place.frame() {
+            Some(frame) => LightRecord::flat(frame, tile, &texture),
+            None => LightRecord::SUN_WITHOUT_CASTERS,
+        }
     }
 
     /// Forgets what was to be written, and what has been.

@@ -21,7 +21,7 @@ pub use cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
 pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
-pub(crate) use gpu::{FlatLightUniform, LightUniform, UNIFORM_LIGHTS};
+pub(crate) use gpu::{LightRecord, UNIFORM_LIGHTS};
 pub use projection::CubeFace;
 pub use sides::CasterSides;
 pub use static_layers::StaticLayers;

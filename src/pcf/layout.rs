@@ -1,16 +1,13 @@
 //! The layout of a sampler's bind group.
 
+use super::Kernel;
 use super::kernel::KernelUniform;
 use super::map_kind::{Lights, Reads};
-use super::{Kernel, MapKind};
-use crate::map::{FlatLightUniform, LightUniform, UNIFORM_LIGHTS};
+use crate::map::{LightRecord, UNIFORM_LIGHTS};
 
 /// The buffer that a sampler reads lights from, and how large it is at least.
 fn light_buffer(reads: Reads) -> (wgpu::BufferBindingType, usize) {
-    let one = match reads.map {
-        MapKind::Cube => size_of::<LightUniform>(),
-        MapKind::Flat => size_of::<FlatLightUniform>(),
-    };
+    let one = size_of::<LightRecord>();
     match reads.lights {
         Lights::One => (wgpu::BufferBindingType::Uniform, one),
         Lights::Storage => (wgpu::BufferBindingType::Storage { read_only: true }, one),

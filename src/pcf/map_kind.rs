@@ -3,6 +3,7 @@
 use super::text::TEXEL;
 use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowMap};
 
+const TILE_WHOLE: &str = include_str!("../../shaders/tile_whole.wgsl");
 const CUBE_TEXEL: &str = include_str!("../../shaders/cube_texel.wgsl");
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
@@ -106,7 +107,8 @@ pub(super) struct Reads {
 /// The files that a kind of map brings along.
 pub(super) struct MapWgsl {
     reads: Reads,
-    pub light: &'static str,
+    /// Where the tiles of a light are.
+    pub tile: &'static str,
     /// What kind of light is read, or of a cube its faces.
     pub kind: &'static str,
     pub receiver: &'static str,
@@ -136,7 +138,7 @@ impl MapWgsl {
     fn flat(reads: Reads) -> Self {
         Self {
             reads,
-            light: include_str!("../../shaders/flat_light.wgsl"),
+            tile: TILE_WHOLE,
             kind: reads.flat_lights.wgsl(),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
             depth: "",
@@ -163,7 +165,7 @@ impl MapWgsl {
     fn cube(reads: Reads) -> Self {
         Self {
             reads,
-            light: include_str!("../../shaders/cube_light.wgsl"),
+            tile: TILE_WHOLE,
             kind: include_str!("../../shaders/cube_face.wgsl"),
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
             depth: match reads.encoding {
@@ -201,9 +203,19 @@ impl MapWgsl {
     pub fn adapt(&self, wgsl: &str) -> String {
         match self.reads.map {
             MapKind::Cube => wgsl.to_owned(),
-            MapKind::Flat => wgsl
-                .replace("ShadowsCube", "ShadowsFlat")
-                .replace("shadows_cube_", "shadows_flat_"),
+            MapKind::Flat => [
+                ("ShadowsCube", "ShadowsFlat"),
+                ("shadows_cube_", "shadows_flat_"),
+                // What cube maps and flat ones share: a shader may hold a sampler's module of each.
+                ("ShadowsLight", "ShadowsFlatLight"),
+                ("ShadowsTile", "ShadowsFlatTile"),
+                ("ShadowsKernel", "ShadowsFlatKernel"),
+                ("shadows_kind", "shadows_flat_kind"),
+                ("shadows_casts", "shadows_flat_casts"),
+                ("shadows_tile", "shadows_flat_tile"),
+            ]
+            .iter()
+            .fold(wgsl.to_owned(), |text, (from, to)| text.replace(from, to)),
         }
     }
 

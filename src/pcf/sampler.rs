@@ -208,8 +208,8 @@ impl PcfSampler {
 
     /// Layout of the bind group: 0 the map (`texture_2d_array<f32>`, unfilterable), 1 a sampler
     /// (non-filtering); for [`Kernel::HardwareBilinear`] a `texture_depth_2d_array` and a comparison
-    /// sampler; 2 the light (uniform buffer of 80 bytes, for flat maps 96; with `many_lights` a read-only
-    /// storage buffer of all lights, or without storage buffers a uniform buffer of 204); for disks also 3, the kernel's parameters (uniform buffer of
+    /// sampler; 2 the light (uniform buffer of 128 bytes; with `many_lights` a read-only
+    /// storage buffer of all lights, or without storage buffers a uniform buffer of 128); for disks also 3, the kernel's parameters (uniform buffer of
     /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
@@ -321,16 +321,16 @@ impl PcfSampler {
     /// fn shadows_cube_bilinear(
     ///     map: texture_2d_array<f32>, // the faces, in the order of CubeFace::ALL
     ///     map_sampler: sampler,
-    ///     light: ShadowsCubeLight,
+    ///     light: ShadowsLight,
     ///     position: vec3f, // of the receiver, world space
     ///     normal: vec3f,   // geometric, world space, any length, either sign
     /// ) -> f32             // 1 lit, 0 in shadow; 0 beyond the light's range
     /// ```
     ///
-    /// For flat maps `flat` takes the place of `cube` in all names, and the map has one layer. Disks take `kernel: ShadowsCubeKernel` and `offsets: texture_3d<f32>` after
+    /// For flat maps `flat` takes the place of `cube` in all names, and the map has one layer. Disks take `kernel: ShadowsKernel` and `offsets: texture_3d<f32>` after
     /// the light and `pixel: vec2f`, the pixel's coordinates, as the last.
     ///
-    /// `light.cube` says from six times which layer on they are.
+    /// `light.tiles` says which layers they are.
     pub fn wgsl(&self) -> String {
         let own = MapWgsl::new(self.reads);
         match self.textbook {

@@ -4,6 +4,8 @@ use super::Kernel;
 use super::map_kind::{Lights, MapWgsl};
 use crate::map::UNIFORM_LIGHTS;
 
+const LIGHT: &str = include_str!("../../shaders/light_record.wgsl");
+const PARAMETERS: &str = include_str!("../../shaders/pcf_parameters.wgsl");
 const SQUARE: &str = include_str!("../../shaders/pcf_square.wgsl");
 const RANDOM_DISK: &str = include_str!("../../shaders/pcf_random_disk.wgsl");
 const VOGEL: &str = include_str!("../../shaders/pcf_vogel.wgsl");
@@ -38,7 +40,7 @@ impl Extra {
                 pixel: "",
             },
             true => Self {
-                parameters: "\n    kernel: ShadowsCubeKernel,\n    offsets: texture_3d<f32>,",
+                parameters: "\n    kernel: ShadowsKernel,\n    offsets: texture_3d<f32>,",
                 arguments: ", kernel, offsets",
                 pixel_parameter: ", pixel: vec2f",
                 pixel: ", pixel",
@@ -50,7 +52,7 @@ impl Extra {
 /// The functions of a kernel, and no other's.
 pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
     if kernel == Kernel::HardwareBilinear {
-        let text = [own.light, own.kind, own.edge, own.hardware, HARDWARE];
+        let text = [LIGHT, own.tile, own.kind, own.edge, own.hardware, HARDWARE];
         return own.adapt(&text.join("\n"));
     }
     let (weights, last) = match kernel {
@@ -64,14 +66,15 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
         _ => (kernel.weights(), vec![SQUARE]),
     };
     let map: &[&str] = match (kernel.uses_pixel(), &weights) {
-        (true, _) => &[own.tap],
+        (true, _) => &[PARAMETERS, own.tap],
         (false, None) => &[],
         (false, Some(_)) => &[own.texel, TEXEL, own.gather, own.four],
     };
     let weights = weights.map(|weights| weights.wgsl());
     let entry = entry(kernel);
     let shared = [
-        own.light,
+        LIGHT,
+        own.tile,
         own.kind,
         own.receiver,
         own.depth,
@@ -92,17 +95,16 @@ pub(super) fn functions(kernel: Kernel, own: &MapWgsl) -> String {
 
 /// The textbook's receiver.
 pub(super) fn textbook(own: &MapWgsl) -> String {
-    own.adapt(
-        &[
-            own.light,
-            own.kind,
-            own.receiver,
-            own.depth,
-            own.fetch,
-            TEXTBOOK,
-        ]
-        .join("\n"),
-    )
+    let text = [
+        LIGHT,
+        own.tile,
+        own.kind,
+        own.receiver,
+        own.depth,
+        own.fetch,
+        TEXTBOOK,
+    ];
+    own.adapt(&text.join("\n"))
 }
 
 /// The function that hosts call: what every kernel does before its first tap.
@@ -119,7 +121,7 @@ fn entry(kernel: Kernel) -> String {
 fn {function}(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
-    light: ShadowsCubeLight,{parameters}
+    light: ShadowsLight,{parameters}
     position: vec3f,
     normal: vec3f{pixel_parameter}
 ) -> f32 {{
@@ -132,7 +134,7 @@ fn {function}(
 fn {function}_derived(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
-    light: ShadowsCubeLight,{parameters}
+    light: ShadowsLight,{parameters}
     position: vec3f,
     derived: ShadowsCubeDerived{pixel_parameter}
 ) -> f32 {{
@@ -140,7 +142,7 @@ fn {function}_derived(
     if !receiver.asks {{
         return select(0.0, 1.0, receiver.lit);
     }}
-    return shadows_cube_filter(map, map_sampler, receiver, light.size{arguments}{pixel});
+    return shadows_cube_filter(map, map_sampler, receiver{arguments}{pixel});
 }}
 "
     )
@@ -186,10 +188,10 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
 /// The bindings of one group, and functions that read them.
 pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> String {
     let function = kernel.map_or(TEXTBOOK_FUNCTION, Kernel::function);
-    let many = format!("uniform> shadows_light: array<ShadowsCubeLight, {UNIFORM_LIGHTS}>");
+    let many = format!("uniform> shadows_light: array<ShadowsLight, {UNIFORM_LIGHTS}>");
     let lights = match own.lights() {
-        Lights::One => "uniform> shadows_light: ShadowsCubeLight",
-        Lights::Storage => "storage, read> shadows_light: array<ShadowsCubeLight>",
+        Lights::One => "uniform> shadows_light: ShadowsLight",
+        Lights::Storage => "storage, read> shadows_light: array<ShadowsLight>",
         Lights::Uniform => &many,
     };
     let (index, light, element) = match own.lights() {
@@ -203,7 +205,7 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
         false => (String::new(), ""),
         true => (
             format!(
-                "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsCubeKernel;
+                "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsKernel;
 @group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;
 "
             ),

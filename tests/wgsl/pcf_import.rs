@@ -68,7 +68,7 @@ fn functions_without_bindings_are_imported_too() {
         let module = wgsl::import_module("shadows::functions", &sampler.wgsl());
         let (kind, names) = match descriptor.map {
             MapKind::Flat => ("flat", "Flat"),
-            _ => ("cube", "Cube"),
+            _ => ("cube", ""),
         };
         let (texture, sampled) = match descriptor.kernel {
             Kernel::HardwareBilinear => ("texture_depth_2d_array", "sampler_comparison"),

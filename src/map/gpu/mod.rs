@@ -7,7 +7,6 @@ mod draws;
 mod encode;
 mod flat_light;
 mod instances;
-#[allow(dead_code)] // the atlas writes them
 mod light_record;
 mod pipelines;
 mod static_layers;
@@ -15,11 +14,12 @@ mod texture;
 mod uniforms;
 
 pub(crate) use cube::CubeGpu;
-pub(crate) use cube_lights::{LightUniform, UNIFORM_LIGHTS};
+pub(crate) use cube_lights::UNIFORM_LIGHTS;
 pub(crate) use draws::{Draw, DrawLists};
 pub(crate) use encode::{Drawing, begin_depth_pass};
-pub(crate) use flat_light::{FlatLightBuffer, FlatLightUniform};
+pub(crate) use flat_light::FlatLightBuffer;
 pub(crate) use instances::{INSTANCE_SIZE, Instances, TooLarge};
+pub(crate) use light_record::{LightRecord, TilePlace, TileTexture, Tiles};
 pub(crate) use pipelines::{PipelineKind, Pipelines, can_pull_casters};
 pub(crate) use texture::{array_view, create_texture, layer_view};
 pub(crate) use uniforms::{FaceUniform, FaceUniforms, most_tiles};
