@@ -1,32 +1,20 @@
 //! The layout of a sampler's bind group.
 
+use super::Kernel;
 use super::kernel::KernelUniform;
-use super::map_kind::Reads;
-use super::{Kernel, MapKind};
-use crate::map::{FlatLightUniform, LightUniform};
+use super::map_kind::{Lights, Reads};
+use crate::map::{LightRecord, UNIFORM_LIGHTS};
 
-/// The kinds of binding that a map and its lights are.
-struct MapEntries {
-    dimension: wgpu::TextureViewDimension,
-    lights: wgpu::BufferBindingType,
-    light_size: usize,
-}
-
-fn map_entries(reads: Reads) -> MapEntries {
-    MapEntries {
-        dimension: match (reads.map, reads.many_lights) {
-            (MapKind::Cube, false) => wgpu::TextureViewDimension::Cube,
-            (MapKind::Cube, true) => wgpu::TextureViewDimension::CubeArray,
-            (MapKind::Flat, _) => wgpu::TextureViewDimension::D2,
-        },
-        lights: match reads.many_lights {
-            false => wgpu::BufferBindingType::Uniform,
-            true => wgpu::BufferBindingType::Storage { read_only: true },
-        },
-        light_size: match reads.map {
-            MapKind::Cube => size_of::<LightUniform>(),
-            MapKind::Flat => size_of::<FlatLightUniform>(),
-        },
+/// The buffer that a sampler reads lights from, and how large it is at least.
+fn light_buffer(reads: Reads) -> (wgpu::BufferBindingType, usize) {
+    let one = size_of::<LightRecord>();
+    match reads.lights {
+        Lights::One => (wgpu::BufferBindingType::Uniform, one),
+        Lights::Storage => (wgpu::BufferBindingType::Storage { read_only: true }, one),
+        Lights::Uniform => (
+            wgpu::BufferBindingType::Uniform,
+            one * UNIFORM_LIGHTS as usize,
+        ),
     }
 }
 
@@ -36,7 +24,7 @@ pub(super) fn create_layout(
     kernel: Kernel,
     reads: Reads,
 ) -> wgpu::BindGroupLayout {
-    let map = map_entries(reads);
+    let (lights, light_size) = light_buffer(reads);
     let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
@@ -65,9 +53,9 @@ pub(super) fn create_layout(
         min_binding_size: wgpu::BufferSize::new(size as u64),
     };
     let mut entries = vec![
-        entry(0, texture(depths, map.dimension)),
+        entry(0, texture(depths, wgpu::TextureViewDimension::D2Array)),
         entry(1, wgpu::BindingType::Sampler(sampler)),
-        entry(2, buffer(map.lights, map.light_size)),
+        entry(2, buffer(lights, light_size)),
     ];
     if kernel.uses_pixel() {
         let ty = wgpu::BufferBindingType::Uniform;

@@ -1,5 +1,6 @@
 //! Percentage-closer filtering: how receivers read a shadow map.
 
+mod atlas_text;
 mod disk;
 mod gather;
 mod kernel;
@@ -13,5 +14,5 @@ mod weights;
 pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 pub use gather::Gather;
 pub use kernel::Kernel;
-pub use map_kind::{AnyMap, FlatLights, MapKind};
+pub use map_kind::{AnyMap, FlatLights, LightKinds, MapKind};
 pub use sampler::{PcfDescriptor, PcfSampler};

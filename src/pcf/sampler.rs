@@ -4,9 +4,10 @@ use wgpu::util::DeviceExt as _;
 
 use super::kernel::KernelUniform;
 use super::layout::create_layout;
-use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, FlatLights, Gather, Kernel, MapKind, offsets, text};
+use super::map_kind::{Lights, MapWgsl, Reads};
+use super::{AnyMap, FlatLights, Gather, Kernel, LightKinds, MapKind, atlas_text, offsets, text};
 use crate::error::PcfError;
+use crate::support::has_storage;
 use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
@@ -21,8 +22,8 @@ pub struct PcfDescriptor<'a> {
     /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]; flat maps have no other.
     pub encoding: DepthEncoding,
     /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
-    /// a cube map. Such maps are made with `cube_array`, and the device has
-    /// [`Support::cube_arrays`](crate::Support). Default false: one light a bind group. For cube maps.
+    /// a cube map. Such maps are made with `cube_array`. Default false: one light a bind group. For cube
+    /// maps.
     pub many_lights: bool,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
@@ -32,6 +33,8 @@ pub struct PcfDescriptor<'a> {
     /// Which lights its flat maps are prepared for. Default [`FlatLights::Any`]; a sampler for one kind
     /// of light takes fewer instructions. For flat maps.
     pub flat_lights: FlatLights,
+    /// Which kinds of light of an atlas its receivers are for. Default all. For atlases.
+    pub light_kinds: LightKinds,
     /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
     pub gather: Gather,
 }
@@ -55,6 +58,15 @@ impl PcfDescriptor<'_> {
                 setting: "flat_lights",
                 map: self.map,
             });
+        }
+        if self.map != MapKind::Atlas && self.light_kinds != LightKinds::default() {
+            return Err(PcfError::AtlasOnly {
+                setting: "light_kinds",
+                map: self.map,
+            });
+        }
+        if self.light_kinds.is_empty() {
+            return Err(PcfError::NoLightKinds);
         }
         if !self.textbook {
             return match self.kernel.reads(self.encoding) {
@@ -106,9 +118,8 @@ impl PcfSampler {
     /// no bindings in its layout.
     ///
     /// # Errors
-    /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
-    /// many lights or no gathers for [`Gather::Always`], its back end or the encoding does not go with
-    /// [`Kernel::HardwareBilinear`], textbook receivers are to read another encoding
+    /// [`PcfError`] if a parameter of the kernel is out of range, the device has no gathers for
+    /// [`Gather::Always`], the encoding does not go with [`Kernel::HardwareBilinear`], textbook receivers are to read another encoding
     /// than theirs, or a setting would have no effect.
     pub fn new(
         device: &wgpu::Device,
@@ -123,17 +134,12 @@ impl PcfSampler {
             many_lights,
             textbook,
             flat_lights,
+            light_kinds,
             gather,
         } = descriptor;
         kernel.validate()?;
         descriptor.validate_combination()?;
-        if many_lights && !crate::support::has_cube_arrays(device) {
-            return Err(PcfError::CubeArray);
-        }
         let hardware = kernel == Kernel::HardwareBilinear;
-        if hardware && many_lights && crate::gl::is_gl(device) {
-            return Err(PcfError::HardwareArray);
-        }
         let border = map == MapKind::Flat
             && device
                 .features()
@@ -145,10 +151,15 @@ impl PcfSampler {
         let reads = Reads {
             map,
             encoding,
-            many_lights,
+            lights: match many_lights {
+                false if map != MapKind::Atlas => Lights::One,
+                _ if has_storage(device) => Lights::Storage,
+                _ => Lights::Uniform,
+            },
             flat_lights,
+            kinds: light_kinds,
             border,
-            gather: gather.on(device, map)?,
+            gather: gather.on(device)?,
         };
         let filter = match hardware {
             false => wgpu::FilterMode::Nearest,
@@ -208,12 +219,10 @@ impl PcfSampler {
         }
     }
 
-    /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
-    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering); for
-    /// [`Kernel::HardwareBilinear`] a `texture_depth_cube`, `texture_depth_cube_array` or
-    /// `texture_depth_2d` and a comparison sampler;
-    /// 2 the light (uniform buffer of 64 bytes, for flat maps 96; with `many_lights` a read-only
-    /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
+    /// Layout of the bind group: 0 the map (`texture_2d_array<f32>`, unfilterable), 1 a sampler
+    /// (non-filtering); for [`Kernel::HardwareBilinear`] a `texture_depth_2d_array` and a comparison
+    /// sampler; 2 the light (uniform buffer of 128 bytes; with `many_lights` a read-only
+    /// storage buffer of all lights, or without storage buffers a uniform buffer of 128); for disks also 3, the kernel's parameters (uniform buffer of
     /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
@@ -227,7 +236,7 @@ impl PcfSampler {
     /// stays right for good.
     ///
     /// # Errors
-    /// [`PcfError`] if the map is of another kind, has another encoding, is no cube array, or was made
+    /// [`PcfError`] if the map is of another kind, has another encoding, has a texture for each light, or was made
     /// for kernels that do not reach as far as this one.
     pub fn bind_group<'a>(
         &self,
@@ -245,6 +254,10 @@ impl PcfSampler {
             AnyMap::Flat(map) => {
                 let light = map.light_uniform().as_entire_binding();
                 Ok(self.group(device, map.view(), light))
+            }
+            AnyMap::Atlas(map) => {
+                let lights = map.light_buffer().as_entire_binding();
+                Ok(self.group(device, map.view(), lights))
             }
         }
     }
@@ -271,19 +284,16 @@ impl PcfSampler {
                 sampler: self.reads.encoding,
             });
         }
-        let (view, lights) = match (self.reads.many_lights, map.array()) {
-            (true, Some((view, lights))) => (view, lights.as_entire_binding()),
-            (true, None) => return Err(PcfError::NoCubeArray),
-            (false, _) if light >= map.most_lights() => {
+        let lights = match (self.reads.lights, map.all_lights()) {
+            (Lights::One, _) if light >= map.most_lights() => {
                 let lights = map.most_lights();
                 return Err(PcfError::Light { light, lights });
             }
-            (false, _) => {
-                let view = map.view(light).map_err(|_| PcfError::CubeView)?;
-                (view, map.light_uniform(light))
-            }
+            (Lights::One, _) => map.light_uniform(light),
+            (_, Some(lights)) => lights.as_entire_binding(),
+            (_, None) => return Err(PcfError::NoCubeArray),
         };
-        Ok(self.group(device, view, lights))
+        Ok(self.group(device, map.layers(light), lights))
     }
 
     /// What a kernel reads beyond a map's reach may be out of date, or beside the map.
@@ -326,21 +336,24 @@ impl PcfSampler {
     ///
     /// ```wgsl
     /// fn shadows_cube_bilinear(
-    ///     map: texture_cube<f32>,
+    ///     map: texture_2d_array<f32>, // the faces, in the order of CubeFace::ALL
     ///     map_sampler: sampler,
-    ///     light: ShadowsCubeLight,
+    ///     light: ShadowsLight,
     ///     position: vec3f, // of the receiver, world space
     ///     normal: vec3f,   // geometric, world space, any length, either sign
     /// ) -> f32             // 1 lit, 0 in shadow; 0 beyond the light's range
     /// ```
     ///
-    /// For flat maps `flat` takes the place of `cube` in all names, and the map is a
-    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` and `offsets: texture_3d<f32>` after
+    /// For flat maps `flat` takes the place of `cube` in all names, and the map has one layer. Disks take `kernel: ShadowsKernel` and `offsets: texture_3d<f32>` after
     /// the light and `pixel: vec2f`, the pixel's coordinates, as the last.
     ///
-    /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
+    /// `light.tiles` says which layers they are.
     pub fn wgsl(&self) -> String {
         let own = MapWgsl::new(self.reads);
+        if self.map() == MapKind::Atlas {
+            let flat = MapWgsl::flat_tiles(self.reads);
+            return atlas_text::functions(self.kernel, &own, &flat, self.reads.kinds);
+        }
         match self.textbook {
             true => text::textbook(&own),
             false => text::functions(self.kernel, &own),
@@ -366,6 +379,11 @@ impl PcfSampler {
     /// one's.
     pub fn wgsl_module(&self, group: u32) -> String {
         let kernel = (!self.textbook).then_some(self.kernel);
+        if self.map() == MapKind::Atlas {
+            return self.wgsl()
+                + &text::declarations(kernel, self.reads.lights, group)
+                + &atlas_text::visibility(self.kernel, self.reads.kinds);
+        }
         self.wgsl() + &text::bindings(kernel, &MapWgsl::new(self.reads), group)
     }
 

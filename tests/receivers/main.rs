@@ -1,5 +1,6 @@
 //! Kernels as receivers ask them: their weights, their bias and their error, against exact visibility.
 
+mod atlas;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_receivers;
