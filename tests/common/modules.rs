@@ -10,8 +10,7 @@ pub const JOINED: &[&[&str]] = &[
     FACE,
     &["cube_caster", "cube_caster_gl"],
     &["light_record", "cube_cross"],
-    // Read by nobody yet.
-    &["light_record", "tile_placed"],
+    &["tile_fill"],
     PULLED,
     PULLED_STEPS,
     RECORDS,

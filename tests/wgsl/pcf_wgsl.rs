@@ -1,7 +1,7 @@
 //! The receiver's WGSL: valid in every configuration, free of bindings, free of other kernels.
 
 use crate::common::{noop, to_glsl, to_webgl, validate, validation_error};
-use crate::pcf::{SQUARES, WAYS, descriptors, host, made, samplers};
+use crate::pcf::{SQUARES, WAYS, descriptors, host, made, samplers, takes_light};
 use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, wgpu};
 
 const VERTEX: &str = "
@@ -201,7 +201,7 @@ fn uniform_sizes(module: &naga::Module) -> Vec<u32> {
 fn every_kernel_of_one_light_without_gathers_is_webgl_2() {
     let mut squares = 0;
     for (descriptor, sampler) in samplers() {
-        if descriptor.many_lights {
+        if takes_light(&descriptor) {
             continue; // a storage buffer, which is not there
         }
         let text = sampler.wgsl_module(0) + &host(&descriptor);
