@@ -210,8 +210,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
 pub use pcf::{
-    AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler,
-    Radius, RandomDisk, VogelDisk,
+    AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, ModulePlace, PcfDescriptor,
+    PcfSampler, Radius, RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -1,5 +1,6 @@
 //! Percentage-closer filtering: how receivers read a shadow map.
 
+mod bound;
 mod disk;
 mod gather;
 mod kernel;
@@ -10,6 +11,7 @@ mod sampler;
 mod text;
 mod weights;
 
+pub use bound::ModulePlace;
 pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 pub use gather::Gather;
 pub use kernel::Kernel;

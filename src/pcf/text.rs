@@ -186,7 +186,13 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
 }
 
 /// The bindings of one group, and functions that read them.
-pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> String {
+pub(super) fn bindings(
+    kernel: Option<Kernel>,
+    own: &MapWgsl,
+    group: u32,
+    first_binding: u32,
+) -> String {
+    let binding = |index: u32| format!("@group({group}) @binding({})", first_binding + index);
     let function = kernel.map_or(TEXTBOOK_FUNCTION, Kernel::function);
     let many = format!("uniform> shadows_light: array<ShadowsLight, {UNIFORM_LIGHTS}>");
     let lights = match own.lights() {
@@ -205,9 +211,11 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
         false => (String::new(), ""),
         true => (
             format!(
-                "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsKernel;
-@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;
-"
+                "{} var<uniform> shadows_kernel: ShadowsKernel;
+{} var shadows_offsets: texture_3d<f32>;
+",
+                binding(3),
+                binding(4)
             ),
             ", shadows_kernel, shadows_offsets",
         ),
@@ -219,9 +227,9 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
     let derived = derived(kernel, &format!("shadows_light{element}"), light);
     own.adapt_module(&format!(
         "
-@group({group}) @binding(0) var shadows_map: {map};
-@group({group}) @binding(1) var shadows_map_sampler: {sampler};
-@group({group}) @binding(2) var<{lights};
+{} var shadows_map: {map};
+{} var shadows_map_sampler: {sampler};
+{} var<{lights};
 {disk_bindings}
 fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{
     return {function}(
@@ -233,6 +241,9 @@ fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
     let x = dpdx(position);
     let y = dpdy(position);
 {derived}}}
-"
+",
+        binding(0),
+        binding(1),
+        binding(2)
     ))
 }
