@@ -303,6 +303,11 @@ pub enum PcfError {
         /// The maps that the sampler is to read.
         map: crate::MapKind,
     },
+    /// A prefix with which a name is none.
+    #[error(
+        "the prefix of a module's names is no beginning of a name in WGSL; pass letters, digits and underscores, the first no digit, and not two underscores first"
+    )]
+    Prefix,
     /// A bind group for a light that the map has no place for.
     #[error(
         "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"

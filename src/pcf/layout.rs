@@ -1,4 +1,4 @@
-//! The layout of a sampler's bind group.
+//! The bindings of a sampler.
 
 use super::Kernel;
 use super::kernel::KernelUniform;
@@ -18,16 +18,16 @@ fn light_buffer(reads: Reads) -> (wgpu::BufferBindingType, usize) {
     }
 }
 
-pub(super) fn create_layout(
-    device: &wgpu::Device,
-    label: &str,
+/// What a sampler binds, from `first` on.
+pub(super) fn layout_entries(
     kernel: Kernel,
     reads: Reads,
-) -> wgpu::BindGroupLayout {
+    first: u32,
+) -> Vec<wgpu::BindGroupLayoutEntry> {
     let (lights, light_size) = light_buffer(reads);
     let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
+        binding: first + binding,
         visibility,
         ty,
         count: None,
@@ -62,8 +62,5 @@ pub(super) fn create_layout(
         entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
         entries.push(entry(4, texture(float, wgpu::TextureViewDimension::D3)));
     }
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &entries,
-    })
+    entries
 }

@@ -1,6 +1,7 @@
 //! Percentage-closer filtering: how receivers read a shadow map.
 
 mod atlas_text;
+mod bound;
 mod disk;
 mod gather;
 mod kernel;
@@ -11,6 +12,7 @@ mod sampler;
 mod text;
 mod weights;
 
+pub use bound::ModulePlace;
 pub use disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 pub use gather::Gather;
 pub use kernel::Kernel;

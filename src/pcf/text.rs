@@ -194,7 +194,13 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
 }
 
 /// The bindings of one group.
-pub(super) fn declarations(kernel: Option<Kernel>, lights: Lights, group: u32) -> String {
+pub(super) fn declarations(
+    kernel: Option<Kernel>,
+    lights: Lights,
+    group: u32,
+    first_binding: u32,
+) -> String {
+    let binding = |index: u32| format!("@group({group}) @binding({})", first_binding + index);
     let many = format!("uniform> shadows_light: array<ShadowsLight, {UNIFORM_LIGHTS}>");
     let lights = match lights {
         Lights::One => "uniform> shadows_light: ShadowsLight",
@@ -204,9 +210,11 @@ pub(super) fn declarations(kernel: Option<Kernel>, lights: Lights, group: u32) -
     let disk = match kernel.is_some_and(Kernel::uses_pixel) {
         false => String::new(),
         true => format!(
-            "@group({group}) @binding(3) var<uniform> shadows_kernel: ShadowsKernel;
-@group({group}) @binding(4) var shadows_offsets: texture_3d<f32>;
-"
+            "{} var<uniform> shadows_kernel: ShadowsKernel;
+{} var shadows_offsets: texture_3d<f32>;
+",
+            binding(3),
+            binding(4)
         ),
     };
     let (map, sampler) = match kernel {
@@ -215,15 +223,23 @@ pub(super) fn declarations(kernel: Option<Kernel>, lights: Lights, group: u32) -
     };
     format!(
         "
-@group({group}) @binding(0) var shadows_map: {map};
-@group({group}) @binding(1) var shadows_map_sampler: {sampler};
-@group({group}) @binding(2) var<{lights};
-{disk}"
+{} var shadows_map: {map};
+{} var shadows_map_sampler: {sampler};
+{} var<{lights};
+{disk}",
+        binding(0),
+        binding(1),
+        binding(2)
     )
 }
 
 /// The bindings of one group, and functions that read them.
-pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> String {
+pub(super) fn bindings(
+    kernel: Option<Kernel>,
+    own: &MapWgsl,
+    group: u32,
+    first_binding: u32,
+) -> String {
     let function = kernel.map_or(TEXTBOOK_FUNCTION, Kernel::function);
     let (index, light, element) = match own.lights() {
         Lights::One => ("", "", ""),
@@ -236,7 +252,7 @@ pub(super) fn bindings(kernel: Option<Kernel>, own: &MapWgsl, group: u32) -> Str
         false => "",
         true => ", shadows_kernel, shadows_offsets",
     };
-    let declarations = declarations(kernel, own.lights(), group);
+    let declarations = declarations(kernel, own.lights(), group, first_binding);
     let derived = derived(kernel, &format!("shadows_light{element}"), light);
     own.adapt_module(&format!(
         "{declarations}

@@ -15,6 +15,7 @@ mod pcf_gl;
 mod pcf_grazing;
 mod pcf_hardware;
 mod pcf_kernels;
+mod pcf_own_group;
 mod pcf_quality;
 mod pcf_seams;
 #[path = "../common/receivers.rs"]
