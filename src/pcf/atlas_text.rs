@@ -177,7 +177,8 @@ fn shadows_on_cascades_{suffix}(
     )
 }
 
-/// How many texels are left between what the kernel reads and the border of a cascade.
+/// How many texels are left between what the kernel reads and the border of a cascade. None before its near
+/// plane: what casters there are nearer than that is pulled onto it.
 fn room(kernel: Kernel) -> String {
     let reads = match kernel {
         Kernel::Hard | Kernel::HardwareBilinear => "1.5",
@@ -191,7 +192,8 @@ fn room(kernel: Kernel) -> String {
 fn shadows_cascade_room(record: ShadowsLight, position: vec3f) -> f32 {{
     let local = position - record.position;
     let place = abs(vec2f(dot(record.right, local), dot(record.down, local)) * record.texels);
-    return record.middle - ({reads}) - max(place.x, place.y);
+    let room = record.middle - ({reads}) - max(place.x, place.y);
+    return select(room, -1.0, dot(record.forward, local) < 0.0);
 }}
 "
     )
