@@ -1,0 +1,228 @@
+//! The same shadows by several techniques, as one picture:
+//!
+//! ```text
+//! cargo run --release --example kernel_sheet -- --kernels docs/kernels.png        every kernel
+//! cargo run --release --example kernel_sheet -- --peers docs/peers.png            ours and other engines'
+//! cargo run --release --example kernel_sheet -- --difference docs/difference.png  close-ups: textbook, ours
+//! ```
+//!
+//! In the last two wrong pixels have a colour: red where light is false, blue where shadow is.
+
+use anyhow::{Context as _, Result, bail};
+use compare::shadow::Shadow;
+use compare::stage::Stage;
+use host::gpu::Gpu;
+use host::scene::{Camera, courtyard};
+use shadows::glam::Vec3;
+use shadows::reference::{Interior, ReferenceImage, Verdict};
+
+/// One tile's pixels.
+const TILE: [u32; 2] = [312, 208];
+const GAP: u32 = 4;
+const COLUMNS: u32 = 4;
+/// Grey levels of the picture.
+const LEVELS: u32 = 48;
+
+/// Tiles in reading order, each with its camera and a technique's name, or `exact` or `area` for rays.
+struct Sheet {
+    tiles: Vec<(Camera, &'static str)>,
+    /// Texels of a face.
+    side: u32,
+    /// Whether wrong pixels have a colour.
+    errors: bool,
+}
+
+const EYE: Vec3 = Vec3::new(-4.6, 5.9, 13.7);
+
+/// A part of the courtyard, from where the whole of it is seen.
+const fn close_up(target: Vec3, fovy: f32) -> Camera {
+    Camera {
+        eye: EYE,
+        target,
+        fovy,
+        near: 0.1,
+    }
+}
+
+const CHAINS: Camera = close_up(Vec3::new(2.35, 0.0, 5.75), 0.25);
+const LINKS: Camera = close_up(Vec3::new(1.2, 0.3, 6.2), 0.13);
+
+/// Links of a chain, a bollard's foot, where two panels of the fence meet, a railing.
+const CLOSE_UPS: [Camera; COLUMNS as usize] = [
+    close_up(Vec3::new(1.55, 0.5, 5.2), 0.04),
+    close_up(Vec3::new(2.75, 0.08, 5.0), 0.05),
+    close_up(Vec3::new(-3.45, 0.05, 4.8), 0.07),
+    close_up(Vec3::new(5.9, 1.2, -0.3), 0.07),
+];
+
+fn of_one_view(camera: Camera, techniques: &[&'static str]) -> Vec<(Camera, &'static str)> {
+    techniques.iter().map(|name| (camera, *name)).collect()
+}
+
+fn sheet(kind: &str) -> Result<Sheet> {
+    Ok(match kind {
+        // Few texels, so that kernels show.
+        "--kernels" => Sheet {
+            tiles: of_one_view(
+                CHAINS,
+                &[
+                    "exact",
+                    "cube-hard",
+                    "cube-2x2",
+                    "cube-16",
+                    "cube-3x3",
+                    "cube-5x5",
+                    "cube-7x7",
+                    "cube-disk",
+                    "cube-disk-full",
+                    "cube-vogel",
+                    "cube-pcss",
+                    "area",
+                ],
+            ),
+            side: 512,
+            errors: false,
+        },
+        "--peers" => Sheet {
+            tiles: of_one_view(
+                LINKS,
+                &[
+                    "exact",
+                    "cube-2x2",
+                    "cube-hw",
+                    "cube-3x3",
+                    "cube-textbook",
+                    "peer-bevy-2x2",
+                    "peer-bevy-gaussian",
+                    "peer-three",
+                ],
+            ),
+            side: 1024,
+            errors: true,
+        },
+        "--difference" => Sheet {
+            tiles: ["cube-textbook", "cube-2x2", "volume"]
+                .iter()
+                .flat_map(|name| CLOSE_UPS.map(|camera| (camera, *name)))
+                .collect(),
+            side: 1024,
+            errors: true,
+        },
+        other => bail!("{other} is none of --kernels, --peers, --difference"),
+    })
+}
+
+/// One camera's stage and what is exact there.
+struct View {
+    camera: Camera,
+    stage: Stage,
+    reference: ReferenceImage,
+}
+
+impl View {
+    fn new(gpu: &Gpu, camera: Camera) -> Result<Self> {
+        let mut scene = courtyard();
+        scene.camera = camera;
+        let stage = Stage::new(gpu, scene, TILE)?;
+        let reference = stage.reference(|_| ())?;
+        Ok(Self {
+            camera,
+            stage,
+            reference,
+        })
+    }
+}
+
+/// The place of a camera's view, which is made where there is none.
+fn view_of(gpu: &Gpu, views: &mut Vec<View>, camera: Camera) -> Result<usize> {
+    if let Some(place) = views.iter().position(|view| view.camera == camera) {
+        return Ok(place);
+    }
+    views.push(View::new(gpu, camera)?);
+    Ok(views.len() - 1)
+}
+
+fn main() -> Result<()> {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let [kind, path] = args.as_slice() else {
+        bail!("say --kernels, --peers or --difference, and the file to write");
+    };
+    let sheet = sheet(kind)?;
+    let gpu = Gpu::new(None)?;
+    let rows = (sheet.tiles.len() as u32).div_ceil(COLUMNS);
+    let size = [
+        COLUMNS * (TILE[0] + GAP) - GAP,
+        rows * (TILE[1] + GAP) - GAP,
+    ];
+    let mut pixels = vec![[255; 3]; (size[0] * size[1]) as usize];
+    let mut views = Vec::new();
+    for (place, (camera, name)) in (0..).zip(&sheet.tiles) {
+        let view = view_of(&gpu, &mut views, *camera)?;
+        let View {
+            stage, reference, ..
+        } = &views[view];
+        let visibility = match *name {
+            "exact" => reference.visibility(),
+            "area" => area(reference),
+            name => shown(&gpu, stage, name, sheet.side)?,
+        };
+        let colors = tile(reference, &visibility, sheet.errors)?;
+        let corner = [
+            place % COLUMNS * (TILE[0] + GAP),
+            place / COLUMNS * (TILE[1] + GAP),
+        ];
+        for (y, row) in (0..).zip(colors.chunks_exact(TILE[0] as usize)) {
+            let at = ((corner[1] + y) * size[0] + corner[0]) as usize;
+            pixels[at..at + row.len()].copy_from_slice(row);
+        }
+    }
+    let file = match sheet.errors {
+        true => host::image::rgb_png(size, &pixels)?,
+        false => {
+            let grey: Vec<u8> = pixels.iter().map(|pixel| pixel[0]).collect();
+            host::image::grey_png(size, &grey)?
+        }
+    };
+    std::fs::write(path, file)?;
+    let names: Vec<&str> = sheet.tiles.iter().map(|(_, name)| *name).collect();
+    host::terminal::say(&format!("{path}: {}", names.join(", ")))
+}
+
+/// Visibility in few levels, which make a small file.
+fn tile(reference: &ReferenceImage, visibility: &[u8], errors: bool) -> Result<Vec<[u8; 3]>> {
+    let error = reference.compare(visibility, Interior::Screen)?;
+    let exact = reference.visibility();
+    let pixels = visibility.iter().zip(&exact).zip(&error.verdicts);
+    Ok(pixels
+        .map(|((&shown, &exact), verdict)| match verdict {
+            Verdict::FalseLit | Verdict::FalseLitInterior if errors => [230, 40, 30],
+            Verdict::FalseShadow | Verdict::FalseShadowInterior if errors => [40, 100, 240],
+            _ => {
+                // What faces away from the light is dark whatever a map says.
+                let away = errors && *verdict == Verdict::NotCounted;
+                let value = if away { exact } else { shown };
+                let level = (u32::from(value) * (LEVELS - 1) + 127) / 255;
+                [(40 + level * 200 / (LEVELS - 1)) as u8; 3]
+            }
+        })
+        .collect())
+}
+
+fn shown(gpu: &Gpu, stage: &Stage, name: &str, side: u32) -> Result<Vec<u8>> {
+    let row = compare::table::ROWS.iter().find(|row| row.name == name);
+    let technique = row.context("no such technique")?.at(side);
+    let mut shadow = Shadow::new(gpu, &stage.renderer, technique)?;
+    Ok(stage.picture(gpu, &mut shadow, &stage.inputs)?.visibility)
+}
+
+/// A light of the size that `cube-pcss` is made for.
+fn area(reference: &ReferenceImage) -> Vec<u8> {
+    let pixels: Vec<[u32; 2]> = (0..TILE[0] * TILE[1])
+        .map(|at| [at % TILE[0], at / TILE[0]])
+        .collect();
+    let radius = shadows::ContactHardening::default().light_size;
+    let seen = reference.area_visibility(&pixels, radius.into(), 1024);
+    seen.into_iter()
+        .map(|part| (255.0 * part.unwrap_or(0.0)).round() as u8)
+        .collect()
+}
