@@ -152,7 +152,7 @@ impl ShadowMap {
         }
         placed?;
         let light = self.place.projection();
-        self.slots.take_over(&[light], &mut self.casters);
+        self.slots.take_over(&[light.into()], &mut self.casters);
 
         let encoder_dropped = self.submissions.take_dropped();
         if encoder_dropped {
@@ -198,7 +198,7 @@ impl ShadowMap {
             pipelines: &self.pipelines,
             instances: &self.instances,
         };
-        drawing.record(&mut self.pass(encoder), 0, &self.draws.of(0, 0).tile);
+        drawing.record(&mut self.pass(encoder), 0, &self.draws.of(0, 0).tile.draws);
         self.slots[0].encoded(1);
     }
 
@@ -366,7 +366,7 @@ impl ShadowMap {
         };
         match self.place.frame() {
             Some(frame) => LightRecord::flat(frame, tile, &texture),
-            None => LightRecord::SUN_WITHOUT_CASTERS,
+            None => LightRecord::lit(),
         }
     }
 

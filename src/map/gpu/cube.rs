@@ -147,7 +147,7 @@ impl CubeGpu {
         (casters, all): (&Casters, &[Caster]),
     ) {
         if let Some(least) = layer_least {
-            slot.choose_modes(drawn, |_| least, casters);
+            slot.choose_modes(drawn, least, casters);
             for (bit, face) in slot.tiles.iter().enumerate() {
                 let built = matches!(face.layer.mode(), DrawMode::Build(_));
                 if drawn & 1 << bit != 0 && built {
@@ -252,7 +252,7 @@ impl CubeGpu {
         slot: &Slot,
         face: CubeFace,
     ) {
-        let draws = &self.draws.of(index, face.layer() as usize).tile;
+        let draws = &self.draws.of(index, face.layer() as usize).tile.draws;
         let load = match self.encode_layer(encoder, index, slot, face) {
             true if draws.is_empty() => return,
             true => wgpu::LoadOp::Load,
@@ -280,7 +280,7 @@ impl CubeGpu {
             DrawMode::Build(_) => {
                 let label = self.face_label(index, face);
                 let mut pass = begin_depth_pass(encoder, &label, view, self.clear());
-                let draws = &self.draws.of(index, face.layer() as usize).layer;
+                let draws = &self.draws.of(index, face.layer() as usize).layer.draws;
                 self.record(&mut pass, index, face, draws);
             }
             DrawMode::Copy(_) => {}

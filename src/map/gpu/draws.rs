@@ -8,7 +8,7 @@ use crate::map::plan::Slot;
 use crate::map::projection::{MOST_TILES, NearPlane};
 use crate::map::sides::{CasterSides, Cull};
 use crate::mesh::{Caster, CasterMesh};
-use crate::scene::Casters;
+use crate::scene::{Casters, Record};
 
 /// One draw call: a mesh, and where its instances lie.
 #[derive(Clone, Debug)]
@@ -25,6 +25,10 @@ impl Draw {
         PipelineKey {
             stride: self.mesh.layout().0,
             cull: self.cull,
+            places: self
+                .mesh
+                .places()
+                .map(|places| (places.layout, places.stride)),
         }
     }
 
@@ -50,7 +54,12 @@ impl Draw {
         pass.set_vertex_buffer(1, instances);
         let (indices, format) = self.mesh.indices();
         pass.set_index_buffer(indices, format);
-        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+        let mut count = self.instance_count;
+        if let Some(places) = self.mesh.places() {
+            pass.set_vertex_buffer(2, places.buffer.slice(places.offset..));
+            count = places.count;
+        }
+        pass.draw_indexed(0..self.mesh.index_count(), 0, 0..count);
     }
 }
 
@@ -66,7 +75,12 @@ fn batch(
     draws: &mut Vec<Draw>,
 ) {
     members.sort_unstable();
-    for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+    let many_places = |mesh: u32| {
+        casters
+            .mesh(mesh)
+            .is_some_and(|mesh| mesh.places().is_some())
+    };
+    for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1) && !many_places(a.0)) {
         let Some(mesh) = casters.mesh(run[0].0) else {
             continue; // the mesh of every record is there
         };
@@ -83,8 +97,22 @@ fn batch(
 /// What is drawn on one tile, and on the layer under it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TileDraws {
-    pub tile: Vec<Draw>,
-    pub layer: Vec<Draw>,
+    pub tile: ListedDraws,
+    pub layer: ListedDraws,
+}
+
+/// Draws in one pass: those of the map, and the places of casters that the host draws.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ListedDraws {
+    pub draws: Vec<Draw>,
+    pub host: Vec<usize>,
+}
+
+impl ListedDraws {
+    const NONE: Self = Self {
+        draws: Vec::new(),
+        host: Vec::new(),
+    };
 }
 
 /// The draws of all tiles of a map that the next encode draws.
@@ -107,8 +135,8 @@ impl DrawLists {
     /// What is drawn on a tile of a slot.
     pub fn of(&self, slot: usize, tile: usize) -> &TileDraws {
         const NONE: &TileDraws = &TileDraws {
-            tile: Vec::new(),
-            layer: Vec::new(),
+            tile: ListedDraws::NONE,
+            layer: ListedDraws::NONE,
         };
         let tiles = self.slots.get(slot);
         tiles.and_then(|tiles| tiles.get(tile)).unwrap_or(NONE)
@@ -116,7 +144,7 @@ impl DrawLists {
 
     pub fn iter(&self) -> impl Iterator<Item = &Draw> {
         let tiles = self.slots.iter().flatten();
-        tiles.flat_map(|draws| draws.tile.iter().chain(&draws.layer))
+        tiles.flat_map(|draws| draws.tile.draws.iter().chain(&draws.layer.draws))
     }
 
     pub fn instances(&self) -> &[Instance] {
@@ -165,6 +193,10 @@ impl DrawLists {
         self.members.iter_mut().flatten().for_each(Vec::clear);
         for at in slot.masks().touching(mask) {
             let (caster, record) = (&all[at], &casters.records()[at]);
+            if record.host_drawn {
+                self.add_host_drawn((index, slot), at, mask, record);
+                continue;
+            }
             let clear = projection.is_clear_of(&record.bounds, near_plane);
             let member = (
                 record.mesh,
@@ -187,8 +219,26 @@ impl DrawLists {
             }
         }
         for (draws, members) in self.slots[index].iter_mut().zip(&mut self.members) {
-            for (draws, members) in [&mut draws.tile, &mut draws.layer].into_iter().zip(members) {
+            for (listed, members) in [&mut draws.tile, &mut draws.layer].into_iter().zip(members) {
+                let draws = &mut listed.draws;
                 batch(members, &self.rows, casters, &mut self.instances, draws);
+            }
+        }
+    }
+
+    fn add_host_drawn(
+        &mut self,
+        (index, slot): (usize, &Slot),
+        caster: usize,
+        mask: u8,
+        record: &Record,
+    ) {
+        let on = slot.masks().get(caster) & mask;
+        for (tile, draws) in self.slots[index].iter_mut().enumerate() {
+            if on & 1 << tile != 0 {
+                let (in_tile, in_layer) = slot.lists(tile, record);
+                draws.tile.host.extend(in_tile.then_some(caster));
+                draws.layer.host.extend(in_layer.then_some(caster));
             }
         }
     }

@@ -85,10 +85,8 @@ impl LightRecord {
     const SPOT: u32 = 2;
     const DIRECTIONAL: u32 = 3;
     const NO_CASTER: u32 = 4;
-    #[allow(dead_code)] // cascades
     const FURTHER_SHIFT: u32 = 8;
     /// The most cascades that may come after the first.
-    #[allow(dead_code)]
     pub const MOST_FURTHER: u32 = 15;
 
     /// No light: all is dark. Of a light that was not drawn yet, or of a place that holds none.
@@ -144,13 +142,6 @@ impl LightRecord {
         }
     }
 
-    /// A directional light without tiles: nothing casts that could be seen, so it lights all there is.
-    pub const SUN_WITHOUT_CASTERS: Self = Self {
-        kind: Self::DIRECTIONAL | Self::NO_CASTER,
-        range_squared: f32::MAX,
-        ..Self::DARK
-    };
-
     /// A spot, or one cascade of a directional light.
     pub fn flat(frame: &FlatFrame, tile: Tiles<1>, texture: &TileTexture) -> Self {
         let kind = match frame.perspective {
@@ -198,18 +189,31 @@ impl LightRecord {
         }
     }
 
-    /// The nearest cascade of a directional light: `further` records of further ones come after it.
-    #[allow(dead_code)]
-    pub fn with_further(self, further: u32) -> Self {
+    /// The nearest cascade of a directional light: so many records of further ones begin at a place of
+    /// the buffer.
+    pub fn with_further(self, further: u32, first: u32) -> Self {
         debug_assert!(further <= Self::MOST_FURTHER);
+        if further == 0 {
+            return self;
+        }
+        let [tile, ..] = self.tiles;
         Self {
             kind: self.kind | (further << Self::FURTHER_SHIFT),
+            tiles: [tile, first, 0, 0],
             ..self
         }
     }
 
+    /// A light that nothing is hidden from.
+    pub fn lit() -> Self {
+        Self {
+            kind: Self::DIRECTIONAL | Self::NO_CASTER,
+            range_squared: f32::MAX,
+            ..Self::DARK
+        }
+    }
+
     /// A cascade that blends into the next over the last `texels` before its border; 0: at once.
-    #[allow(dead_code)]
     pub fn with_blend(self, texels: f32) -> Self {
         Self {
             per_blend: texels.recip().min(f32::MAX),

@@ -1,5 +1,8 @@
 //! What maps have on the GPU: textures, pipelines, draw lists, uniforms, and the passes.
 
+mod atlas;
+mod atlas_lights;
+mod atlas_texture;
 mod buffers;
 mod cube;
 mod cube_lights;
@@ -11,8 +14,12 @@ mod light_record;
 mod pipelines;
 mod static_layers;
 mod texture;
+mod tile_fill;
 mod uniforms;
 
+pub use atlas::HostDraw;
+pub(crate) use atlas::{AtlasGpu, AtlasKind, DrawByHost, Tiled};
+pub(crate) use atlas_texture::Resized;
 pub(crate) use cube::CubeGpu;
 pub(crate) use cube_lights::UNIFORM_LIGHTS;
 pub(crate) use draws::{Draw, DrawLists};

@@ -44,7 +44,7 @@ pub(crate) fn jobs_of(
     if slot.waits_for_all() {
         return (0, vec![job(tiles)]);
     }
-    let must = tiles & slot.foreign();
+    let must = tiles & (slot.foreign() | slot.urgent());
     let jobs = (0..slot.tiles.len())
         .map(|bit| 1 << bit)
         .filter(|bit| tiles & !must & bit != 0)

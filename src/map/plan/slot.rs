@@ -3,7 +3,7 @@
 use super::content::{Content, Signature, Texels};
 use super::static_layer::{DrawMode, StaticLayer};
 use super::tile_masks::TileMasks;
-use crate::map::projection::{LightProjection, TileProjection, TileSides};
+use crate::map::projection::{LightProjection, SlotLight, TileProjection, TileSides};
 use crate::scene::{Casters, Change, Record};
 
 /// One tile of one light.
@@ -38,7 +38,7 @@ impl Default for Tile {
 /// The light of this frame, for which a slot's masks and contents are.
 #[derive(Debug)]
 struct Current {
-    light: LightProjection,
+    of: SlotLight,
     sides: TileSides,
 }
 
@@ -67,7 +67,12 @@ impl Slot {
 
     /// The light of this frame.
     pub fn light(&self) -> Option<&LightProjection> {
-        Some(&self.current.as_ref()?.light)
+        Some(&self.current.as_ref()?.of.projection)
+    }
+
+    /// The light of this frame, and which casters count for it.
+    pub fn slot_light(&self) -> Option<&SlotLight> {
+        Some(&self.current.as_ref()?.of)
     }
 
     /// A mask of all tiles of its light.
@@ -99,6 +104,13 @@ impl Slot {
     pub fn touched(&mut self, tile: usize) {
         self.pending &= !(1 << tile);
         self.tiles[tile].texels.forget();
+    }
+
+    /// Learns that a tile was drawn without some of its casters, and the layer under it, too.
+    pub fn spoil(&mut self, tile: usize) {
+        let tile = &mut self.tiles[tile];
+        tile.texels.forget();
+        tile.layer = StaticLayer::default();
     }
 
     /// Nothing is known of the texels any more: they are new.
@@ -133,7 +145,7 @@ impl Slot {
         let before = self.current.take();
         let like = before
             .zip(next)
-            .is_some_and(|(before, next)| before.light.is_like(next));
+            .is_some_and(|(before, next)| before.of.projection.is_like(next));
         if let Some(next) = next.filter(|next| next.count() != self.tiles.len()) {
             self.tiles.clear();
             self.tiles.resize_with(next.count(), Tile::default);
@@ -149,10 +161,10 @@ impl Slot {
     }
 
     /// Sorts all casters for a light, of which `reached` are those that it may reach.
-    pub fn set_light(&mut self, light: LightProjection, casters: &[Record], reached: &[u32]) {
-        let sides = TileSides::new(&light);
-        let all = light.all();
-        self.current = Some(Current { light, sides });
+    pub fn set_light(&mut self, of: SlotLight, casters: &[Record], reached: &[u32]) {
+        let sides = TileSides::new(&of.projection);
+        let all = of.projection.all();
+        self.current = Some(Current { of, sides });
         self.masks.reset(casters.len());
         for &index in reached {
             let record = &casters[index as usize];
@@ -195,7 +207,7 @@ impl Slot {
 
     fn touched_by(&self, record: &Record, all: u8) -> u8 {
         match &self.current {
-            Some(_) if !record.casts() => 0,
+            Some(current) if !(record.casts() && current.of.filter.admits(record)) => 0,
             Some(_) if !self.cull => all,
             Some(current) => current.sides.touched_by(record),
             None => 0,
@@ -231,6 +243,17 @@ impl Slot {
     pub fn waits_for_all(&self) -> bool {
         let joint = self.light().is_some_and(LightProjection::is_joint);
         joint && self.mask_of(|bit, tile| tile.shown != self.projection(bit)) != 0
+    }
+
+    /// The tiles of which receivers must be told something before they are told anything of the light:
+    /// cascades, which lie in each other's place where one is missing.
+    pub fn urgent(&self) -> u8 {
+        match self.light() {
+            Some(LightProjection::Cascades(_)) => {
+                self.mask_of(|bit, tile| tile.shown.is_none() && self.projection(bit).is_some())
+            }
+            _ => 0,
+        }
     }
 
     pub fn empty(&self) -> u8 {
@@ -279,15 +302,15 @@ impl Slot {
 
     /// Decides how the tiles of a mask are drawn: on layers of at least so many triangles of static
     /// casters, or all at once.
-    pub fn choose_modes(&mut self, mask: u8, least: impl Fn(usize) -> u64, casters: &Casters) {
+    pub fn choose_modes(&mut self, mask: u8, least: u64, casters: &Casters) {
         let Some(current) = &self.current else { return };
         for (bit, tile) in self.tiles.iter_mut().enumerate() {
-            let projection = current.light.tile(bit);
+            let projection = current.of.projection.tile(bit);
             if let Some(projection) = projection
                 && mask & 1 << bit != 0
             {
                 let (masks, frame) = (&self.masks, casters.frame());
-                tile.layer.choose(&projection, frame, least(bit), |frame| {
+                tile.layer.choose(&projection, frame, least, |frame| {
                     let on_tile = masks.touching(1 << bit).map(|at| &casters.records()[at]);
                     Content::of(on_tile.filter(|record| record.since <= frame))
                 });

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::slot::Slot;
-use crate::map::projection::LightProjection;
+use crate::map::projection::{CasterFilter, LightProjection, SlotLight};
 use crate::scene::Casters;
 
 /// Frames in which a light reaches no caster after which its texels are given back: enough that a
@@ -40,6 +40,13 @@ impl Slots {
         }
     }
 
+    /// Makes places for so many lights at least.
+    pub fn grow(&mut self, count: usize) {
+        if count > self.slots.len() {
+            self.slots.resize_with(count, || Slot::new(true));
+        }
+    }
+
     pub fn order(&self) -> &[usize] {
         &self.order
     }
@@ -54,7 +61,7 @@ impl Slots {
     }
 
     /// Takes over a frame's lights, after the casters were updated.
-    pub fn take_over(&mut self, lights: &[LightProjection], casters: &mut Casters) {
+    pub fn take_over(&mut self, lights: &[SlotLight], casters: &mut Casters) {
         let order = assign(lights, &self.slots, &self.order);
         let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
         self.reordered += u64::from(moved);
@@ -68,9 +75,9 @@ impl Slots {
         // Those that change are sorted out by what they reach, the others by what changed.
         let mut changed = vec![false; self.slots.len()];
         for ((slot, light), changed) in self.slots.iter_mut().zip(&wanted).zip(&mut changed) {
-            *changed = slot.light() != *light || anew && light.is_some();
+            *changed = slot.slot_light() != *light || anew && light.is_some();
             if *changed {
-                slot.leave_light(*light);
+                slot.leave_light(light.map(|light| &light.projection));
             }
         }
         for change in changes {
@@ -81,12 +88,36 @@ impl Slots {
                 continue;
             };
             self.reached.clear();
-            match light.sphere().filter(|_| slot.cull) {
+            match light.projection.sphere().filter(|_| slot.cull) {
                 Some((centre, range)) => casters.within(centre, range, &mut self.reached),
                 None => self.reached.extend(0..casters.records().len() as u32),
             }
             slot.set_light(light.clone(), casters.records(), &self.reached);
         }
+    }
+
+    /// Gives a slot another projection of its light, after it was taken over.
+    pub fn refit(&mut self, slot: usize, projection: LightProjection, casters: &Casters) {
+        let slot = &mut self.slots[slot];
+        let filter = slot.slot_light().map_or(CasterFilter::ALL, |of| of.filter);
+        let light = SlotLight { projection, filter };
+        if slot.slot_light() != Some(&light) {
+            self.reached.clear();
+            self.reached.extend(0..casters.records().len() as u32);
+            slot.leave_light(Some(&light.projection));
+            slot.set_light(light, casters.records(), &self.reached);
+        }
+    }
+
+    /// Counts the frames in which a light reaches no caster. Whether that is so short that its texels
+    /// stay.
+    pub fn needs_texels(&mut self, slot: usize, has_some: bool) -> bool {
+        let slot = &mut self.slots[slot];
+        slot.idle = match slot.casting {
+            0 => slot.idle.saturating_add(1),
+            _ => 0,
+        };
+        slot.casting > 0 || has_some && slot.idle < IDLE
     }
 
     /// Learns that casters were updated for a frame whose lights were refused: what changed is not
@@ -131,11 +162,11 @@ impl std::ops::DerefMut for Slots {
 /// else the one that its predecessor at this place had, if that was of its kind; else a free one.
 ///
 /// `lights` are no more than there are slots.
-fn assign(lights: &[LightProjection], slots: &[Slot], before: &[usize]) -> Vec<usize> {
+fn assign(lights: &[SlotLight], slots: &[Slot], before: &[usize]) -> Vec<usize> {
     let mut free = vec![true; slots.len()];
     let mut take = |slot: usize| std::mem::replace(&mut free[slot], false);
     let mut chosen: Vec<Option<usize>> = vec![None; lights.len()];
-    let holds = |slot: usize, light: &LightProjection| slots[slot].light() == Some(light);
+    let holds = |slot: usize, light: &SlotLight| slots[slot].slot_light() == Some(light);
     for (i, light) in lights.iter().enumerate() {
         let same = before.get(i).copied().filter(|&slot| holds(slot, light));
         chosen[i] = same.filter(|&slot| take(slot));
@@ -149,7 +180,11 @@ fn assign(lights: &[LightProjection], slots: &[Slot], before: &[usize]) -> Vec<u
         }
         for (choice, light) in chosen.iter_mut().zip(lights) {
             if choice.is_none() {
-                let alike = holders.get(&light.key()).into_iter().flatten().rev();
+                let alike = holders
+                    .get(&light.projection.key())
+                    .into_iter()
+                    .flatten()
+                    .rev();
                 *choice = alike
                     .copied()
                     .find(|&slot| holds(slot, light) && take(slot));
@@ -157,7 +192,10 @@ fn assign(lights: &[LightProjection], slots: &[Slot], before: &[usize]) -> Vec<u
         }
     }
     for (i, (choice, light)) in chosen.iter_mut().zip(lights).enumerate() {
-        let like = |slot: usize| slots[slot].light().is_some_and(|held| held.is_like(light));
+        let like = |slot: usize| {
+            let held = slots[slot].light();
+            held.is_some_and(|held| held.is_like(&light.projection))
+        };
         if choice.is_none() {
             *choice = before
                 .get(i)
@@ -183,15 +221,15 @@ mod tests {
     use super::*;
     use crate::PointLight;
 
-    fn light(x: f32) -> LightProjection {
-        LightProjection::Point(PointLight::new(Vec3::X * x, 10.0))
+    fn light(x: f32) -> SlotLight {
+        LightProjection::Point(PointLight::new(Vec3::X * x, 10.0)).into()
     }
 
     fn slots(lights: &[Option<f32>]) -> Vec<Slot> {
         let make = |x: &Option<f32>| {
             let mut slot = Slot::new(true);
             if let Some(light) = x.map(light) {
-                slot.leave_light(Some(&light));
+                slot.leave_light(Some(&light.projection));
                 slot.set_light(light, &[], &[]);
             }
             slot
@@ -203,7 +241,7 @@ mod tests {
     fn lights_keep_their_slots_wherever_they_stand() {
         let slots = slots(&[Some(0.0), Some(1.0), Some(2.0), None]);
         let order = |lights: &[f32]| {
-            let lights: Vec<LightProjection> = lights.iter().copied().map(light).collect();
+            let lights: Vec<SlotLight> = lights.iter().copied().map(light).collect();
             assign(&lights, &slots, &[0, 1, 2])
         };
         assert_eq!(order(&[0.0, 1.0, 2.0]), [0, 1, 2]);
