@@ -366,7 +366,7 @@ impl ShadowMap {
         };
         match self.place.frame() {
             Some(frame) => LightRecord::flat(frame, tile, &texture),
-            None => LightRecord::SUN_WITHOUT_CASTERS,
+            None => LightRecord::lit(),
         }
     }
 

@@ -142,13 +142,6 @@ impl LightRecord {
         }
     }
 
-    /// A directional light without tiles: nothing casts that could be seen, so it lights all there is.
-    pub const SUN_WITHOUT_CASTERS: Self = Self {
-        kind: Self::DIRECTIONAL | Self::NO_CASTER,
-        range_squared: f32::MAX,
-        ..Self::DARK
-    };
-
     /// A spot, or one cascade of a directional light.
     pub fn flat(frame: &FlatFrame, tile: Tiles<1>, texture: &TileTexture) -> Self {
         let kind = match frame.perspective {
