@@ -200,12 +200,14 @@ mod wgsl_layout;
 #[doc(hidden)]
 pub use shader::rewriting;
 
-pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
+pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight};
 pub use map::{
-    Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
-    FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    StaticLayers, texture_from_clip,
+    Allocation, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit,
+    CascadeSplit, Cascades, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FaceState,
+    FaceStatistics, FlatLight, HostDraw, LocalLight, ShadowAtlas, ShadowAtlasDescriptor,
+    ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize,
+    texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
 pub use pcf::{

@@ -6,9 +6,9 @@ use super::cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
 use super::encoding::DepthEncoding;
 use super::gpu::{CubeGpu, Draw, TooLarge, most_tiles};
 use super::plan::{
-    Rules, Slot, SlotPlan, Slots, casters_drawn, choose_faces, follow, longest_wait, tally,
+    Rules, Slot, SlotPlan, Slots, Tally, casters_drawn, choose_tiles, follow, longest_wait,
 };
-use super::projection::CubeFace;
+use super::projection::{CubeFace, LightProjection, SlotLight};
 use super::statistics::{Clock, CubeStatistics, FaceStatistics};
 use crate::Radius;
 use crate::error::CubeShadowMapError;
@@ -132,8 +132,10 @@ impl CubeShadowMap {
         if encoder_dropped {
             self.invalidate();
         }
-        self.slots
-            .take_over(frame.lights, &mut self.casters, frame.casters);
+        let lights = frame.lights.iter().copied().map(LightProjection::Point);
+        let lights: Vec<_> = lights.map(SlotLight::from).collect();
+        self.casters.update(frame.casters);
+        self.slots.take_over(&lights, &mut self.casters);
         self.allocate(device);
         let revision = self.texture_revision();
         self.gpu.replace_lights(device, queue, revision);
@@ -148,6 +150,7 @@ impl CubeShadowMap {
         let lazy = self.allocation == Allocation::WithFirstCaster;
         self.gpu.write_lights(frame.lights, &self.slots, lazy);
 
+        let tally = Tally::new(&plans, &self.slots, self.casters.records().len());
         let draws = self.gpu.draws();
         let statistics = CubeStatistics {
             draws: draws.iter().count() as u32,
@@ -156,7 +159,7 @@ impl CubeShadowMap {
             uploaded: self.gpu.uploaded(),
             not_encoded,
             encoder_dropped,
-            ..tally(&plans, &self.slots, self.casters.records().len())
+            ..CubeStatistics::of(&tally)
         };
         self.statistics = CubeStatistics {
             prepare: clock.elapsed(),
@@ -221,7 +224,7 @@ impl CubeShadowMap {
         }
         let clear = self.gpu.clear();
         let pass = self.gpu.begin_face(encoder, index, face, clear)?;
-        self.slots[index].touched(face);
+        self.slots[index].touched(face.layer() as usize);
         Some(pass)
     }
 
@@ -231,9 +234,11 @@ impl CubeShadowMap {
     /// waits for its faces, this is still the matrix of where it was.
     pub fn clip_from_world(&self, light: usize, face: CubeFace) -> Option<Mat4> {
         let slot = &self.slots[self.slots.of_light(light)?];
-        let light = slot.shown.or(slot.light)?;
-        let near = self.gpu.near_plane().of_point(&light);
-        Some(face.clip_from_light(near) * Mat4::from_translation(-light.position))
+        let tile = face.layer() as usize;
+        let shown = slot.tiles.get(tile)?.shown;
+        let projection = shown.or_else(|| slot.projection(tile))?;
+        let from_light = projection.clip_from_light(tile, self.gpu.near_plane());
+        Some(from_light * Mat4::from_translation(-projection.origin()))
     }
 
     /// A light's texture and the first of its six layers, in the order of [`CubeFace::ALL`]; `None`
@@ -286,7 +291,7 @@ impl CubeShadowMap {
     /// position of their light, are drawn at once, outside the budget.
     pub fn max_age(&self) -> Option<u32> {
         let budget = self.budget?;
-        Some(longest_wait(self.slots.len(), budget))
+        Some(longest_wait(6 * self.slots.len(), budget))
     }
 
     /// Texels along each side of a face.
@@ -309,9 +314,10 @@ impl CubeShadowMap {
     pub fn face_statistics(&self, light: usize, face: CubeFace) -> Option<FaceStatistics> {
         let index = self.slots.of_light(light)?;
         let slot = &self.slots[index];
-        let of = &slot.faces[face.layer() as usize];
+        let tile = face.layer() as usize;
+        let of = slot.tiles.get(tile)?;
         Some(FaceStatistics {
-            state: self.plans.get(index)?.state(slot, face),
+            state: self.plans.get(index)?.state(slot, tile),
             casters: of.content.casters,
             triangles: of.content.triangles,
             age: of.age,
@@ -365,15 +371,14 @@ impl CubeShadowMap {
     /// Chooses the faces to draw. Changes nothing.
     fn plan(&self, frame: &CubeFrame<'_>) -> Vec<SlotPlan> {
         let rules = Rules {
-            view: frame.view,
+            views: frame.view.as_slice(),
             reach: self.reach,
-            size: self.size,
             cache: self.cache,
             budget: self.budget,
             pinned: frame.pinned,
         };
-        choose_faces(&self.slots, &rules, |slot| {
-            self.gpu.textures().slot(slot).is_some()
+        choose_tiles(&self.slots, &rules, |slot| {
+            self.gpu.textures().slot(slot).map(|_| self.size)
         })
     }
 

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat3, Vec3};
 
 use super::data::{MeshData, edge_records};
-use super::host::{HostMesh, HostPositions, POSITION_SIZE};
+use super::host::{HostMesh, HostPositions, POSITION_SIZE, check_bounds};
 use super::records::VertexRecords;
 use super::solid::is_solid;
 use super::upload::{storage_usage, upload};
@@ -26,6 +26,7 @@ struct Inner {
     triangles: Triangles,
     kind: MeshKind,
     solid: bool,
+    host_drawn: bool,
     /// For shadow volumes; shadow maps read nothing of it.
     welded: Option<Welded>,
 }
@@ -167,6 +168,54 @@ impl CasterMesh {
         ))
     }
 
+    /// Stands for geometry that only the host can draw into a map: alpha-tested, skinned by its own
+    /// shader, tessellated, driven by the GPU. As a [`Caster`](crate::Caster) its bounds are culled, and
+    /// it is cached, like any other's; where a tile that they touch is drawn, the host is asked to draw it
+    /// ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with)). When it has changed,
+    /// [`bump_revision`](Self::bump_revision) says so.
+    ///
+    /// `bounds`, in the mesh's own space, enclose all that it will ever draw; `triangles`, at least 1, is
+    /// about how many that are, by which [`StaticLayers`](crate::StaticLayers) go.
+    ///
+    /// Other maps refuse such casters ([`HostDrawn`](crate::error::CasterError::HostDrawn)), and so do
+    /// shadow volumes ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if the bounds are not finite.
+    pub fn host_drawn(
+        device: &wgpu::Device,
+        bounds: Bounds,
+        triangles: u32,
+    ) -> Result<Self, CasterMeshError> {
+        check_bounds(&bounds)?;
+        let nothing = |usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("shadows: drawn by the host"),
+                size: 0,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let positions = Positions {
+            buffer: nothing(wgpu::BufferUsages::VERTEX),
+            stride: POSITION_SIZE,
+            offset: 0,
+            count: 0,
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+        };
+        let triangles = Triangles {
+            buffer: nothing(wgpu::BufferUsages::INDEX),
+            format: wgpu::IndexFormat::Uint32,
+            offset: 0,
+            count: triangles.max(1),
+        };
+        let kind = MeshKind::General;
+        let mut inner = Self::inner(device, positions, triangles, kind, false, None);
+        inner.host_drawn = true;
+        Ok(Self(Arc::new(inner)))
+    }
+
     /// `packed`: the positions in main memory, if they are known there.
     fn welded(
         device: &wgpu::Device,
@@ -212,8 +261,20 @@ impl CasterMesh {
         solid: bool,
         welded: Option<Welded>,
     ) -> Self {
+        let inner = Self::inner(device, positions, triangles, kind, solid, welded);
+        Self(Arc::new(inner))
+    }
+
+    fn inner(
+        device: &wgpu::Device,
+        positions: Positions,
+        triangles: Triangles,
+        kind: MeshKind,
+        solid: bool,
+        welded: Option<Welded>,
+    ) -> Inner {
         static NEXT_ID: AtomicU64 = AtomicU64::new(0);
-        Self(Arc::new(Inner {
+        Inner {
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
             revision: AtomicU64::new(0),
             device: device.clone(),
@@ -221,8 +282,14 @@ impl CasterMesh {
             triangles,
             kind,
             solid,
+            host_drawn: false,
             welded,
-        }))
+        }
+    }
+
+    /// Whether only the host can draw it.
+    pub fn is_host_drawn(&self) -> bool {
+        self.0.host_drawn
     }
 
     /// The rule its shadow volume follows.

@@ -149,7 +149,7 @@ fn check_positions(
     }
 }
 
-fn check_bounds(bounds: &Bounds) -> Result<(), CasterMeshError> {
+pub(super) fn check_bounds(bounds: &Bounds) -> Result<(), CasterMeshError> {
     for corner in [bounds.min, bounds.max] {
         if !corner.is_finite() {
             return Err(CasterMeshError::NotFinite {

@@ -59,7 +59,8 @@ impl SceneCasters {
     /// Takes over what [`compare`](Self::compare) found.
     pub fn update(&mut self, casters: &[Caster], ways: &Ways) -> Changes {
         let (mut gone, mut came) = (Vec::new(), Vec::new());
-        for change in self.compared.update(casters) {
+        self.compared.update(casters);
+        for change in self.compared.changes() {
             let own = change
                 .old
                 .map(|old| (old.digest, self.numbers[change.index]));

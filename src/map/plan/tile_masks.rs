@@ -1,18 +1,18 @@
-//! For each caster the faces of a light that it touches, with a short way to those that touch any.
+//! For each caster the tiles of a light that it touches, with a short way to those that touch any.
 
 const BITS: usize = u64::BITS as usize;
 
-/// Masks of faces by caster. Most are 0, so a bit says which are not, and another for each 64 of
-/// those bits: what is found or forgotten takes a time that depends on how many touch a face, and
+/// Masks of tiles by caster. Most are 0, so a bit says which are not, and another for each 64 of
+/// those bits: what is found or forgotten takes a time that depends on how many touch a tile, and
 /// on the others by a 4096th of a word each.
 #[derive(Debug, Default)]
-pub(crate) struct FaceMasks {
+pub(crate) struct TileMasks {
     masks: Vec<u8>,
     some: Vec<u64>,
     any: Vec<u64>,
 }
 
-impl FaceMasks {
+impl TileMasks {
     pub fn get(&self, index: usize) -> u8 {
         self.masks[index]
     }
@@ -50,7 +50,7 @@ impl FaceMasks {
         self.resize(count);
     }
 
-    /// The casters that touch any face of a mask, in order.
+    /// The casters that touch any tile of a mask, in order.
     pub fn touching(&self, mask: u8) -> impl Iterator<Item = usize> + '_ {
         let words = self.any.iter().copied().enumerate().flat_map(bits);
         words
@@ -114,9 +114,9 @@ mod tests {
         fn it_is_a_list_of_masks(
             start in 0..10_000_usize,
             steps in prop::collection::vec(step(), 1..200),
-            faces in 1..64_u8,
+            tiles in 1..64_u8,
         ) {
-            let mut masks = FaceMasks::default();
+            let mut masks = TileMasks::default();
             masks.reset(start);
             let mut list = vec![0; start];
             for step in steps {
@@ -139,8 +139,8 @@ mod tests {
                 }
             }
             let expected: Vec<usize> =
-                (0..list.len()).filter(|&at| list[at] & faces != 0).collect();
-            prop_assert_eq!(masks.touching(faces).collect::<Vec<_>>(), expected);
+                (0..list.len()).filter(|&at| list[at] & tiles != 0).collect();
+            prop_assert_eq!(masks.touching(tiles).collect::<Vec<_>>(), expected);
             prop_assert!((0..list.len()).all(|at| masks.get(at) == list[at]));
         }
     }
