@@ -34,12 +34,12 @@ struct Camera {
 
 struct Light {
     // World space, homogeneous.
-    light: vec4f,
+    homogeneous: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> caster: Caster;
 @group(0) @binding(1) var<uniform> camera: Camera;
-@group(0) @binding(2) var<uniform> shining: Light;
+@group(0) @binding(2) var<uniform> light: Light;
 
 fn near_point(position: vec3f) -> vec4f {
     let clip = shadows_clip_position(camera.clip_from_world, caster.world_from_object, position);
@@ -55,7 +55,7 @@ fn from_light(position: vec3f) -> vec3f {
     let from_point = across_mesh.xyz + caster.anchor_from_light;
     // Not a branch: Mesa's lavapipe compiles a shader anew at each draw for what a uniform buffer says,
     // if that decides a branch.
-    return select(from_point, -shining.light.xyz, shining.light.w == 0.0);
+    return select(from_point, -light.homogeneous.xyz, light.homogeneous.w == 0.0);
 }
 
 // The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the
@@ -70,8 +70,8 @@ fn far_point(position: vec3f) -> vec4f {
     let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
     let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
     let along_rays = to_plane * direction + w * world;
-    let at_infinity = direction + w * shining.light.xyz;
-    let parallel = (shining.light.w == 0.0) & (w != 0.0);
+    let at_infinity = direction + w * light.homogeneous.xyz;
+    let parallel = (light.homogeneous.w == 0.0) & (w != 0.0);
     return far_clip_position(vec4f(select(at_infinity, along_rays, parallel), w));
 }
 

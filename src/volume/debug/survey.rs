@@ -219,7 +219,7 @@ impl Corners {
         Self {
             clip_from_world,
             world_from_object: matrix(&params.world_from_object),
-            light: vector(drawn.light.light),
+            light: vector(drawn.light.homogeneous),
             far_plane: vector(params.far_plane).xyz(),
             apex: clip_from_world * vector(params.apex),
             side_vertices: params.side_vertices,

@@ -58,7 +58,7 @@ pub(crate) fn bound(
     if casters.is_empty() {
         return 0;
     }
-    let light = DVec4::from(light.light.map(f64::from));
+    let light = DVec4::from(light.homogeneous.map(f64::from));
     let axis = match light.w {
         0.0 => light.xyz().normalize(),
         _ => DVec3::X,

@@ -77,7 +77,7 @@ impl ViewParams {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct LightParams {
-    pub light: [f32; 4],
+    pub homogeneous: [f32; 4],
 }
 
 /// The indirect arguments of one instance, before anything is counted.
@@ -227,7 +227,7 @@ mod tests {
                 padding
             );
             assert_layout!(source, "Camera", ViewParams, clip_from_world, depth_step);
-            assert_layout!(source, "Light", LightParams, light);
+            assert_layout!(source, "Light", LightParams, homogeneous);
         }
     }
 

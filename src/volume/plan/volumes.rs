@@ -186,7 +186,7 @@ pub(crate) fn view_params(frame: &ShadowVolumeFrame<'_>) -> Vec<ViewParams> {
 pub(crate) fn light_params(frame: &ShadowVolumeFrame<'_>) -> Vec<LightParams> {
     let lights = frame.lights.iter();
     let light = |light: HomogeneousLight| LightParams {
-        light: facing::world_light(light),
+        homogeneous: facing::world_light(light),
     };
     lights.map(|told| light(told.light)).collect()
 }
