@@ -101,9 +101,8 @@ pub struct ShadowVolumeFrame<'a> {
     /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
     /// default: anywhere.
     ///
-    /// Worth giving: the whole of a frame's shadows then took 0.6 to 0.7 of the time on a scene of
-    /// 64 spheres around a point light, 0.4 under a directional light (software Vulkan, 1280x720;
-    /// `cargo bench --bench shadow_volume`). The closer the bounds, the better.
+    /// Worth giving, as it saves much of the fill (`unbounded_vs_textbook` against `auto_vs_textbook` in
+    /// `docs/benches.md`). The closer the bounds, the better.
     pub receivers: Option<Bounds>,
     /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
     /// [`Method::ZFail`](crate::Method::ZFail) a caster that it does not draw still casts, if its

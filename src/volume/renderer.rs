@@ -415,11 +415,10 @@ impl ShadowVolumeRenderer {
     /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
     /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
     ///
-    /// Takes the CPU once or twice as long as extracting the volumes drawn
-    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)); what a caster comes to is kept with its
-    /// volume, and what is left to do where nothing moved is to sort the casters: on the example's
-    /// scenes 3 for `spheres`, 17 for `teapot` and 62 for `courtyard`, there in 32 ms the first time
-    /// and 0.05 ms each time after.
+    /// The first time this takes the CPU once or twice as long as extracting the volumes
+    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)). Each caster's bound is kept with its volume, so where
+    /// nothing moved only the casters are sorted. On the scenes of the example `compare` the bound is 3
+    /// for `spheres`, 17 for `teapot` and 62 for `courtyard`.
     pub fn count_bound(&mut self, light: usize, view: usize) -> u64 {
         let pair = self.volumes.pair(light, view);
         let (Some(pair), Some(light)) = (pair, self.lights.get(light)) else {
