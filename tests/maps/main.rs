@@ -22,5 +22,6 @@ mod host_mesh;
 mod map_calls;
 mod near_plane;
 mod numerics;
+mod places;
 #[path = "../common/receivers.rs"]
 mod receivers;
