@@ -232,9 +232,9 @@ fn receivers_of_maps_have_none() {
 #[test]
 fn volumes_have_none() {
     let pulled = joined(PULLED);
-    let condition = "caster.light.w == 0.0";
-    let selected = format!("return select(from_point, -caster.light.xyz, {condition});");
-    let branch = format!("if {condition} {{ return -caster.light.xyz; }} return from_point;");
+    let condition = "light.homogeneous.w == 0.0";
+    let selected = format!("return select(from_point, -light.homogeneous.xyz, {condition});");
+    let branch = format!("if {condition} {{ return -light.homogeneous.xyz; }} return from_point;");
     assert_found(&pulled, &selected, &branch, condition);
     for names in JOINED {
         assert_none(&names.join(", "), &joined(names));
