@@ -226,7 +226,7 @@ pub use map::{
     ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize,
     texture_from_clip,
 };
-pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
+pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{
     AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler,
     Radius, RandomDisk, VogelDisk,

@@ -172,9 +172,7 @@ impl ShadowAtlas {
         let records = self.count_records(frame)?;
         self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
-        if self.casters.changes().len() > 0 {
-            self.suns.casters_changed();
-        }
+        self.suns.casters_changed(&self.casters);
         let encoder_dropped = self.submissions.take_dropped();
         if encoder_dropped {
             self.invalidate();

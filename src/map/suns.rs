@@ -7,8 +7,11 @@ use super::projection::{
 };
 use super::{AtlasLight, Cascades};
 use crate::error::ShadowAtlasError;
-use crate::scene::Record;
+use crate::scene::{Casters, Record};
 use crate::{DirectionalLight, Radius};
+
+/// Changes of casters beyond which the box around all is found anew.
+const MANY: usize = 1000;
 
 /// One directional light for one view, or for none.
 #[derive(Clone, Copy, Debug)]
@@ -50,9 +53,25 @@ impl Suns {
         }
     }
 
-    /// Learns that casters changed.
-    pub fn casters_changed(&mut self) {
-        self.caster_boxes.clear();
+    /// Learns what changed among the casters.
+    pub fn casters_changed(&mut self, casters: &Casters) {
+        if casters.changes().len() > MANY {
+            self.caster_boxes.clear();
+        }
+        self.caster_boxes.retain_mut(|(light, around)| {
+            casters.changes().all(|change| {
+                let [old, new] = [change.old, change.new].map(|of| LightBox::of_casters(light, of));
+                let stays = match (&old, &around) {
+                    (Some(old), Some(around)) => around.is_held_by_others_than(old),
+                    (old, _) => old.is_none(),
+                };
+                *around = match (*around, new) {
+                    (Some(around), Some(new)) => Some(around.joined(&new)),
+                    (around, new) => around.or(new),
+                };
+                stays
+            })
+        });
     }
 
     /// Forgets the lights that the frame does not have any more.

@@ -6,7 +6,9 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat3, Vec3};
 
 use super::data::{MeshData, edge_records};
-use super::host::{HostMesh, HostPositions, POSITION_SIZE, check_bounds};
+use super::host::{
+    HostInstances, HostMesh, HostPositions, InstanceLayout, POSITION_SIZE, check_bounds,
+};
 use super::records::VertexRecords;
 use super::solid::is_solid;
 use super::upload::{storage_usage, upload};
@@ -27,12 +29,13 @@ struct Inner {
     kind: MeshKind,
     solid: bool,
     host_drawn: bool,
+    places: Option<Places>,
     /// For shadow volumes; shadow maps read nothing of it.
     welded: Option<Welded>,
 }
 
 /// Where the positions are and what is known of them.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Positions {
     buffer: wgpu::Buffer,
     stride: u64,
@@ -43,12 +46,22 @@ struct Positions {
 }
 
 /// Three indices a triangle.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Triangles {
     buffer: wgpu::Buffer,
     format: wgpu::IndexFormat,
     offset: u64,
     count: u32,
+}
+
+/// Where in the host's buffer the transforms are that it is drawn under.
+#[derive(Clone, Debug)]
+pub(crate) struct Places {
+    pub buffer: wgpu::Buffer,
+    pub layout: InstanceLayout,
+    pub stride: u64,
+    pub offset: u64,
+    pub count: u32,
 }
 
 /// What an adjacency says of a mesh, on the GPU and in main memory.
@@ -216,6 +229,41 @@ impl CasterMesh {
         Ok(Self(Arc::new(inner)))
     }
 
+    /// A mesh at many places, which lie in a buffer of the host: one caster for a whole forest, in one draw
+    /// a tile. It shares the mesh's buffers. Transforms that the host changes there count from the frame
+    /// that follows a [`bump_revision`](Self::bump_revision).
+    ///
+    /// The caster's own transform comes after each of them. Positions in between are in `f32`, from the
+    /// caster's origin: place the caster near its instances, not all at the world's origin. Both sides are
+    /// drawn, as some places may mirror it. For shadow maps and the atlas; shadow volumes refuse it
+    /// ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if layout, size, usages or bounds do not fit, or the mesh is such a one itself.
+    pub fn at_places(&self, instances: &HostInstances<'_>) -> Result<Self, CasterMeshError> {
+        let mesh = &self.0;
+        if mesh.places.is_some() || mesh.host_drawn {
+            return Err(CasterMeshError::NotPlain);
+        }
+        instances.validate(&mesh.device)?;
+        let bounds = instances.bounds;
+        let positions = Positions {
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+            ..mesh.positions.clone()
+        };
+        let (triangles, kind) = (mesh.triangles.clone(), MeshKind::General);
+        let mut inner = Self::inner(&mesh.device, positions, triangles, kind, false, None);
+        inner.places = Some(Places {
+            buffer: instances.buffer.clone(),
+            layout: instances.layout,
+            stride: instances.stride,
+            offset: instances.offset,
+            count: instances.count,
+        });
+        Ok(Self(Arc::new(inner)))
+    }
+
     /// `packed`: the positions in main memory, if they are known there.
     fn welded(
         device: &wgpu::Device,
@@ -283,6 +331,7 @@ impl CasterMesh {
             kind,
             solid,
             host_drawn: false,
+            places: None,
             welded,
         }
     }
@@ -302,9 +351,20 @@ impl CasterMesh {
         self.0.solid
     }
 
-    /// Number of triangles that cast (those that collapsed in the weld do not).
+    /// Number of triangles that cast (those that collapsed in the weld do not), at all places together.
     pub fn triangle_count(&self) -> u32 {
-        self.0.triangles.count
+        let places = self.0.places.as_ref().map_or(1, |places| places.count);
+        self.0.triangles.count.saturating_mul(places)
+    }
+
+    /// Where it is drawn, if the host's buffer says so.
+    pub(crate) fn places(&self) -> Option<&Places> {
+        self.0.places.as_ref()
+    }
+
+    /// Number of indices to draw once.
+    pub(crate) fn index_count(&self) -> u32 {
+        self.0.triangles.count * 3
     }
 
     /// Bounds in the mesh's own space.

@@ -25,6 +25,10 @@ impl Draw {
         PipelineKey {
             stride: self.mesh.layout().0,
             cull: self.cull,
+            places: self
+                .mesh
+                .places()
+                .map(|places| (places.layout, places.stride)),
         }
     }
 
@@ -50,7 +54,12 @@ impl Draw {
         pass.set_vertex_buffer(1, instances);
         let (indices, format) = self.mesh.indices();
         pass.set_index_buffer(indices, format);
-        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+        let mut count = self.instance_count;
+        if let Some(places) = self.mesh.places() {
+            pass.set_vertex_buffer(2, places.buffer.slice(places.offset..));
+            count = places.count;
+        }
+        pass.draw_indexed(0..self.mesh.index_count(), 0, 0..count);
     }
 }
 
@@ -66,7 +75,12 @@ fn batch(
     draws: &mut Vec<Draw>,
 ) {
     members.sort_unstable();
-    for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+    let many_places = |mesh: u32| {
+        casters
+            .mesh(mesh)
+            .is_some_and(|mesh| mesh.places().is_some())
+    };
+    for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1) && !many_places(a.0)) {
         let Some(mesh) = casters.mesh(run[0].0) else {
             continue; // the mesh of every record is there
         };

@@ -36,14 +36,31 @@ pub(crate) struct LightBox {
 
 impl LightBox {
     /// The box around all casters.
-    pub fn of_casters(light: &DirectionalLight, records: &[Record]) -> Option<Self> {
+    pub fn of_casters<'a>(
+        light: &DirectionalLight,
+        records: impl IntoIterator<Item = &'a Record>,
+    ) -> Option<Self> {
         let axes = LightAxes::of(light);
-        let casting = records.iter().filter(|record| record.casts());
+        let casting = records.into_iter().filter(|record| record.casts());
         Self::around(casting.flat_map(|record| {
             let half = record.bounds.half_along(axes.exact);
             let centre = axes.local(record.bounds.centre);
             [centre - half, centre + half]
         }))
+    }
+
+    /// The box around two.
+    pub fn joined(&self, other: &Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Whether another one touches none of its sides from within, so that without it this one would be
+    /// no smaller.
+    pub fn is_held_by_others_than(&self, other: &Self) -> bool {
+        other.min.cmpgt(self.min).all() && other.max.cmplt(self.max).all()
     }
 
     /// The box around bounds in world space.

@@ -281,7 +281,7 @@ pub const ALL: &[Known] = &[
     known("Landscape", "volume-textbook", FULL_CAPS, [0.01, 0.01, 0.5]),
     known("*", "cube-textbook", TEXTBOOK, [0.01, 0.01, 0.57]),
     known("Grazing light", "cube-*", GRAZING, [0.0, 0.0, 15.0]),
-    known("Grazing light", "flat-*", GRAZING, [0.0, 0.00029, 8.4]),
+    known("Grazing light", "flat-*", GRAZING, [0.0, 0.00029, 7.4]),
     known(
         "Light very near a caster",
         "volume-textbook",
