@@ -273,7 +273,7 @@ fn check_report(report: &Value) {
     let matrix = scene.camera.clip_from_world(160.0 / 90.0).to_cols_array();
     let written: Vec<f32> = floats(&report["camera"]["clip_from_world"]);
     assert_eq!(written, matrix, "not the same f32 numbers");
-    assert_eq!(floats(&report["light"]), scene.light.to_array());
+    assert_eq!(floats(&report["light"]), scene.light().place.to_array());
     assert_eq!(
         floats(&report["camera"]["eye"]),
         scene.camera.eye.to_array()

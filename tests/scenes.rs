@@ -133,7 +133,7 @@ fn the_sphere_scene_is_the_published_one() {
     assert_eq!(scene.objects.iter().filter(|o| o.casts).count(), 64);
     assert_eq!(scene.caster_triangle_count(), 64 * 1536);
     assert_eq!(scene.triangle_count(), 64 * 1536 + 2);
-    assert_eq!(scene.light, Vec4::new(0.0, 4.0, 0.0, 1.0));
+    assert_eq!(scene.light().place, Vec4::new(0.0, 4.0, 0.0, 1.0));
 
     // Sphere 5 by hand: r = 2 + 7 sqrt(5.5 / 64), theta = 5 golden angles, second height.
     let r = 2.0 + 7.0 * (5.5_f64 / 64.0).sqrt();
@@ -144,7 +144,7 @@ fn the_sphere_scene_is_the_published_one() {
 
     // Above every caster's silhouette from the light, as the scene promises for its +Y face.
     let reach = scene.caster_bounds();
-    assert!(reach.max.y < f64::from(scene.light.y) && reach.min.y > 0.0);
+    assert!(reach.max.y < f64::from(scene.light().place.y) && reach.min.y > 0.0);
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn winding(scene: &Scene, from: DVec3) -> i32 {
 #[test]
 fn light_and_camera_are_outside_all_casters() {
     for scene in [scene::spheres(), scene::courtyard()] {
-        let light = scene.light.truncate().as_dvec3();
+        let light = scene.light().place.truncate().as_dvec3();
         assert_eq!(winding(&scene, light), 0, "{}: light", scene.name);
         let eye = scene.camera.eye.as_dvec3();
         assert_eq!(winding(&scene, eye), 0, "{}: camera", scene.name);
@@ -316,7 +316,7 @@ fn overrides_replace_only_what_is_given() {
     assert_eq!(scene, scene::spheres());
     let light = Vec4::new(1.0, 2.0, 3.0, 0.0);
     scene.override_with(Some(light), Some(7.0), Some((Vec3::ONE, Vec3::ZERO, None)));
-    assert_eq!((scene.light, scene.range), (light, 7.0));
+    assert_eq!((scene.light().place, scene.light().range), (light, 7.0));
     assert_eq!(scene.camera.fovy, scene::spheres().camera.fovy);
     scene.override_with(None, None, Some((Vec3::X, Vec3::ZERO, Some(1.0))));
     assert_eq!((scene.camera.eye, scene.camera.fovy), (Vec3::X, 1.0));

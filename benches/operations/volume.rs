@@ -79,7 +79,7 @@ fn told<'a>(
     casters: &'a [Caster],
 ) -> ShadowVolumeFrame<'a> {
     ShadowVolumeFrame {
-        range: Some(stage.scene.range),
+        range: Some(stage.scene.light().range),
         target_size: Some(SIZE),
         receivers: Some(stage.receivers),
         ..ShadowVolumeFrame::new(&stage.view, light, casters)

@@ -197,7 +197,7 @@ fn cost(args: &Args, counts: &Path) -> Result<()> {
 /// A scene with what the command line replaces in it.
 fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
     let ground = args.ground == args::Ground::Auto;
-    let mut scene = scene::load(name, ground)?;
+    let mut scene = scene::load(name, ground, None)?;
     if !scene.left_out.is_empty() {
         note(&format!(
             "{name}: left out are {}",
@@ -209,7 +209,7 @@ fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
         let made = scene.shine_as(kind);
         made.with_context(|| format!("scene {name}: --light-kind"))?;
     }
-    if args.range.is_some() && scene.light_kind() == LightKind::Directional {
+    if args.range.is_some() && scene.light().kind() == LightKind::Directional {
         bail!("scene {name}: --range is of no use, a directional light has none");
     }
     host::renderer::view(&scene, size).with_context(|| format!("scene {name}: camera"))?;
@@ -218,7 +218,7 @@ fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
 
 fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     let scene = asked_scene(args, name, args.size)?;
-    let light = scene.light_kind();
+    let light = scene.light().kind();
     let asked: Vec<Technique> = match args.sweep {
         true => sweep::techniques(&args.techniques),
         false => args

@@ -139,13 +139,13 @@ impl Report {
             unix_time: now(),
             size,
             camera: camera(stage),
-            light: stage.scene.light.to_array(),
-            cone: stage.scene.cone.map(|cone| Cone {
+            light: stage.scene.light().place.to_array(),
+            cone: stage.scene.light().cone.map(|cone| Cone {
                 direction: cone.direction.to_array(),
                 half_angle: cone.half_angle,
             }),
-            range: stage.scene.range,
-            shadow_near: stage.scene.shadow_near,
+            range: stage.scene.light().range,
+            shadow_near: stage.scene.light().near,
             scene_name: stage.scene.name.clone(),
             scene: objects(stage),
             left_out_of_file: stage.scene.left_out.clone(),

@@ -47,10 +47,10 @@ impl Stage {
         let renderer = Renderer::with_look(gpu, size, &scene, &scene_gpu, look)?;
         let inputs = ShadowInputs {
             view,
-            light: HomogeneousLight(scene.light),
-            cone: scene.cone,
-            near: scene.shadow_near,
-            range: scene.range,
+            light: HomogeneousLight(scene.light().place),
+            cone: scene.light().cone,
+            near: scene.light().near,
+            range: scene.light().range,
             casters: scene_gpu.casters.clone(),
             receivers: receivers(&scene),
             seen: seen(&scene),
@@ -97,7 +97,8 @@ impl Stage {
         light: Vec4,
         shift: [f32; 2],
     ) -> Result<()> {
-        (self.scene.camera, self.scene.light) = (camera, light);
+        self.scene.camera = camera;
+        self.scene.light_mut().place = light;
         let (size, look) = (self.renderer.size(), self.renderer.look());
         let [right, down] = [0, 1].map(|axis| 2.0 * shift[axis] / size[axis] as f32);
         let shifted = Mat4::from_translation(Vec3::new(right, -down, 0.0));
