@@ -35,8 +35,6 @@
 mod culling;
 #[path = "cube_map/flat.rs"]
 mod flat;
-#[path = "../examples/host/mod.rs"]
-mod host;
 #[allow(dead_code)] // what other tests need
 #[path = "../tests/common/shapes.rs"]
 mod shapes;

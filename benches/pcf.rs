@@ -16,8 +16,6 @@
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
 //! `--quick` takes fewer rounds, and only the kernels of the ratios.
 
-#[path = "../examples/host/mod.rs"]
-mod host;
 #[path = "shared/mod.rs"]
 mod shared;
 

@@ -25,9 +25,6 @@ mod modules;
 mod page;
 #[path = "../tests/common/pcf.rs"]
 mod pcf;
-#[allow(dead_code)] // compare draws their maps, too
-#[path = "../examples/host/peers.rs"]
-mod peers;
 #[path = "shader_cost/pipeline.rs"]
 mod pipeline;
 #[path = "shader_cost/receivers.rs"]

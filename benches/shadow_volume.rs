@@ -31,8 +31,6 @@
 mod distinct;
 #[path = "shadow_volume/extraction.rs"]
 mod extraction;
-#[path = "../examples/host/mod.rs"]
-mod host;
 #[path = "shared/mod.rs"]
 mod shared;
 

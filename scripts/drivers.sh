@@ -106,22 +106,48 @@ on() {
         XDG_RUNTIME_DIR="${XDG_RUNTIME_DIR:-/tmp}" timeout "$limit" "$@"
 }
 
-# The tests that draw, or those of them that are named: `SUITE BINARY` for each.
+# Where each module is a suite of its own.
+folders='tests/maps tests/receivers examples/compare/tests/measured examples/host/tests/host'
+
+# The test binary that a suite is in.
+home() {
+    case $1 in
+    lib | gl | volume)
+        echo "$1"
+        return
+        ;;
+    esac
+    for folder in $folders; do
+        [ ! -e "$folder/$1.rs" ] || basename "$folder"
+    done
+}
+
+# The tests that draw, or those of them that are named: `SUITE BINARY FILTER` for each.
 suites() {
     if [ $# -eq 0 ]; then
-        # compare_cli starts a program, which would not be loaded by a newer Mesa's loader.
-        set -- lib $(grep -lE 'host/(mod|gpu)\.rs' tests/*.rs | grep -v compare_ | sed 's#tests/\(.*\)\.rs#\1#')
+        # shellcheck disable=SC2046,SC2086
+        set -- lib gl volume $(grep -l 'host::gpu' $(printf '%s/*.rs ' $folders) | sed 's#.*/\(.*\)\.rs#\1#')
     fi
     targets=
     for suite in "$@"; do
-        case $suite in
+        case $(home "$suite") in
+        '')
+            echo "no suite $suite" >&2
+            return 1
+            ;;
         lib) targets="$targets --lib" ;;
-        *) targets="$targets --test $suite" ;;
+        *) targets="$targets --test $(home "$suite")" ;;
         esac
     done
-    cargo test --no-run --all-features $targets 2>&1 | sed -n \
-        -e 's#.*Executable unittests src/lib.rs (\(.*\))#lib \1#p' \
-        -e 's#.*Executable tests/\(.*\)\.rs (\(.*\))#\1 \2#p'
+    # shellcheck disable=SC2086
+    cargo test --no-run --all-features $targets 2>&1 |
+        sed -n 's#.*Executable .*(\(.*/deps/\([a-z]*\)-[0-9a-f]*\))#\2 \1#p' | sed 's/^shadows /lib /' >"$out/binaries"
+    for suite in "$@"; do
+        home=$(home "$suite")
+        filter=
+        [ "$home" = "$suite" ] || filter=$suite::
+        echo "$suite $(sed -n "s/^$home //p" "$out/binaries") $filter"
+    done
 }
 
 # Tests that are known to fail there: the rows `| DRIVER | `SUITE` | `TEST` | cause |` of the page.
@@ -132,7 +158,7 @@ known() {
 
 # What a suite's output comes to, in a cell. $3: how it ended.
 cell() {
-    failed=$(sed -n 's/^test \(.*\) \.\.\. FAILED$/\1/p' "$out/$1/$2.txt" | sort)
+    failed=$(sed -n -e "s/^test $2::/test /" -e 's/^test \(.*\) \.\.\. FAILED$/\1/p' "$out/$1/$2.txt" | sort)
     passed=$(grep -c '^test .* \.\.\. ok$' "$out/$1/$2.txt" || true)
     count=$(printf '%s' "$failed" | grep -c . || true)
     if [ "$3" -eq 124 ]; then
@@ -152,9 +178,10 @@ cell() {
 column() {
     driver=$1
     mkdir -p "$out/$driver"
-    while read -r suite binary; do
+    while read -r suite binary filter; do
         code=0
-        on "$driver" "$binary" >"$out/$driver/$suite.txt" 2>&1 </dev/null || code=$?
+        # shellcheck disable=SC2086
+        on "$driver" "$binary" $filter >"$out/$driver/$suite.txt" 2>&1 </dev/null || code=$?
         cell "$driver" "$suite" "$code" >"$out/$driver/$suite.cell"
         echo "$driver: $suite: $(cat "$out/$driver/$suite.cell")" >&2
     done <"$out/suites"
@@ -228,9 +255,10 @@ khronos_validation.report_flags = error,warn,perf
 khronos_validation.validate_sync = true
 khronos_validation.enable_message_limit = false
 EOF
-        binary=$(sed -n "s/^$suite //p" "$out/suites")
+        binary=$(sed -n "s/^$suite //p" "$out/suites") # and its filter
+        # shellcheck disable=SC2086
         VK_LAYER_PATH=$chromium VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation \
-            VK_LAYER_SETTINGS_PATH=$PWD/$out/validate on lavapipe "$binary" >"$log.out" 2>&1 || said=1
+            VK_LAYER_SETTINGS_PATH=$PWD/$out/validate on lavapipe $binary >"$log.out" 2>&1 || said=1
         messages=$(grep -c '^Validation' "$log" || true)
         echo "$suite: $(grep 'test result' "$log.out"), $messages messages"
         [ "$messages" -eq 0 ] || said=1

@@ -5,7 +5,7 @@
 #
 # Parts, in this order: `tests` (depth_planes first), `hard` cases, `temporal`: beside each other, a few
 # processes a time; then alone, since they measure time: `scenes`, `sweep`, `benches`. `tests/NAME`
-# is one test binary. A part that fails, hangs or is cut off does not stop the others. OUT gets, anew whenever
+# is one suite. A part that fails, hangs or is cut off does not stop the others. OUT gets, anew whenever
 # something has ended:
 #
 #   summary.txt        a line for each suite, and why which tests failed
@@ -18,12 +18,28 @@ root=$(cd "$(dirname "$0")" && pwd)
 out=${1:?run.sh OUT [SECONDS [PART...]]}
 budget=${2:-520}
 shift $(($# < 2 ? $# : 2))
+
+# `BINARY SUITE` for each: a whole binary, or each module of those that are about more than one thing.
+suites() {
+    local binary
+    for binary in "$root"/deps/*; do
+        binary=${binary##*/}
+        case $binary in
+        maps | receivers | measured | host)
+            "$root/deps/$binary" --list --format terse 2>/dev/null | sed -n "s/::.*: test$//p" | sort -u |
+                sed "s/^/$binary /"
+            ;;
+        *) echo "$binary $binary" ;;
+        esac
+    done
+}
+
 parts=" ${*:-tests hard temporal scenes sweep benches} "
 for part in $parts; do
     case $part in
     tests | hard | temporal | scenes | sweep | benches) ;;
     *)
-        if [ "$part" = "${part#tests/}" ] || [ ! -e "$root/deps/${part#tests/}" ]; then
+        if [ "$part" = "${part#tests/}" ] || ! suites | grep -q " ${part#tests/}$"; then
             echo "no part $part; see the head of gpu_run.sh" >&2
             exit 2
         fi
@@ -210,12 +226,13 @@ enqueue() {
     queue+=("$when $name $limit")
 }
 
-# A test binary in processes of at most 8 tests: in one, a driver may compile for one thread at a time. Those of
-# a large binary are spread among the others.
+# A suite of a test binary in processes of at most 8 tests: in one, a driver may compile for one thread at a
+# time. Those of a large suite are spread among the others.
 enqueue_tests() {
-    local name=$1 most=8 all=$work/all.tests shards shard file when
-    shift
-    "$root/deps/$name" --list --format terse 2>/dev/null | sed -n 's/: test$//p' |
+    local binary=$1 name=$2 most=8 all=$work/all.tests own=. shards shard file when
+    shift 2
+    [ "$binary" = "$name" ] || own="^$name::"
+    "$root/deps/$binary" --list --format terse 2>/dev/null | sed -n 's/: test$//p' | grep "$own" |
         { [ $# -eq 0 ] && cat || grep -vxF "$@"; } >"$all"
     shards=$((($(wc -l <"$all") + most - 1) / most))
     for ((shard = 1; shard <= shards; shard++)); do
@@ -226,7 +243,7 @@ enqueue_tests() {
         [ "$name" != depth_planes ] || when=0
         # Neighbours are alike, and alike in what they cost.
         awk -v shards="$shards" -v shard="$shard" 'NR % shards == shard % shards' "$all" >"$file"
-        enqueue "$when" "$part" 150 "$root/deps/$name" --exact --nocapture --test-threads 2 $(cat "$file")
+        enqueue "$when" "$part" 150 "$root/deps/$binary" --exact --nocapture --test-threads 2 $(cat "$file")
     done
 }
 
@@ -294,15 +311,14 @@ fi
 
 ! asked hard || enqueue 0.01 compare-hard-cases 200 \
     "$compare" --hard-cases --rounds 1 "${wanted[@]+"${wanted[@]}"}" --out "$work/reports/hard-cases"
-for path in "$root"/deps/*; do
-    name=${path##*/}
+while read -r binary name; do
     asked tests || asked "tests/$name" || continue
     case $name in
     # What `compare` does as well.
-    hard_cases) enqueue_tests hard_cases -e one_round_passes ;;
-    *) enqueue_tests "$name" ;;
+    hard_cases) enqueue_tests "$binary" hard_cases -e hard_cases::one_round_passes ;;
+    *) enqueue_tests "$binary" "$name" ;;
     esac
-done
+done < <(suites)
 ! asked temporal || enqueue 0.4 compare-temporal 120 \
     "$compare" --temporal --technique all --steps 16 "${wanted[@]+"${wanted[@]}"}" --out "$work/reports/temporal"
 # A thread of a test and one of its driver for each core. What is measured gets two fifths of the time.

@@ -13,7 +13,7 @@ mkdir -p "$copy/docs"
 cp -r src shaders README.md "$copy"
 cp docs/picture.md "$copy/docs"
 # Without what only tests, examples and benches need: a user's graph has none of it.
-awk '/^\[/ { wanted = !/dev-dependencies|\[(bench|example|test)\]\]/ } wanted' Cargo.toml >"$copy/Cargo.toml"
+awk '/^\[/ { wanted = !/dev-dependencies|\[(bench|example|test)\]\]|workspace/ } wanted' Cargo.toml >"$copy/Cargo.toml"
 cd "$copy"
 export CARGO_TARGET_DIR="$target"
 

@@ -7,7 +7,7 @@ use shadows::wgpu;
 use wgpu::util::DeviceExt as _;
 
 use super::RANGE;
-use crate::host::gpu::Gpu;
+use host::gpu::Gpu;
 
 /// A list for each light, and how long it is: the instance count of an indirect draw.
 const SHADER: &str = "

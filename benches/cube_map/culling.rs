@@ -12,8 +12,8 @@ use std::time::{Duration, Instant};
 use caster_tree::CasterSpheres;
 use shadows::glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-use crate::host::gpu::Gpu;
 use crate::{median, ratio};
+use host::gpu::Gpu;
 
 /// How far each light reaches; some 700 casters in a flat world of one a square metre.
 const RANGE: f64 = 15.0;

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use shadows::glam::Vec3;
 use shadows::{Caster, DirectionalLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
 
-use crate::host::gpu::Gpu;
 use crate::{World, median, ratio};
+use host::gpu::Gpu;
 
 const CASTERS: usize = 10_000;
 

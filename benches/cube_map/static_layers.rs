@@ -5,9 +5,9 @@ use std::time::Duration;
 use shadows::glam::{Affine3A, Vec3, Vec3A};
 use shadows::{Caster, CubeShadowMap, CubeShadowMapDescriptor, PointLight, StaticLayers, wgpu};
 
-use super::host::gpu::Gpu;
 use super::shapes::{cuboid, sphere};
 use super::{frame, median, new_map, ratio};
+use host::gpu::Gpu;
 
 /// What stands still before each face: `side` x `side` spheres.
 #[derive(Clone, Copy)]

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use criterion::{Criterion, SamplingMode};
 use shadows::wgpu;
 
-use crate::host::gpu::Gpu;
-use crate::host::timer::Timer;
+use host::gpu::Gpu;
+use host::timer::Timer;
 
 /// Runs that a sample takes at most if they take long. Criterion asks for as many as fill its time,
 /// and does not know what is done between them, which may take longer than what is timed; a sample of

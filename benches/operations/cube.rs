@@ -7,9 +7,9 @@ use shadows::{
 };
 
 use crate::clock::Bench;
-use crate::host::gpu::Gpu;
-use crate::host::renderer::SHADED;
 use crate::stage::{Move, Stage, nudge};
+use host::gpu::Gpu;
+use host::renderer::SHADED;
 
 /// A map and its frame.
 struct Cube<'a> {

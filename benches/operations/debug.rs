@@ -4,9 +4,9 @@ use anyhow::Result;
 use shadows::{VolumeDebug, VolumeDebugDescriptor, wgpu};
 
 use crate::clock::Bench;
-use crate::host::renderer::{DEPTH, SHADED};
 use crate::stage::Stage;
 use crate::volume::Volumes;
+use host::renderer::{DEPTH, SHADED};
 
 /// One of the views.
 type View = fn(&VolumeDebug, &mut wgpu::RenderPass<'_>, &Volumes<'_>);

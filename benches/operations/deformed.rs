@@ -12,10 +12,10 @@ use shadows::{
 };
 
 use crate::clock::Bench;
-use crate::host::gpu::Gpu;
-use crate::host::renderer::DEPTH;
 use crate::shared::torus::torus;
 use crate::stage::{SIZE, Stage};
+use host::gpu::Gpu;
+use host::renderer::DEPTH;
 
 /// Positions in a buffer as a host would have them, and what encloses them.
 pub struct Deformed {

@@ -4,8 +4,8 @@ use anyhow::Result;
 use shadows::{Caster, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
 
 use crate::clock::Bench;
-use crate::host::gpu::Gpu;
 use crate::stage::{Move, Stage, nudge};
+use host::gpu::Gpu;
 
 /// A map and its frame.
 pub struct Flat<'a> {

@@ -8,8 +8,8 @@ use shadows::glam::Vec3;
 use shadows::{Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight};
 
 use crate::clock::Bench;
-use crate::host::gpu::Gpu;
 use crate::stage::{Move, Stage, nudge};
+use host::gpu::Gpu;
 
 const LIGHTS: u32 = 16;
 /// Of the 96 faces: those of two lights.

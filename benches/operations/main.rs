@@ -16,8 +16,6 @@ mod cube;
 mod debug;
 mod deformed;
 mod flat;
-#[path = "../../examples/host/mod.rs"]
-mod host;
 mod lights;
 mod mesh;
 mod pcf;

@@ -10,8 +10,8 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use crate::clock::Bench;
 use crate::deformed::Deformed;
-use crate::host::gpu::Gpu;
 use crate::shared::torus::torus;
+use host::gpu::Gpu;
 
 pub fn all(bench: &mut Bench<'_>, gpu: &Gpu) -> Result<()> {
     let (positions, indices) = torus(500, 100);

@@ -9,11 +9,11 @@ use shadows::{
 
 use crate::clock::Bench;
 use crate::flat::Flat;
-use crate::host::gpu::Gpu;
-use crate::host::pipelines::{ShadowAccess, visibility_module};
-use crate::host::renderer::Renderer;
-use crate::host::scene_gpu::SceneGpu;
 use crate::stage::{SIZE, Stage};
+use host::gpu::Gpu;
+use host::pipelines::{ShadowAccess, visibility_module};
+use host::renderer::Renderer;
+use host::scene_gpu::SceneGpu;
 
 pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let gpu = stage.gpu;

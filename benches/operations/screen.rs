@@ -7,9 +7,9 @@ use shadows::{
 };
 
 use crate::clock::Bench;
-use crate::host::renderer::SHADED;
 use crate::stage::{SIZE, Stage};
 use crate::volume::Volumes;
+use host::renderer::SHADED;
 
 pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let features = stage.gpu.device.features();

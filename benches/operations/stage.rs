@@ -8,10 +8,10 @@ use shadows::{
     PointLight, SpotLight, View,
 };
 
-use crate::host::gpu::Gpu;
-use crate::host::renderer::{self, Renderer};
-use crate::host::scene::{self, Scene};
-use crate::host::scene_gpu::SceneGpu;
+use host::gpu::Gpu;
+use host::renderer::{self, Renderer};
+use host::scene::{self, Scene};
+use host::scene_gpu::SceneGpu;
 
 pub const SIZE: [u32; 2] = [640, 360];
 

@@ -7,8 +7,8 @@ use shadows::{
 };
 
 use crate::clock::Bench;
-use crate::host::renderer::DEPTH;
 use crate::stage::{SIZE, Stage};
+use host::renderer::DEPTH;
 
 /// A renderer and its frame.
 pub struct Volumes<'a> {

@@ -3,8 +3,8 @@
 use shadows::{DepthEncoding, FlatLights, Gather, Kernel, MapKind};
 
 use crate::pcf::{WAYS, Way, made, textbooks};
-use crate::peers::PEERS;
 use crate::pipeline::Case;
+use host::peers::PEERS;
 
 const HOST: &str = "
 struct Frame {

@@ -19,9 +19,9 @@ use shadows::{
     ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
 };
 
-use crate::host::gpu::Gpu;
-use crate::host::shapes;
 use crate::shared::{median, paired};
+use host::gpu::Gpu;
+use host::shapes;
 
 const COUNT: usize = 4000;
 const SIZE: [u32; 2] = [320, 180];

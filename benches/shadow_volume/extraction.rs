@@ -25,9 +25,9 @@ use shadows::{
     ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
-use crate::host::gpu::{self, Gpu};
 use crate::shared::torus::torus;
 use crate::shared::{median, paired, seconds};
+use host::gpu::{self, Gpu};
 
 /// The plain loop and its memory.
 struct Loop {

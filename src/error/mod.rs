@@ -6,6 +6,9 @@ mod mesh;
 mod names;
 #[cfg(feature = "reference")]
 mod reference;
+// Public with the atlas, which is the first to have sizes.
+#[allow(dead_code)]
+mod tiles;
 mod volume;
 mod volume_debug;
 
@@ -14,5 +17,6 @@ pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
+pub(crate) use tiles::TileSizeError;
 pub use volume::{ScreenPassError, ShadowVolumeError, VolumeRenderError};
 pub use volume_debug::VolumeDebugError;

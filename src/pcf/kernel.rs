@@ -20,13 +20,13 @@ use crate::error::PcfError;
 /// plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
 ///
 /// On a cube a kernel goes on over edges and corners, texel for texel: within a texel of them it is
-/// wrong at less than 0.7 times as many points as in the middle of a face (`tests/pcf_seams.rs`).
+/// wrong at less than 0.7 times as many points as in the middle of a face (`tests/receivers/pcf_seams.rs`).
 ///
 /// The first seven are squares of texels. The last three are disks in the receiver's tangent plane,
 /// turned or jittered from pixel to pixel: they need the pixel's coordinates
 /// ([`uses_pixel`](Self::uses_pixel)) and trade stair steps for noise.
 ///
-/// What `tests/pcf_quality.rs` measures over a penumbra at 0.73 texels a pixel, in visibility (0 to
+/// What `tests/receivers/pcf_quality.rs` measures over a penumbra at 0.73 texels a pixel, in visibility (0 to
 /// 1), on a cube or a flat map, whichever is worse (squares are the same on both): root mean square and
 /// largest difference from the same kernel with endless taps of an endless map, and from a light of
 /// radius 0.1 (1,024 rays a pixel); the largest step from a pixel to the next beyond the endless
@@ -71,7 +71,7 @@ pub enum Kernel {
     /// any angle, and nothing is darker than with `Bilinear`; but what touches a surface
     /// casts a shadow that begins later: by as much of the surface as one texel covers away from the
     /// light, 1.12 times that at most where it is steep along one axis of the map, twice that along
-    /// both (`tests/pcf_hardware.rs`; `Bilinear`: 0). A surface that the light grazes at 0.1 loses ten texels of
+    /// both (`tests/receivers/pcf_hardware.rs`; `Bilinear`: 0). A surface that the light grazes at 0.1 loses ten texels of
     /// a contact's shadow.
     ///
     /// Errors of pictures of 480x270 from maps of 512 texels, false light and false shadow in per cent of the

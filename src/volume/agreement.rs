@@ -1,10 +1,10 @@
 //! The three ways to find silhouettes give the same volume, edge for edge.
 
 #[allow(dead_code)]
-#[path = "../../examples/host/gpu.rs"]
+#[path = "../../tests/common/unit/gpu.rs"]
 mod gpu;
 #[allow(dead_code)]
-#[path = "../../examples/host/shapes.rs"]
+#[path = "../../tests/common/unit/shapes.rs"]
 mod shapes;
 
 use glam::camera::rh::{proj::directx as proj, view};

@@ -5,7 +5,7 @@ use shadows::{
     Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu,
 };
 
-use crate::host::gpu::Gpu;
+use host::gpu::Gpu;
 
 /// A frame of a map, drawn; any validation error panics.
 pub fn draw(gpu: &Gpu, map: &mut CubeShadowMap, lights: &[PointLight], casters: &[Caster]) {

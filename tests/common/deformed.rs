@@ -6,7 +6,7 @@ use shadows::{CasterMesh, HostPositions, wgpu};
 use wgpu::util::DeviceExt as _;
 
 use crate::common::shapes::{Shape, cuboid};
-use crate::host::gpu::Gpu;
+use host::gpu::Gpu;
 
 pub struct Deformed {
     shape: Shape,

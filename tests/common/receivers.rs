@@ -6,7 +6,7 @@ use shadows::glam::Vec3;
 use shadows::{AnyMap, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu};
 use wgpu::util::DeviceExt as _;
 
-use crate::host::gpu::Gpu;
+use host::gpu::Gpu;
 
 const SHADER: &str = "
 @group(0) @binding(0) var<storage, read> points: array<vec4f>;

@@ -10,8 +10,8 @@ use shadows::{
 
 use crate::common::rays::Triangles;
 use crate::common::shapes::{Random, cuboid};
-use crate::host::gpu::Gpu;
 use crate::receivers::visibility;
+use host::gpu::Gpu;
 
 pub const SIZE: u32 = 512;
 pub const LIGHT: Vec3 = Vec3::new(0.0, 3.0, 0.0);

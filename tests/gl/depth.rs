@@ -9,9 +9,9 @@ use shadows::{
 
 use crate::common::own_pass::OwnPass;
 use crate::common::shapes::{Random, Shape, square};
-use crate::host::gpu::Gpu;
+use crate::gl;
 use crate::receivers::ask;
-use crate::{cubes, gl};
+use host::gpu::Gpu;
 
 const SIZE: u32 = 64;
 const TEXELS: u32 = SIZE * SIZE;
@@ -52,7 +52,7 @@ impl Ground {
             allocation: Allocation::AtOnce,
             ..Default::default()
         };
-        cubes::fresh(gpu, &descriptor, &[self.light], &[self.caster(gpu)])
+        crate::cubes::fresh(gpu, &descriptor, &[self.light], &[self.caster(gpu)])
     }
 
     /// The broken twin: drawn by a host that leaves depth to the rasteriser.

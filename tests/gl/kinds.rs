@@ -8,9 +8,9 @@ use shadows::{
 };
 
 use crate::common::shapes::{Random, cuboid};
-use crate::host::gpu::Gpu;
+use crate::gl;
 use crate::receivers::{ask, ask_changed};
-use crate::{cubes, gl};
+use host::gpu::Gpu;
 
 /// A mask of so many lights, every third of which is in shadow.
 fn mask(gpu: &Gpu, size: [u32; 2], lights: u32, samples: u32) -> ShadowMask {
@@ -173,7 +173,7 @@ fn map(gpu: &Gpu, lights: u32, cube_array: bool) -> CubeShadowMap {
         ..Default::default()
     };
     let lights = vec![PointLight::new(LIGHT, 30.0); lights as usize];
-    cubes::fresh(gpu, &descriptor, &lights, &casters)
+    crate::cubes::fresh(gpu, &descriptor, &lights, &casters)
 }
 
 #[test]

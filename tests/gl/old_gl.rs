@@ -11,8 +11,8 @@ use shadows::{
 
 use crate::common::noop;
 use crate::common::shapes::{Random, cuboid};
-use crate::host::gpu::Gpu;
-use crate::{cubes, gl};
+use crate::gl;
+use host::gpu::Gpu;
 
 /// Set in the process that the test starts for itself: Mesa is told by its environment what to be.
 const CHILD: &str = "SHADOWS_TEST_OLD_GL";
@@ -116,7 +116,7 @@ fn all(gpu: &Gpu, shift: f32) -> Vec<(String, Vec<u8>)> {
         near,
         ..PointLight::new(at, 30.0)
     };
-    let cube = cubes::fresh(gpu, &descriptor, &[point], &casters);
+    let cube = crate::cubes::fresh(gpu, &descriptor, &[point], &casters);
     let spot = FlatLight::Spot(SpotLight {
         near,
         ..SpotLight::new(at, Vec3::NEG_Y, std::f32::consts::FRAC_PI_4, 30.0)

@@ -1,16 +1,15 @@
-//! What measures against the reference says so in `Cargo.toml`. In the tree the feature is on for all tests;
-//! in a package it is not, and what does not say so does not compile there.
+//! The package's tests compile from the package alone: they use no other package of this repository, and what
+//! measures against the reference says so in `Cargo.toml`. (In the tree the feature is on for all tests; in a
+//! package it is not.)
 
 use std::path::{Path, PathBuf};
 
 use super::read;
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return Vec::new();
-    };
     let mut files = Vec::new();
-    for path in entries.map(|entry| entry.unwrap().path()) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
         if path.is_dir() {
             files.extend(rust_files(&path));
         } else if path.extension().is_some_and(|e| e == "rs") {
@@ -20,68 +19,76 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Whether a target's file, or a module in the folder of its name, uses the host of the examples as a whole
-/// or the reference itself.
-fn needs_reference(file: &Path) -> bool {
-    let modules = rust_files(&file.with_extension(""));
-    let mut texts = std::iter::once(file.to_owned())
-        .chain(modules)
-        .map(|path| std::fs::read_to_string(path).unwrap());
-    texts.any(|text| {
-        ["mod host;", "shadows::reference"]
+/// Folders of `tests/` that hold a binary, by name.
+fn binaries() -> Vec<(String, PathBuf)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let paths = std::fs::read_dir(root).unwrap();
+    let mut folders: Vec<(String, PathBuf)> = paths
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.join("main.rs").is_file())
+        .map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), path))
+        .collect();
+    folders.sort();
+    folders
+}
+
+fn is_packaged(manifest: &str, name: &str) -> bool {
+    !manifest.contains(&format!("\"tests/{name}\""))
+}
+
+/// Whether the manifest has an entry for this test that asks for the feature.
+fn asks_for_reference(manifest: &str, name: &str) -> bool {
+    let mut entries = manifest
+        .split("\n[")
+        .filter_map(|section| section.strip_prefix("[test]]\n"))
+        .filter(|entry| entry.contains(&format!("name = \"{name}\"")));
+    entries.any(|entry| entry.contains("required-features = [\"reference\"]"))
+}
+
+/// What is wrong with the package's tests.
+fn faults(manifest: &str) -> Vec<String> {
+    let mut faults = Vec::new();
+    let packaged = binaries().into_iter();
+    for (name, folder) in packaged.filter(|(name, _)| is_packaged(manifest, name)) {
+        let texts: Vec<String> = rust_files(&folder)
             .iter()
-            .any(|sign| text.contains(sign))
-    })
-}
-
-/// Whether the manifest has an entry of this kind and name that asks for the feature.
-fn asks_for_reference(manifest: &str, kind: &str, name: &str) -> bool {
-    let entries = manifest.split("\n[").filter_map(|section| {
-        section
-            .strip_prefix(&format!("[{kind}]]\n"))
-            .filter(|entry| entry.contains(&format!("name = \"{name}\"")))
-    });
-    let mut entries = entries.map(|entry| entry.contains("required-features = [\"reference\"]"));
-    entries.any(|asks| asks)
-}
-
-/// Targets of one kind that need the feature and do not ask for it.
-fn silent(manifest: &str, kind: &str, folder: &str) -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let mut silent = Vec::new();
-    for entry in std::fs::read_dir(root).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        let main = path.join("main.rs");
-        let file = if main.is_file() { main } else { path };
-        // `repository` is not in the package.
-        let needs = file.is_file() && name != "repository" && needs_reference(&file);
-        if needs && !asks_for_reference(manifest, kind, &name) {
-            silent.push(name);
+            .map(|path| std::fs::read_to_string(path).unwrap())
+            .collect();
+        let uses = |sign: &str| texts.iter().any(|text| text.contains(sign));
+        if uses("use host::") || uses("use compare::") {
+            faults.push(format!("{name}: exclude it, as it uses another package"));
+        }
+        if uses("shadows::reference") && !asks_for_reference(manifest, &name) {
+            faults.push(format!("{name}: it needs [[test]] and required-features"));
         }
     }
-    silent.sort();
-    silent
+    faults
 }
 
 #[test]
-fn targets_that_need_the_reference_ask_for_it() {
+fn the_tests_of_the_package_need_nothing_else() {
     let manifest = read("Cargo.toml");
-    for (kind, folder) in [
-        ("test", "tests"),
-        ("example", "examples"),
-        ("bench", "benches"),
-    ] {
-        let none: [String; 0] = [];
-        assert_eq!(
-            silent(&manifest, kind, folder),
-            none,
-            "each needs [[{kind}]], name and required-features = [\"reference\"] in Cargo.toml"
-        );
+    let none: [String; 0] = [];
+    assert_eq!(faults(&manifest), none);
+    let with_maps = manifest.replace("\"tests/maps\", ", "");
+    assert_eq!(faults(&with_maps).len(), 1, "{:?}", faults(&with_maps));
+    let silent = manifest.replace("required-features = [\"reference\"]", "");
+    assert_eq!(faults(&silent).len(), 1, "{:?}", faults(&silent));
+}
+
+/// Every binary is linked with wgpu anew, which is most of the time that building the tests takes.
+#[test]
+fn a_test_is_a_module_of_a_binary() {
+    for folder in ["tests", "examples/compare/tests", "examples/host/tests"] {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        for entry in std::fs::read_dir(root).unwrap() {
+            let path = entry.unwrap().path();
+            assert!(
+                path.is_dir(),
+                "{}: make it a module of the binary of its subject",
+                path.display()
+            );
+        }
     }
-    let without = manifest.replace(
-        "name = \"volume\"\nrequired-features = [\"reference\"]\n",
-        "",
-    );
-    assert_eq!(silent(&without, "test", "tests"), ["volume"]);
+    assert!(binaries().len() <= 10, "{:?}", binaries());
 }

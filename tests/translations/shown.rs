@@ -6,7 +6,7 @@ use shadows::{Kernel, wgsl};
 
 use crate::Module;
 use crate::pcf::{WAYS, made};
-use crate::peers::PEERS;
+use host::peers::PEERS;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -30,7 +30,7 @@ pub fn all() -> Vec<Module> {
 
 /// The example host, lit in both of its ways. The first sampler is as good as any: it calls all alike.
 fn host() -> Vec<Module> {
-    let folder = root().join("examples/host/shaders");
+    let folder = root().join("examples/host/src/shaders");
     let file = |name: &str| read(&folder.join(name));
     let shared = [wgsl::POSITION.to_owned(), file("host.wgsl")].concat();
     let way = &WAYS[0];
@@ -65,7 +65,7 @@ fn peer(@builtin(position) pixel: vec4f, @location(0) world: vec3f, @location(1)
     return vec4f(peer_visibility(world, normal, pixel.xy));
 }
 ";
-    let module = |peer: &crate::peers::Peer| {
+    let module = |peer: &host::peers::Peer| {
         Module::new(
             format!("peer-{}", peer.name.replace('/', "-")),
             peer.wgsl() + asks,

@@ -6,10 +6,10 @@ use shadows::{
     ShadowVolumeRenderer, Silhouettes, StartFrom, VolumeStatistics, wgpu,
 };
 
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Lens, Savings, Stage};
+use host::gpu::Gpu;
 
 pub const TEXTBOOK: Savings = Savings {
     method: Method::ZFail,

@@ -4,10 +4,10 @@ use shadows::glam::{Affine3A, Vec3};
 use shadows::{Caps, HomogeneousLight, Method, ShadowVolumeRenderer, Silhouettes};
 
 use crate::choices::depths;
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// z-pass throughout is right in `stages`, whose casters are all beside the way to the light.
 const CHOICES: [(Method, Caps); 4] = [

@@ -4,11 +4,11 @@ use shadows::glam::Vec3;
 use shadows::{HomogeneousLight, ShadowVolumeRenderer};
 
 use crate::counts::{boxes, exact, exact_counts, gpu, sheets, with};
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp};
 use crate::random;
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// A renderer of the stage that has prepared its frame.
 fn prepared(gpu: &Gpu, stage: &Stage) -> ShadowVolumeRenderer {

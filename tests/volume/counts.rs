@@ -7,11 +7,11 @@ use shadows::{
 };
 
 use crate::choices::depths;
-use crate::host::gpu::Gpu;
 use crate::passes::{HostPipelines, LightPass, begin, clear, view_of};
 use crate::pictures::{assert_exact, at, lamp, mixed};
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, SIDE, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// A device that counts in floats.
 pub fn gpu() -> Option<Gpu> {

@@ -6,11 +6,11 @@ use shadows::{
     ShadowVolumeRenderer, VolumeDebug, VolumeDebugDescriptor, wgpu,
 };
 
-use crate::host::gpu::Gpu;
 use crate::passes::{HostPipelines, attach, begin, clear, view_of};
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// A stage, drawn once and ready for its debug views.
 pub struct Shown<'a> {

@@ -3,9 +3,9 @@
 use shadows::glam::{Affine3A, DAffine3, DMat4, DVec3, Mat4, Vec3};
 use shadows::{Caster, DepthConvention, HomogeneousLight, View};
 
-use crate::host::gpu::Gpu;
 use crate::pictures::{lamp, mixed, sun};
 use crate::stage::Stage;
+use host::gpu::Gpu;
 
 /// The stage, everything in it moved by an offset, in f64.
 struct Moved<'a> {

@@ -5,10 +5,10 @@ use shadows::glam::{Affine3A, Vec3};
 use shadows::{HomogeneousLight, Method};
 
 use crate::choices::depths;
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp};
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// A square in the ground that casts and bounds the receivers, and a sphere above it.
 fn stage(light: HomogeneousLight, half: f32) -> Stage {

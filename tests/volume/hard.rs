@@ -7,10 +7,10 @@ use shadows::{
     ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
-use crate::host::gpu::Gpu;
 use crate::pictures::{assert_exact, at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// The stage with its silhouettes found in this way.
 fn by(stage: &Stage, silhouettes: Silhouettes) -> Stage {

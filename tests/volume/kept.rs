@@ -10,10 +10,10 @@ use shadows::{
     ShadowVolumeRenderer, Silhouettes, View, VolumeStatistics, wgpu,
 };
 
-use crate::host::gpu::Gpu;
 use crate::passes::{attach, begin, view_of};
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
+use host::gpu::Gpu;
 
 const SIDE: u32 = 48;
 /// What is visible: a wall behind the casters.

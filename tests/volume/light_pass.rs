@@ -1,9 +1,9 @@
 //! The guard: light is added to a pixel once, however often its surface is drawn.
 
-use crate::host::gpu::Gpu;
 use crate::passes::LightPass;
 use crate::pictures::{lamp, mixed};
 use crate::stage::Stage;
+use host::gpu::Gpu;
 
 fn drawn(gpu: &Gpu, times: u32, guarded: bool) -> Vec<u8> {
     let stage = Stage {

@@ -3,10 +3,10 @@
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{Caps, HomogeneousLight, Method};
 
-use crate::host::gpu::Gpu;
 use crate::pictures::at;
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// A light at a place of the shape's own space, and beside the shape a small sphere.
 fn stage(shape: &Shape, turn: Quat, light: Vec3) -> Stage {

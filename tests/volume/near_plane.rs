@@ -7,12 +7,12 @@ use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::{DepthConvention, Method, View, wgpu};
 
 use crate::choices::depths;
-use crate::host::gpu::Gpu;
-use crate::host::random::Random;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage, WAYS};
 use crate::truth::Errors;
+use host::gpu::Gpu;
+use host::random::Random;
 
 /// A camera somewhere in front of the scene, its near plane in the middle of it or a little before.
 fn stage(random: &mut Random, turn: usize, depth: DepthConvention) -> Stage {

@@ -4,9 +4,9 @@ use shadows::glam::Mat4;
 use shadows::{ShadowVolumeRenderer, wgpu, wgsl};
 use wgpu::util::DeviceExt as _;
 
-use crate::host::gpu::Gpu;
 use crate::shapes::Shape;
 use crate::stage::Stage;
+use host::gpu::Gpu;
 
 /// In which order the host multiplies: other orders have other last bits.
 #[derive(Clone, Copy, Debug, PartialEq)]

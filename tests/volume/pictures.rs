@@ -3,10 +3,10 @@
 use shadows::glam::{Affine3A, Mat3A, Quat, Vec3, Vec3A};
 use shadows::{DepthConvention, HomogeneousLight, Method, ShadowVolumeDescriptor, wgpu};
 
-use crate::host::gpu::Gpu;
 use crate::passes::Arithmetic;
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Lens, Stage};
+use host::gpu::Gpu;
 
 pub fn lamp() -> HomogeneousLight {
     HomogeneousLight::point(Vec3::new(-2.0, 6.0, 2.5))

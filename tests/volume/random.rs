@@ -7,16 +7,23 @@ use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{Extrusion, HomogeneousLight, Method, StartFrom, wgpu};
 
 use crate::choices::{TEXTBOOK, depths};
-use crate::host::gpu::Gpu;
-use crate::host::random::Random;
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Savings, Stage, WAYS};
 use crate::truth::Errors;
+use host::gpu::Gpu;
+use host::random::Random;
 
 const SCENES: u64 = 500;
 const SIDE: u32 = 64;
 
-impl Random {
+/// Random casters, out of random numbers.
+trait Bodies {
+    fn shape(&mut self) -> Shape;
+    fn soup(&mut self) -> Shape;
+    fn transform(&mut self) -> Affine3A;
+}
+
+impl Bodies for Random {
     fn shape(&mut self) -> Shape {
         let rings = 3 + self.below(6) as u32;
         match self.below(8) {

@@ -5,10 +5,10 @@ use shadows::mesh::Bounds;
 use shadows::{HomogeneousLight, Method, ShadowVolumeRenderer, Silhouettes, VolumeStatistics};
 
 use crate::choices::depths;
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, sun};
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage};
+use host::gpu::Gpu;
 
 /// Casters over and on the ground, one of them not closed.
 fn casters() -> Vec<Body> {

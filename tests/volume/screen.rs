@@ -6,10 +6,10 @@ use shadows::{
 };
 
 use crate::errors::bare;
-use crate::host::gpu::Gpu;
 use crate::passes::{HostPipelines, attach, begin, clear, view_of};
 use crate::pictures::{lamp, mixed, sun};
 use crate::stage::{SIDE, Stage};
+use host::gpu::Gpu;
 
 const SIZE: [u32; 2] = [SIDE, SIDE];
 

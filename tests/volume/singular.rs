@@ -6,10 +6,10 @@ use shadows::{
     VolumeStatistics,
 };
 
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, sun};
 use crate::shapes;
 use crate::stage::{Body, Savings, Stage, WAYS};
+use host::gpu::Gpu;
 
 /// A caster, and beside it one that is as it should be.
 fn stage(light: HomogeneousLight, transform: Affine3A) -> Stage {

@@ -11,12 +11,12 @@ use shadows::{
 };
 use wgpu::util::DeviceExt as _;
 
-use crate::host::gpu::Gpu;
 use crate::passes::{
     Arithmetic, HostPipelines, LightPass, Surface, attach, begin, bytes_of, clear, view_of,
 };
 use crate::shapes::Shape;
 use crate::truth::Truth;
+use host::gpu::Gpu;
 
 pub const SIDE: u32 = 256;
 

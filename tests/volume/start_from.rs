@@ -8,11 +8,11 @@ use shadows::{
 
 use crate::choices::depths;
 use crate::debug_views::Shown;
-use crate::host::gpu::Gpu;
 use crate::passes::Arithmetic;
 use crate::pictures::{assert_exact, at, lamp, mixed, sun};
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Stage, WAYS};
+use host::gpu::Gpu;
 
 const METHODS: [Method; 2] = [Method::ZFail, Method::Auto];
 

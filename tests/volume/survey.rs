@@ -4,10 +4,10 @@ use shadows::glam::Vec3;
 use shadows::{Caps, HomogeneousLight, Method, ShadowVolumeRenderer, Silhouettes, VolumeSurvey};
 
 use crate::debug_views::{layers, nested};
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Stage, WAYS};
+use host::gpu::Gpu;
 
 fn survey(gpu: &Gpu, stage: &Stage) -> VolumeSurvey {
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();

@@ -3,10 +3,10 @@
 use shadows::glam::{Quat, Vec3};
 use shadows::{HomogeneousLight, Silhouettes, View, wgpu};
 
-use crate::host::gpu::Gpu;
 use crate::kept::{Theatre, count, frame};
 use crate::pictures::{lamp, mixed, sun};
 use crate::stage::WAYS;
+use host::gpu::Gpu;
 
 /// A view, a light, and the numbers of casters.
 type Scene = (View, HomogeneousLight, std::ops::Range<usize>);

@@ -9,10 +9,10 @@ use shadows::{
 };
 use wgpu::util::DeviceExt as _;
 
-use crate::host::gpu::Gpu;
 use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Stage, WAYS};
+use host::gpu::Gpu;
 
 fn renderer(gpu: &Gpu, stage: &Stage, silhouettes: Silhouettes) -> ShadowVolumeRenderer {
     let descriptor = ShadowVolumeDescriptor {

@@ -14,11 +14,11 @@ use eframe::egui_wgpu::{Callback, RenderState};
 use shadows::glam::{Quat, Vec3, Vec3Swizzles as _, Vec4};
 use shadows::wgpu;
 
-use crate::host::image;
-use crate::host::scene::Scene;
 use crate::measure::{self, Job, Measured, STRIDE, Shot};
 use crate::panel::{Controls, error_ui, table};
 use crate::viewport::{Paint, Show, Viewport};
+use host::image;
+use host::scene::Scene;
 
 /// So long nothing must change before the error is measured.
 const PAUSE: Duration = Duration::from_millis(300);

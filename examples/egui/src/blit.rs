@@ -2,7 +2,7 @@
 
 use shadows::wgpu;
 
-use crate::host::renderer::Renderer;
+use host::renderer::Renderer;
 
 /// Pipelines for the shaded picture and for the visibility, and what they read.
 pub struct Blit {

@@ -13,8 +13,6 @@ use shadows::{Bias, Kernel, Support, wgpu};
 
 mod app;
 mod blit;
-#[path = "../../host/mod.rs"]
-mod host;
 mod measure;
 mod panel;
 mod shadow;

@@ -9,9 +9,9 @@ use shadows::HomogeneousLight;
 use shadows::glam::Vec4;
 use shadows::reference::{Comparison, Interior, ReferenceImage, ReferenceScene, Verdict};
 
-use crate::host::exact::reference_scene;
-use crate::host::renderer;
-use crate::host::scene::Scene;
+use host::exact::reference_scene;
+use host::renderer;
+use host::scene::Scene;
 
 /// The reference looks at every third pixel of every third row: at the very same points of the
 /// picture, with a ninth of the rays.

@@ -12,12 +12,12 @@ use shadows::{
     VolumeDebugDescriptor, VolumeSurvey,
 };
 
-use crate::host::gpu::Gpu;
-use crate::host::interior;
-use crate::host::pipelines::{DEPTH, SHADED, ShadowAccess, visibility_module};
-use crate::host::renderer::{LitPipeline, Renderer};
-use crate::host::scene_gpu::SceneGpu;
 use crate::statistics::{self, Rows};
+use host::gpu::Gpu;
+use host::interior;
+use host::pipelines::{DEPTH, SHADED, ShadowAccess, visibility_module};
+use host::renderer::{LitPipeline, Renderer};
+use host::scene_gpu::SceneGpu;
 
 /// How shadows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

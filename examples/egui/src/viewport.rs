@@ -11,13 +11,13 @@ use shadows::reference::Interior;
 use shadows::{HomogeneousLight, Support, wgpu};
 
 use crate::blit::Blit;
-use crate::host::gpu::Gpu;
-use crate::host::renderer::{self, Renderer};
-use crate::host::scene::Scene;
-use crate::host::scene_gpu::SceneGpu;
 use crate::measure::Shot;
 use crate::shadow::{DebugView, Frame, Settings, Shadows};
 use crate::statistics::Rows;
+use host::gpu::Gpu;
+use host::renderer::{self, Renderer};
+use host::scene::Scene;
+use host::scene_gpu::SceneGpu;
 
 /// What the window shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

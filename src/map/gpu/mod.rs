@@ -7,6 +7,8 @@ mod draws;
 mod encode;
 mod flat_light;
 mod instances;
+#[allow(dead_code)] // the atlas writes them
+mod light_record;
 mod pipelines;
 mod static_layers;
 mod texture;

@@ -1,0 +1,155 @@
+//! `compare --hard-cases`: where shadows usually break, every technique, against the reference.
+
+pub mod cases;
+pub mod course;
+pub mod expect;
+pub mod input;
+pub mod judge;
+pub mod limits;
+pub mod outcome;
+pub mod seams;
+pub mod situation;
+pub mod small;
+mod table;
+pub mod trial;
+
+use std::path::Path;
+
+use anyhow::{Context as _, Result};
+use shadows::{CubeShadowMapDescriptor, wgpu};
+
+use self::cases::Case;
+use self::expect::{is_software, way};
+use self::table::Table;
+use self::trial::Trial;
+use crate::date;
+use crate::output::{self, File};
+use crate::progress::progress;
+use crate::table::{ROWS, volume};
+use crate::technique::{Config, Technique};
+use host::gpu::{Gpu, describe};
+use host::image::rgb_png;
+use host::terminal::{note, say};
+
+/// Of the pictures, in pixels.
+pub const SIZE: [u32; 2] = [320, 240];
+/// Texels along a map's side.
+const SIDE: u32 = 512;
+/// The named techniques that are tried.
+const NAMES: [&str; 16] = [
+    "cube-hard",
+    "cube-2x2",
+    "cube-hw",
+    "cube-7x7",
+    "cube-disk",
+    "cube-textbook",
+    "flat-2x2",
+    "flat-hw",
+    "flat-disk",
+    "volume",
+    "volume-cpu",
+    "volume-compute",
+    "volume-vertex",
+    "volume-zfail",
+    "volume-exact-count",
+    "volume-textbook",
+];
+/// With a map of 16 bits; only where that is what is tried.
+const SIXTEEN_BITS: &str = "cube-2x2-16-bit";
+/// With finer maps, so many texels along a side; only where that is what is tried.
+const FINE: [(&str, &str, u32); 2] = [
+    ("cube-2x2", "cube-2x2-2048", 2048),
+    ("flat-2x2", "flat-2x2-4096", 4096),
+];
+
+/// Tries every case in so many rounds, writes the table, and says how many should have passed and
+/// did not.
+///
+/// # Errors
+/// If the device cannot do what a technique needs, or nothing can be written to `dir`.
+pub fn run(gpu: &Gpu, dir: &Path, rounds: u32) -> Result<usize> {
+    let techniques = techniques()?;
+    let cases: Vec<Case> = cases::all().collect();
+    let bar = progress(cases.len() as u64 * u64::from(rounds), "hard cases");
+    let row = |case: &Case| {
+        let (techniques, limits) = (techniques.as_slice(), [].as_slice());
+        Trial {
+            gpu,
+            case,
+            techniques,
+            limits,
+        }
+        .run(rounds, &bar)
+    };
+    let rows = cases.iter().map(row).collect::<Result<_>>()?;
+    bar.finish_and_clear();
+    let table = Table {
+        driver: describe(&gpu.info),
+        date: date::date(date::now()),
+        command: command(dir, rounds),
+        size: SIZE,
+        rounds,
+        techniques: techniques.iter().map(|t| t.name.to_string()).collect(),
+        way: format!("{:?}", way(&volume(), is_software(gpu))),
+        rows,
+        refusals: input::refusals(gpu)?,
+    };
+    write(&table, dir)?;
+    let failures = table.failures();
+    failures.iter().for_each(|failure| note(failure));
+    say(&dir.join("hard-cases.md").display().to_string())?;
+    Ok(failures.len())
+}
+
+fn write(table: &Table, dir: &Path) -> Result<()> {
+    let (size, sheet) = table.sheet();
+    let files = vec![
+        File::new("hard-cases.md", table.markdown()),
+        File::new("hard-cases.png", rgb_png(size, &sheet)?),
+        File::new("hard-cases.json", format!("{:#}\n", table.json())),
+    ];
+    output::write(dir, files)
+}
+
+/// What was asked for, as one would ask again.
+fn command(dir: &Path, rounds: u32) -> String {
+    let dir = dir.display();
+    format!("cargo run --release --example compare -- --hard-cases --rounds {rounds} --out {dir}")
+}
+
+/// A technique of the table.
+fn named(name: &str) -> Result<Technique> {
+    at(name, SIDE)
+}
+
+/// The same with another size of map.
+fn at(name: &str, side: u32) -> Result<Technique> {
+    let row = ROWS.iter().find(|row| row.name == name);
+    let row = row.with_context(|| format!("{name} is no technique"))?;
+    Ok(row.at(side))
+}
+
+/// All that are tried.
+///
+/// # Errors
+/// If one has no row in the table of techniques.
+pub fn techniques() -> Result<Vec<Technique>> {
+    let mut all: Vec<Technique> = NAMES.into_iter().map(named).collect::<Result<_>>()?;
+    if let Config::Cube { map, sampler } = crate::table::cube(SIDE, Default::default()) {
+        let format = wgpu::TextureFormat::Depth16Unorm;
+        all.push(Technique {
+            name: SIXTEEN_BITS.into(),
+            config: Config::Cube {
+                map: CubeShadowMapDescriptor { format, ..map },
+                sampler,
+            },
+        });
+    }
+    for (name, fine, side) in FINE {
+        all.push(Technique {
+            name: fine.into(),
+            ..at(name, side)?
+        });
+    }
+    Ok(all)
+}

@@ -1,0 +1,22 @@
+//! What `compare` is made of, for its tests and for the other pictures of the pages.
+
+pub mod args;
+pub mod arithmetic;
+pub mod cost;
+pub mod date;
+pub mod growth;
+pub mod hard;
+pub mod measure;
+pub mod output;
+pub mod plot;
+pub mod progress;
+pub mod report;
+pub mod scenes;
+pub mod shadow;
+pub mod snippet;
+pub mod soft;
+pub mod stage;
+pub mod sweep;
+pub mod table;
+pub mod technique;
+pub mod temporal;

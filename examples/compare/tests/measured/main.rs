@@ -1,0 +1,14 @@
+//! What `compare` measures, held to bounds: scenes, hard cases, other engines' maps, motion,
+//! growth and other arithmetic.
+
+mod against_reference;
+mod arithmetic;
+#[path = "../../../../tests/common/mod.rs"]
+mod common;
+mod far_from_origin;
+mod growth;
+mod hard_cases;
+mod peers;
+#[path = "../../../../tests/common/receivers.rs"]
+mod receivers;
+mod temporal;

@@ -1,0 +1,5 @@
+//! `compare` as a program: its command line, what it writes, and the advice it gives.
+
+mod args;
+mod cli;
+mod sweep;

@@ -1,0 +1,22 @@
+//! Kernels as receivers ask them: their weights, their bias and their error, against exact visibility.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod cube_receivers;
+#[path = "../common/cubes.rs"]
+mod cubes;
+#[path = "../common/exact_kernels.rs"]
+mod exact_kernels;
+#[path = "../common/pcf.rs"]
+mod pcf;
+mod pcf_gather;
+mod pcf_gl;
+mod pcf_grazing;
+mod pcf_hardware;
+mod pcf_kernels;
+mod pcf_quality;
+mod pcf_seams;
+#[path = "../common/receivers.rs"]
+mod receivers;
+#[path = "../common/yard.rs"]
+mod yard;

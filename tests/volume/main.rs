@@ -1,0 +1,32 @@
+//! Shadow volumes against the exact answer: not one interior pixel may be wrong.
+
+mod chain;
+mod choices;
+mod combinations;
+mod count_bound;
+mod count_errors;
+mod counts;
+mod debug_errors;
+mod debug_views;
+mod errors;
+mod far_away;
+mod flat_end;
+mod hard;
+mod kept;
+mod light_pass;
+mod near_light;
+mod near_plane;
+mod passes;
+mod pictures;
+mod random;
+mod receivers;
+mod screen;
+mod singular;
+mod stage;
+mod start_from;
+mod survey;
+mod truth;
+mod views;
+mod ways;
+
+use host::shapes;

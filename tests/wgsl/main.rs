@@ -1,0 +1,12 @@
+//! The library's WGSL as text: valid in every configuration, and written as drivers need it.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod explicit_comparisons;
+#[path = "../common/modules.rs"]
+mod modules;
+#[path = "../common/pcf.rs"]
+mod pcf;
+mod pcf_import;
+mod pcf_wgsl;
+mod uniform_branches;
