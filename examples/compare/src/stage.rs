@@ -63,6 +63,18 @@ impl Stage {
         })
     }
 
+    /// What a technique is told of one of the scene's lights.
+    pub fn inputs_of(&self, light: usize) -> ShadowInputs {
+        let light = &self.scene.lights[light];
+        ShadowInputs {
+            light: HomogeneousLight(light.place),
+            cone: light.cone,
+            near: light.near,
+            range: light.range,
+            ..self.inputs.clone()
+        }
+    }
+
     /// One frame of a technique, told `inputs` (which a test may have falsified).
     ///
     /// # Errors
@@ -140,6 +152,20 @@ impl Stage {
         }
         let (light, range) = (self.inputs.light, self.inputs.light_range());
         Ok(scene.render(&self.inputs.view, width, height, light, range)?)
+    }
+}
+
+impl Stage {
+    /// The exact answer for one of the scene's lights, from the picture under another.
+    ///
+    /// # Errors
+    /// If the light is none.
+    pub fn relit(&self, other: &ReferenceImage, light: usize) -> Result<ReferenceImage> {
+        let inputs = self.inputs_of(light);
+        Ok(match inputs.spot_light() {
+            Some(spot) => other.relit_by_spot(&spot)?,
+            None => other.relit(inputs.light, inputs.light_range())?,
+        })
     }
 }
 

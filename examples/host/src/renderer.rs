@@ -46,7 +46,8 @@ pub struct Renderer {
     depth_stencil_format: wgpu::TextureFormat,
     targets: Targets,
     host_layout: wgpu::BindGroupLayout,
-    host_group: wgpu::BindGroup,
+    /// One for each light, as a second dynamic offset crashes Mesa's lavapipe.
+    host_groups: Vec<wgpu::BindGroup>,
     uniforms: Uniforms,
     /// As they were last shown.
     lights: Vec<Light>,
@@ -90,7 +91,10 @@ impl Renderer {
         let uniforms = Uniforms::new(gpu, scene);
         uniforms.write(gpu, scene, matrix(scene, size, look));
         let host_layout = host_layout(&gpu.device);
-        let host_group = host_group(gpu, &host_layout, &uniforms, scene_gpu);
+        let lights = 0..scene.lights.len();
+        let host_groups = lights
+            .map(|light| host_group(gpu, &host_layout, &uniforms, scene_gpu, light))
+            .collect();
         let shared = Shared {
             device: &gpu.device,
             layout: &host_layout,
@@ -112,7 +116,7 @@ impl Renderer {
             ambient: pipelines::ambient(&shared),
             unshadowed: pipelines::lit(&shared, &ShadowAccess::default()),
             host_layout,
-            host_group,
+            host_groups,
         })
     }
 
@@ -207,7 +211,7 @@ impl Renderer {
         });
         if let Some(sky) = &self.sky {
             pass.set_pipeline(sky);
-            pass.set_bind_group(0, &self.host_group, &[0, 0]);
+            pass.set_bind_group(0, &self.host_groups[0], &[0]);
             pass.draw(0..3, 0..1);
         }
         self.draw_objects(&mut pass, scene, &self.ambient, 0, None);
@@ -324,7 +328,7 @@ impl Renderer {
         light: usize,
         reach: Option<&Light>,
     ) {
-        let light = light as u32 * self.uniforms.light_stride;
+        let group = &self.host_groups[light];
         let mut masked = None;
         for (place, object) in scene.objects.iter().enumerate() {
             let mesh = &scene.meshes[object.mesh];
@@ -340,7 +344,7 @@ impl Renderer {
                 });
             }
             let offset = place as u32 * scene.object_stride;
-            pass.set_bind_group(0, &self.host_group, &[offset, light]);
+            pass.set_bind_group(0, group, &[offset]);
             pass.set_vertex_buffer(0, mesh.positions.slice(..));
             pass.set_vertex_buffer(1, mesh.normals.slice(..));
             if let Some(mask) = &mesh.mask {
@@ -475,7 +479,7 @@ fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("host"),
-        entries: &[entry(0, false), entry(1, true), entry(2, true)],
+        entries: &[entry(0, false), entry(1, true), entry(2, false)],
     })
 }
 
@@ -484,18 +488,19 @@ fn host_group(
     layout: &wgpu::BindGroupLayout,
     uniforms: &Uniforms,
     scene: &SceneGpu,
+    light: usize,
 ) -> wgpu::BindGroup {
-    let one_of = |buffer, stride: u32| {
+    let one_of = |buffer, stride: u32, place: usize| {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer,
-            offset: 0,
+            offset: place as u64 * u64::from(stride),
             size: wgpu::BufferSize::new(u64::from(stride)),
         })
     };
     let resources = [
         uniforms.frame.as_entire_binding(),
-        one_of(&scene.object_uniforms, scene.object_stride),
-        one_of(&uniforms.lights, uniforms.light_stride),
+        one_of(&scene.object_uniforms, scene.object_stride, 0),
+        one_of(&uniforms.lights, uniforms.light_stride, light),
     ];
     let entries = (0..).zip(resources);
     let entries: Vec<_> = entries

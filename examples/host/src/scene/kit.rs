@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use shadows::glam::{DAffine3, DVec2, DVec3, dvec2, dvec3};
+use shadows::glam::{DAffine3, DVec2, DVec3, dvec3};
 
 use super::surface::Surface;
 
@@ -75,11 +75,6 @@ impl Surface {
         s.add(self, transform);
         s
     }
-}
-
-/// A rectangle's outline, counter-clockwise.
-pub fn rectangle(min: DVec2, max: DVec2) -> [DVec2; 4] {
-    [min, dvec2(max.x, min.y), max, dvec2(min.x, max.y)]
 }
 
 fn icosahedron() -> Surface {

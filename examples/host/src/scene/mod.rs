@@ -15,10 +15,11 @@ mod kit;
 pub mod leaf_mask;
 mod light;
 pub mod masonry;
-mod plants;
+pub mod plants;
 pub mod spheres;
 pub mod surface;
 pub mod teapot;
+pub mod valley;
 
 pub use city::city;
 pub use courtyard::courtyard;
@@ -26,9 +27,10 @@ pub use file::file;
 pub use light::{Cone, Light, LightKind, Sky};
 pub use spheres::{spheres, spheres_moving};
 pub use teapot::teapot;
+pub use valley::valley;
 
 /// Names of the built-in scenes, as [`load`] takes them.
-pub const NAMES: [&str; 4] = ["spheres", "courtyard", "teapot", "city"];
+pub const NAMES: [&str; 5] = ["spheres", "courtyard", "teapot", "city", "valley"];
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, PartialEq)]
@@ -317,6 +319,7 @@ pub enum Time {
 pub fn times(name: &str) -> &'static [Time] {
     match name {
         "city" => &[Time::Day, Time::Night],
+        "valley" => &[Time::Day],
         _ => &[],
     }
 }
@@ -338,6 +341,7 @@ pub fn load(spec: &str, ground: bool, time: Option<Time>) -> anyhow::Result<Scen
     match spec {
         "spheres" => Ok(spheres()),
         "city" => Ok(city(time.unwrap_or(times[0]))),
+        "valley" => Ok(valley()),
         "courtyard" => Ok(courtyard()),
         "teapot" => Ok(teapot()),
         path => file(std::path::Path::new(path), ground),

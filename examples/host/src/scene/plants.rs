@@ -2,9 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use shadows::glam::{DAffine3, DVec3, dvec3};
+use shadows::glam::{DAffine3, DVec2, DVec3, dvec2, dvec3};
 
 use super::super::random::Random;
+use super::Mesh;
 use super::surface::Surface;
 
 /// The golden angle: branches never stand above one another (Vogel 1979).
@@ -16,6 +17,14 @@ pub struct Skeleton {
     pub wood: Surface,
     /// Where twigs end, and in which direction.
     pub twigs: Vec<[DVec3; 2]>,
+}
+
+/// Down to what a tree's wood is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Wood {
+    Trunk,
+    Branches,
+    Twigs,
 }
 
 /// How a tree grows.
@@ -33,6 +42,8 @@ pub struct Habit {
     pub twigs: u32,
     /// How far branches rise: the sine of their angle at the foot.
     pub rise: f64,
+    /// What of it is made of wood; of the rest nothing is seen but the leaves.
+    pub wood: Wood,
     /// Whether branches get shorter towards the top, as a fir's do, or are longest in the middle.
     pub cone: bool,
 }
@@ -100,8 +111,10 @@ fn branch(
     let curve = if habit.cone { -0.1 } else { 0.18 };
     let at = |t: f64| foot + way * t + DVec3::Y * (curve * length * t * t);
     let path: Vec<DVec3> = (0..=3).map(|i| at(f64::from(i) / 3.0)).collect();
-    let tube = Surface::tube(&path, |i| girth * (1.0 - 0.26 * i as f64), 5);
-    skeleton.wood.add(&tube, DAffine3::IDENTITY);
+    if habit.wood >= Wood::Branches {
+        let tube = Surface::tube(&path, |i| girth * (1.0 - 0.26 * i as f64), 5);
+        skeleton.wood.add(&tube, DAffine3::IDENTITY);
+    }
     let along = (at(1.0) - at(0.8)).normalize();
     skeleton.twigs.push([at(1.0), along]);
     for i in 0..habit.twigs {
@@ -113,10 +126,12 @@ fn branch(
         let out = (0.55 * along + 0.75 * across + up * DVec3::Y).normalize();
         let reach = length * (1.05 - t) * within(random, 0.4, 0.65);
         let end = at(t) + out * reach;
-        let twig = [at(t), at(t).lerp(end, 0.5), end];
-        let thin = 0.45 * girth;
-        let tube = Surface::tube(&twig, |i| thin * (1.0 - 0.35 * i as f64), 4);
-        skeleton.wood.add(&tube, DAffine3::IDENTITY);
+        if habit.wood == Wood::Twigs {
+            let twig = [at(t), at(t).lerp(end, 0.5), end];
+            let thin = 0.45 * girth;
+            let tube = Surface::tube(&twig, |i| thin * (1.0 - 0.35 * i as f64), 4);
+            skeleton.wood.add(&tube, DAffine3::IDENTITY);
+        }
         skeleton.twigs.push([end, out]);
     }
 }
@@ -140,4 +155,105 @@ pub fn lumps(skeleton: &Skeleton, radius: f64, seed: u64) -> Surface {
         s.add(&lump, place);
     }
     s
+}
+
+/// What leaves are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaves {
+    /// Each leaf is two triangles: what any shadow technique can draw.
+    Solid,
+    /// Cards with twigs of leaves, cut out by [`leaf_mask`](super::leaf_mask): what only the host can
+    /// draw.
+    Masked,
+}
+
+/// A crown of open meshes: so many leaves (or cards) of a size at the end of each twig, spread over a
+/// reach in metres.
+pub fn foliage(
+    skeleton: &Skeleton,
+    kind: Leaves,
+    [count, size, reach]: [f64; 3],
+    droop: f64,
+    seed: u64,
+) -> Mesh {
+    let mut random = Random(seed);
+    let mut mesh = Mesh {
+        name: "leaves".into(),
+        positions: Vec::new(),
+        normals: Vec::new(),
+        indices: Vec::new(),
+        mask: Vec::new(),
+    };
+    let ends = skeleton.twigs.iter().map(|[end, _]| *end);
+    let middle = ends.clone().sum::<DVec3>() / ends.len() as f64;
+    for [end, way] in &skeleton.twigs {
+        for _ in 0..count as u32 {
+            let aside = [0; 3].map(|_| within(&mut random, -1.0, 1.0));
+            let place = *end + reach * DVec3::from(aside) - 0.3 * reach * *way;
+            let turn = [0; 3].map(|_| within(&mut random, -0.8, 0.8));
+            let along = (*way + DVec3::from(turn) - DVec3::Y * droop).normalize();
+            let size = size * within(&mut random, 0.75, 1.2);
+            let roll = within(&mut random, 0.0, PI);
+            let side = along.any_orthonormal_vector();
+            let side = side * roll.cos() + along.cross(side) * roll.sin();
+            let shape = match kind {
+                Leaves::Solid => leaf(place, along * size, side * (0.34 * size)),
+                Leaves::Masked => card(place, along * size, side * (0.5 * size)),
+            };
+            add_leaf(&mut mesh, &shape, (place - middle).normalize_or(DVec3::Y));
+        }
+    }
+    mesh
+}
+
+/// Corners, and where they are in the mask, if there is one.
+type Corners = ([DVec3; 4], Option<[DVec2; 4]>);
+
+/// A leaf of two triangles that are folded along its rib.
+fn leaf(foot: DVec3, along: DVec3, side: DVec3) -> Corners {
+    let fold = 0.25 * side.length() * along.cross(side).normalize();
+    let widest = foot + 0.45 * along + fold;
+    ([foot, widest - side, foot + along, widest + side], None)
+}
+
+fn card(foot: DVec3, along: DVec3, side: DVec3) -> Corners {
+    let corners = [
+        foot - side,
+        foot + side,
+        foot + side + along,
+        foot - side + along,
+    ];
+    let mask = [
+        dvec2(0.0, 0.0),
+        dvec2(1.0, 0.0),
+        dvec2(1.0, 1.0),
+        dvec2(0.0, 1.0),
+    ];
+    (corners, Some(mask))
+}
+
+/// Adds one whose normals lean outward, so that crowns are shaded as a whole.
+fn add_leaf(mesh: &mut Mesh, (corners, mask): &Corners, outward: DVec3) {
+    let first = mesh.positions.len() as u32;
+    let faces = [[0, 1, 2], [0, 2, 3]].map(|t| {
+        let [a, b, c] = t.map(|i: usize| corners[i]);
+        (b - a).cross(c - a).normalize()
+    });
+    let up = (faces[0] + faces[1]).normalize();
+    // Wound so that the side with the normal is the outer one.
+    let turned = up.dot(outward) < 0.0;
+    let up = if turned { -up } else { up };
+    let normal = (up + 0.9 * outward).normalize().as_vec3().to_array();
+    for (i, corner) in corners.iter().enumerate() {
+        mesh.positions.push(corner.as_vec3().to_array());
+        mesh.normals.push(normal);
+        mesh.mask
+            .extend(mask.map(|mask| mask[i].as_vec2().to_array()));
+    }
+    let order = if turned {
+        [0, 2, 1, 0, 3, 2]
+    } else {
+        [0, 1, 2, 0, 2, 3]
+    };
+    mesh.indices.extend(order.map(|i| first + i));
 }

@@ -66,7 +66,7 @@ pub fn wheels() -> Mesh {
     for x in [-1.28, 1.26] {
         for side in [-1.0, 1.0] {
             let hub = dvec3(x, 0.31, 0.66 * side);
-            s.rod(hub, hub + dvec3(0.0, 0.0, 0.21 * side), 0.32, 12);
+            s.rod(hub, hub + dvec3(0.0, 0.0, 0.21 * side), 0.32, 10);
         }
     }
     for (x, wide) in [(-2.06, 0.6), (2.04, 0.56)] {
@@ -77,7 +77,7 @@ pub fn wheels() -> Mesh {
 
 /// Through rounded sections.
 fn loft(sections: &[Section]) -> Surface {
-    const CORNERS: u32 = 10;
+    const CORNERS: u32 = 8;
     Surface::swept(sections.iter().map(|&(x, low, high, half)| {
         let (middle, tall) = (0.5 * (low + high), 0.5 * (high - low));
         let row = (0..CORNERS).map(|k| {

@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use shadows::glam::{Affine3A, Quat, Vec2, Vec3, vec2, vec3};
 
-use super::super::plants::{Habit, grow, lumps};
+use super::super::plants::{Habit, Wood, grow, lumps};
 use super::super::square;
 use super::lights::{Candidate, Lamp};
 use super::plan::{self, Area, PAVEMENT, Road};
@@ -45,6 +45,7 @@ impl Pieces {
             branches: 8,
             twigs: 2,
             rise: 0.8,
+            wood: Wood::Branches,
             cone: false,
         };
         let trees = (0..3).map(|i| {
@@ -151,7 +152,7 @@ fn cars(city: &mut City, pieces: &Pieces, road: &Road) {
             let middle = at(road, 6.8 + 5.6 * i as f32, 0.0);
             let far = middle.distance(city.scene.camera.eye);
             // Fewer where they are small.
-            let free = if far < 70.0 { 2 } else { 7 };
+            let free = if far < 70.0 { 2 } else { 9 };
             if city.random.below(free + 2) < free {
                 continue;
             }

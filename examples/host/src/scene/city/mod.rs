@@ -10,10 +10,10 @@ mod house;
 mod lights;
 mod palette;
 mod plan;
-mod roof;
+pub(super) mod roof;
 mod rows;
-mod street;
-mod walls;
+pub(super) mod street;
+pub(super) mod walls;
 
 use shadows::glam::{Affine3A, Quat, Vec3, Vec4, vec3};
 

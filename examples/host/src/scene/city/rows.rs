@@ -17,7 +17,7 @@ use super::walls::{Body, Storey, walls};
 /// How deep houses are.
 const DEPTH: f64 = 10.0;
 /// Houses farther from the eye than this have no details.
-const DETAILED: f32 = 78.0;
+const DETAILED: f32 = 66.0;
 
 const MIDDLES: [Style; 5] = [
     style(
@@ -294,7 +294,7 @@ fn put_house(city: &mut City, kind: &Kind, place: Affine3A, fittings: &Fittings)
         }
     }
     light_windows(city, kind, &place);
-    if near || city.random.below(3) == 0 {
+    if near || city.random.below(4) == 0 {
         put_lantern(city, kind, &place, fittings);
     }
     if let Some(awning) = kind.awning.filter(|_| near) {

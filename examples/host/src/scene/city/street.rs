@@ -66,7 +66,7 @@ pub fn shade() -> Mesh {
 
 /// A bulb around the origin, of radius 1.
 pub fn bulb() -> Mesh {
-    Surface::lump(1, |_| 1.0).finish("bulb", 180.0)
+    Surface::lump(0, |_| 1.0).finish("bulb", 180.0)
 }
 
 /// A square lantern on a bracket from a wall at z = 0, panes left out so that its bars cast.
