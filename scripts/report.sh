@@ -33,7 +33,7 @@ compare() {
     example compare "$@"
 }
 
-# The three built-in scenes: README's first picture and its table.
+# The three built-in scenes: the gallery's first picture and README's table.
 scenes() {
     techniques=volume,cube-hard,cube-2x2,cube-16,cube-cached,cube-textbook
     compare --scene spheres --scene courtyard --scene teapot --technique $techniques \
@@ -41,12 +41,13 @@ scenes() {
     cp $made/scenes/courtyard/volume.shaded.png $docs/courtyard.png
     put scenes $readme <$made/scenes/scenes.md
     cast=$(sed -n 's/.* cast (\([0-9]*\) triangles.*/\1/p' $made/scenes/courtyard/report.md)
-    thousands "$cast" | put courtyard-casters $readme
+    thousands "$cast" | put courtyard-casters $docs/gallery.md
 }
 
 kernels() {
-    example kernel_sheet $docs/kernels.png
+    example kernel_sheet --kernels $docs/kernels.png
     example kernel_sheet --peers $docs/peers.png
+    example kernel_sheet --difference $docs/difference.png
 }
 
 volume_debug() {
@@ -70,7 +71,7 @@ models() {
     fi
     compare --scene "$MODELS/stanford-bunny.obj" --scene "$MODELS/suzanne.obj" \
         --scene "$MODELS/beetle.obj" --technique volume --frames 2 ${size:-} --out $made/models
-    put models $readme <$made/models/scenes.md
+    put models $docs/gallery.md <$made/models/scenes.md
 }
 
 egui() {
@@ -154,12 +155,12 @@ check() {
     volume_start
     cost_vs_error
     failed=
-    for picture in courtyard kernels peers volume-debug volume-start; do
+    for picture in courtyard difference kernels peers volume-debug volume-start; do
         example same_picture docs/$picture.png $docs/$picture.png || failed="$failed docs/$picture.png"
     done
-    for figures in scenes courtyard-casters; do
-        same_figures "$figures" README.md "$readme" || failed="$failed README.md:$figures"
-    done
+    same_figures scenes README.md "$readme" || failed="$failed README.md:scenes"
+    same_figures courtyard-casters docs/gallery.md "$docs/gallery.md" ||
+        failed="$failed docs/gallery.md:courtyard-casters"
     same_figures cost-vs-error docs/speed-vs-error.md "$docs/speed-vs-error.md" ||
         failed="$failed docs/speed-vs-error.md:cost-vs-error"
     if [ -n "$failed" ]; then

@@ -13,14 +13,24 @@ struct Drawn {
     @location(0) z: f32,
 }
 
-fn in_the_middle(clip: vec4f) -> vec4f {
-    return vec4f(clip.xy, 0.5 * clip.w, clip.w);
+fn drawn(clip: vec4f) -> Drawn {
+    return Drawn(vec4f(clip.xy, 0.5 * clip.w, clip.w), clip.z);
 }
 
 @vertex
 fn vertex(@location(0) position: vec3f, instance: Instance) -> Drawn {
-    let clip = face.clip_from_light * vec4f(from_light(position, instance), 1.0);
-    return Drawn(in_the_middle(clip), clip.z);
+    return drawn(clip_position(position, instance));
+}
+
+// One of many that the host places in its own buffer, and then as a whole.
+@vertex
+fn vertex_columns(@location(0) position: vec3f, instance: Instance, host: HostColumns) -> Drawn {
+    return drawn(clip_position(by_columns(position, host), instance));
+}
+
+@vertex
+fn vertex_rows(@location(0) position: vec3f, instance: Instance, host: HostRows) -> Drawn {
+    return drawn(clip_position(by_rows(position, host), instance));
 }
 
 // Over w, as the rasteriser has it elsewhere: of a fragment's position, w is 1 over that of clip space.

@@ -1,5 +1,6 @@
 // The plane of a receiver on a cube map from the derivatives of its position, or from the map. `reach`:
-// how far from the receiver a tap's texel may be, in texels and in the world.
+// how far from the receiver a tap's texel may be, in texels and in the world: across the light's rays, and in
+// the plane.
 fn shadows_cube_derived(
     map: texture_cube<f32>,
     map_sampler: sampler,
@@ -7,17 +8,20 @@ fn shadows_cube_derived(
     position: vec3f,
     x: vec3f,
     y: vec3f,
-    reach: vec2f,
+    reach: vec4f,
 ) -> ShadowsCubeDerived {
     let from_light = position - light.position;
     let normal = cross(x, y);
     let squared = dot(normal, normal);
     let facing = dot(normal, from_light);
-    let doubt = shadows_cube_doubt(position, x, y) * shadows_cube_squared(from_light);
-    // As far as the derivatives' plane may be off where the kernel ends.
-    let end = 0.25 * reach.x * light.texel * shadows_cube_major(from_light) + 0.25 * reach.y;
+    let turned = shadows_cube_doubt(position, x, y);
+    let doubt = turned * shadows_cube_squared(from_light);
+    // As far as the derivatives' plane may be off where the kernel ends. Across the rays that is farther away on
+    // the plane, the more it is seen from its edge.
+    let end = 0.25 * (reach.xz * (light.texel * shadows_cube_major(from_light)) + reach.yw);
     let facing_squared = 1e-37 + facing * facing;
-    let tilted = abs(facing) - end * sqrt(doubt * squared) * inverseSqrt(facing_squared);
+    let off = end.x * sqrt(doubt * squared) * inverseSqrt(facing_squared) + end.y * sqrt(turned);
+    let tilted = abs(facing) - off;
     let taken = max(tilted, 0.03125 * abs(facing));
     var derived = ShadowsCubeDerived(normal, squared, facing, taken);
     // Gone round once where that says nothing, with 5 taps. Not a branch, of which some drivers run both sides.
@@ -34,7 +38,7 @@ fn shadows_cube_mapped(
     map_sampler: sampler,
     light: ShadowsCubeLight,
     position: vec3f,
-    reach: vec2f,
+    reach: vec4f,
     taps: i32,
 ) -> ShadowsCubeDerived {
     let from_light = position - light.position;
@@ -58,8 +62,8 @@ fn shadows_cube_mapped(
     let forward = own - dot(across, from_light) / major;
     let normal = across + shadows_cube_to_world(face, vec3f(forward, 0.0, 0.0));
     // Texels around the receiver, and around where it is taken to be.
-    let world = reach.y + light.rounding * length(position);
-    let texels = reach.x + world / (light.texel * major);
+    let world = reach.y + reach.w + light.rounding * length(position);
+    let texels = reach.x + reach.z + world / (light.texel * major);
     let beside = own / (own + texels * bend);
     let facing = dot(normal, from_light);
     return ShadowsCubeDerived(normal, dot(normal, normal), facing, beside * abs(facing));

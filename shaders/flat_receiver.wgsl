@@ -11,6 +11,9 @@ struct ShadowsFlatReceiver {
     // The plane's depth at the receiver. Stands in for that at a texel which does not see the plane, so that
     // nothing behind the receiver shadows it.
     own: f32,
+    // The same without the bias in texels, which at grazing angles is most of the distance between a spot and
+    // the plane. Disks, which mirror no texels, take it in place of `own`.
+    alone: f32,
     // No tap takes the plane for nearer to the light than this depth: a thirty-second of the
     // receiver's distance (spot), or 16 widths of the map before the receiver (directional).
     bound: f32,
@@ -76,7 +79,8 @@ fn shadows_flat_receiver(
     let offset = max(light.normal_offset * away * sine, rounded);
     // What is left of the distance between a spot and the plane. That a plane is moved turns it for a spot:
     // by what derivatives do not say, to a thirty-second at most.
-    let left = select(facing, max(facing - derived.moved, 0.03125 * facing) - offset, spot);
+    let taken = max(facing - derived.moved, 0.03125 * facing);
+    let left = select(facing, taken - offset, spot);
     let per_length = light.depth_per / left;
     var receiver: ShadowsFlatReceiver;
     // Behind a spot the map says nothing. A spot within the bias of the receiver's plane: nothing is between
@@ -89,6 +93,7 @@ fn shadows_flat_receiver(
     receiver.slope = n.yz * (light.texel * select(-per_length, per_length, derived.facing > 0.0));
     let parallel = 1.0 + light.depth_bias - local.x * light.depth_per + per_length * (offset + derived.moved);
     receiver.own = select(parallel, per_length * facing * inverse, spot) + light.quantum;
+    receiver.alone = light.depth_per * facing * inverse / (taken - rounded) + light.quantum;
     // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
     let nearest = max(0.0, receiver.own + light.widths);
     receiver.bound = select(nearest, 32.0 * light.depth_per * inverse + light.quantum, spot);

@@ -1,5 +1,6 @@
 // The plane of a receiver on a flat map from the derivatives of its position, or from the map. `reach`:
-// how far from the receiver a tap's texel may be, in texels and in the world.
+// how far from the receiver a tap's texel may be, in texels and in the world: across the light's rays, and in
+// the plane.
 fn shadows_flat_derived(
     map: texture_2d<f32>,
     map_sampler: sampler,
@@ -7,7 +8,7 @@ fn shadows_flat_derived(
     position: vec3f,
     x: vec3f,
     y: vec3f,
-    reach: vec2f,
+    reach: vec4f,
 ) -> ShadowsFlatDerived {
     let spot = shadows_flat_spot(light);
     let from_light = position - light.position;
@@ -15,11 +16,14 @@ fn shadows_flat_derived(
     let squared = dot(normal, normal);
     let facing = dot(normal, shadows_flat_ray(light, from_light));
     let distance = select(1.0, dot(from_light, from_light), spot);
-    let doubt = shadows_flat_doubt(position, x, y) * distance;
-    // As far as the derivatives' plane may be off where the kernel ends.
+    let turned = shadows_flat_doubt(position, x, y);
+    let doubt = turned * distance;
+    // As far as the derivatives' plane may be off where the kernel ends. Across the rays that is farther away on
+    // the plane, the more it is seen from its edge.
     let away = select(1.0, dot(light.forward, from_light), spot);
-    let end = 0.25 * (reach.x * light.texel * away + reach.y);
-    var derived = ShadowsFlatDerived(normal, squared, facing, end * sqrt(doubt * squared) / abs(facing));
+    let end = 0.25 * (reach.xz * (light.texel * away) + reach.yw);
+    let off = end.x * sqrt(doubt * squared) / abs(facing) + end.y * sqrt(turned);
+    var derived = ShadowsFlatDerived(normal, squared, facing, off);
     // Gone round once where that says nothing. Not a branch, of which some drivers run both sides.
     let rounds = select(0, 1, doubt > facing * facing);
     for (var i = 0; i < rounds; i++) {
@@ -34,7 +38,7 @@ fn shadows_flat_mapped(
     map_sampler: sampler,
     light: ShadowsFlatLight,
     position: vec3f,
-    reach: vec2f,
+    reach: vec4f,
     taps: i32,
 ) -> ShadowsFlatDerived {
     let spot = shadows_flat_spot(light);
@@ -57,8 +61,8 @@ fn shadows_flat_mapped(
     let normal = axes * vec3f(forward, light.texels * found.slope);
     let facing = dot(normal, shadows_flat_ray(light, from_light));
     // Texels around the receiver, and around where it is taken to be.
-    let world = reach.y + light.rounding * length(position);
-    let bend = shadows_flat_bend(found, steepest) * (reach.x + world * light.texels * inverse);
+    let world = reach.y + reach.w + light.rounding * length(position);
+    let bend = shadows_flat_bend(found, steepest) * (reach.x + reach.z + world * light.texels * inverse);
     let share = bend / select(light.depth_per, own + bend, spot);
     return ShadowsFlatDerived(normal, dot(normal, normal), facing, abs(facing) * share);
 }

@@ -22,7 +22,7 @@ fn shadows_flat_look(
     let depth = receiver.own + dot(receiver.slope, centre - receiver.texel);
     // The point is on the plane, but the texel's centre may be beyond the plane's horizon.
     let beyond = receiver.spot & (depth <= receiver.horizon);
-    let plane = select(depth, receiver.own, beyond);
+    let plane = select(depth, receiver.alone, beyond);
     return vec2f(min(plane, receiver.bound), stored);
 }
 

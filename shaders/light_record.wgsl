@@ -5,7 +5,7 @@ struct ShadowsLight {
     // World space: of the light, or of a point on the near plane of a directional light's tile.
     position: vec3f,
     // Bits 0 and 1: 0 none (all is dark), 1 point, 2 spot, 3 directional. Bit 2: nothing casts, so all in range is
-    // lit and there are no tiles. Bits 8 to 11: how many records of further cascades come after this one.
+    // lit and there are no tiles. Bits 8 to 11: how many records of further cascades there are.
     kind: u32,
     // Axes of the tile in world space, of length 1. A point light has six tiles with axes of their own:
     // `forward` then is (`depth_per` over `texels`; the depth that bounds those of planes, for a receiver at
@@ -41,7 +41,7 @@ struct ShadowsLight {
     step: f32,
     // Where the tiles are: the corner nearest to that of the texture in units of 16 texels, x in bits 0 to 9, y
     // in bits 10 to 19, and the layer in bits 20 to 31. Six for a point light, in the order of the faces +X, -X,
-    // +Y, -Y, then +Z, -Z; else one.
+    // +Y, -Y, then +Z, -Z; else one, and then the place of the first record of further cascades.
     tiles: vec4u,
     last_tiles: vec2u,
     // One over the texels before a cascade's border over which it blends into the next.

@@ -2,23 +2,23 @@
 //!
 #![cfg_attr(doc, doc = include_str!("../docs/picture.md"))]
 //!
-//! The host owns the window, the device, the frame graph and the meshes. This crate takes its
-//! device, its meshes and its lights, and hands back bind groups, WGSL and render passes. It never
-//! creates a device, submits, polls or blocks, and it holds nothing but shadow textures, pipelines
-//! and scratch buffers.
+//! The host owns the window, the device, the frame graph and the meshes. This crate takes the host's
+//! device, meshes and lights, and returns bind groups, WGSL and render passes. It never creates a
+//! device, submits, polls or blocks. It owns shadow textures, pipelines and scratch buffers, nothing else.
+//!
+//! Guides: [`choosing`] a technique, [`adding`] the crate to an engine, and its known [`limits`].
 //!
 //! | | what it is | what it is for |
 //! |---|---|---|
 //! | [`CubeShadowMap`] | depth of the casters on six cube faces | point lights, soft edges, many receivers |
 //! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
-//! | [`PcfSampler`] | the kernels by which receivers read a map | one tap to contact hardening, no acne, no seams |
-//! | [`ShadowVolumeRenderer`] | stencil shadow volumes | exact to the pixel, point and directional lights |
-//! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes need to know of a mesh; any triangles will do |
-//! | `reference` (feature) | exact visibility by casting rays in f64 | the error of all of the above |
+//! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
+//! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
+//! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
+//! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
 //!
-//! Each type has the same three verbs: `new` for what never changes, `prepare` once a frame for
-//! what the CPU decides, `encode` (into the host's encoder) or `render` (into the host's pass) for
-//! the GPU.
+//! Each type has the same three calls: `new` for what never changes, `prepare` once a frame for the CPU's
+//! part, and `encode` (into the host's encoder) or `render` (into the host's pass) for the GPU's.
 //!
 //! # Dependencies
 //!
@@ -28,14 +28,14 @@
 //! wgpu = "30"
 //! ```
 //!
-//! Back ends (Vulkan, Metal, Direct3D 12, GL) come with wgpu's default features, and this crate switches on
-//! none but `webgpu` on the web: without a dependency of your own on wgpu no adapter is found on any
-//! other machine. glam is 0.33, wgpu 30; both are re-exported as `shadows::glam` and `shadows::wgpu`.
+//! Back ends (Vulkan, Metal, Direct3D 12, GL) are default features of wgpu. This crate enables none of them
+//! (except `webgpu` on the web), so without a dependency of your own on wgpu no adapter is found. The versions
+//! are wgpu 30 and glam 0.33, re-exported as `shadows::wgpu` and `shadows::glam`.
 //!
 //! # A host, complete
 //!
-//! One triangle above a floor, its shadow both ways. This runs on wgpu's driverless device; a real
-//! host differs in how it comes by its device.
+//! One triangle above a floor, its shadow by a map and by volumes. This test runs on wgpu's driverless device; in
+//! a real host only the creation of the device differs.
 //!
 //! ```
 //! use shadows::glam::{Affine3A, Mat4, Vec3, camera::rh};
@@ -62,7 +62,7 @@
 //! };
 //! let (device, queue) = pollster::block_on(adapter.request_device(&wanted))?;
 //!
-//! // Once a mesh: who is whose neighbour, then the GPU's copy.
+//! // Once per mesh: which triangles are neighbours, then the GPU's copy.
 //! let positions = [[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0]];
 //! let adjacency = Adjacency::new(&positions, &[0, 1, 2])?;
 //! let mesh = CasterMesh::new(&device, &positions, &adjacency)?;
@@ -146,22 +146,18 @@
 //!
 //! # Which one
 //!
-//! Shadow volumes are exact whatever the mesh: no resolution, no bias, no leak; their cost is the
-//! fill of what they draw on screen. Shadow maps cost what their texels cost, whatever the screen
-//! shows, and are as exact as their texels are small. `compare`, the example, measures both on your
-//! own scene: time beside error.
-//!
-//! Longer, in the repository: `docs/choosing.md` (which technique, and what each costs and gets
-//! wrong), `docs/adding.md` (this crate in an engine, step by step) and `docs/numerics.md` (why it is
-//! right).
+//! Shadow volumes are exact for any mesh: no resolution, no bias, no leaks. They cost the fill of the area
+//! that they draw on screen. Shadow maps cost their texels, whatever the screen shows, and are as exact as
+//! those texels are small. The example `compare` measures time and error of both on your own scene. More in
+//! [`choosing`]; `docs/numerics.md` in the repository explains why the results are right.
 //!
 //! # What a version may add
 //!
-//! Errors, statistics and choices (enums of a descriptor) are `#[non_exhaustive]`: variants and fields
-//! come without a breaking release. Descriptors and frames are made with `..Default::default()` or from
-//! their `new`, so that a new field breaks no code; one that takes such a struct apart without `..`
-//! asks to be told of it. Lights, [`Bias`], [`mesh::Bounds`] and the parameters of kernels are what they
-//! are, and so are [`CubeFace`], [`mesh::MeshKind`] and [`DepthConvention`], which hosts match on.
+//! Errors, statistics and choices (enums of a descriptor) are `#[non_exhaustive]`: new variants and fields are
+//! not breaking changes. Make descriptors and frames with `..Default::default()` or from their `new`, so that
+//! a new field does not break your code. Lights, [`Bias`], [`mesh::Bounds`], the parameters of kernels,
+//! [`CubeFace`], [`mesh::MeshKind`] and [`DepthConvention`] are exhaustive: hosts construct or match on them, and
+//! changing them is a breaking release.
 //!
 //! # Features
 //!
@@ -172,6 +168,26 @@
 #![warn(missing_docs)]
 
 pub use {glam, wgpu};
+
+// The guides, as pages of this documentation. Their own definitions of links lead to other pages of the
+// repository; here those before them count.
+/// [speed]: https://docs.rs/crate/shadows/latest/source/docs/speed-vs-error.md
+/// [cost]: https://docs.rs/crate/shadows/latest/source/docs/shader-cost.md
+/// [growth]: https://docs.rs/crate/shadows/latest/source/docs/growth.md
+/// [temporal]: https://docs.rs/crate/shadows/latest/source/docs/temporal.md
+/// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
+/// [limits]: crate::limits
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/choosing.md")]
+pub mod choosing {}
+/// [first]: https://docs.rs/crate/shadows/latest/source/examples/first_shadow.rs
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/adding.md")]
+pub mod adding {}
+/// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../docs/limits.md")]
+pub mod limits {}
 
 /// What unit tests share with the examples calls this crate by its name.
 #[cfg(test)]
@@ -201,14 +217,16 @@ mod wgsl_layout;
 #[doc(hidden)]
 pub use shader::rewriting;
 
-pub use light::{DirectionalLight, HomogeneousLight, PointLight, SpotLight};
+pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight};
 pub use map::{
-    Allocation, Bias, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthEncoding, FaceState,
-    FaceStatistics, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    StaticLayers, texture_from_clip,
+    Allocation, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit,
+    CascadeSplit, Cascades, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FaceState,
+    FaceStatistics, FlatLight, HostDraw, LocalLight, ShadowAtlas, ShadowAtlasDescriptor,
+    ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize,
+    texture_from_clip,
 };
-pub use mesh::{Caster, CasterMesh, HostMesh, HostPositions};
+pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{
     AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler,
     Radius, RandomDisk, VogelDisk,
@@ -219,5 +237,5 @@ pub use volume::{
     Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
     LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
     ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
-    VolumeDebug, VolumeDebugDescriptor, VolumeStatistics, VolumeSurvey,
+    VolumeDebug, VolumeDebugDescriptor, VolumePipelines, VolumeStatistics, VolumeSurvey,
 };

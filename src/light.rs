@@ -176,6 +176,50 @@ impl DirectionalLight {
     }
 }
 
+/// A light of any kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Light {
+    /// From one point in all directions.
+    Point(PointLight),
+    /// From one point into a cone.
+    Spot(SpotLight),
+    /// From so far away that its rays are parallel.
+    Directional(DirectionalLight),
+}
+
+impl Light {
+    /// Checks that its numbers are in range.
+    ///
+    /// # Errors
+    /// [`LightError`] names the field that is wrong.
+    pub fn validate(&self) -> Result<(), LightError> {
+        match self {
+            Self::Point(light) => light.validate(),
+            Self::Spot(light) => light.validate(),
+            Self::Directional(light) => light.validate(),
+        }
+    }
+}
+
+impl From<PointLight> for Light {
+    fn from(light: PointLight) -> Self {
+        Self::Point(light)
+    }
+}
+
+impl From<SpotLight> for Light {
+    fn from(light: SpotLight) -> Self {
+        Self::Spot(light)
+    }
+}
+
+impl From<DirectionalLight> for Light {
+    fn from(light: DirectionalLight) -> Self {
+        Self::Directional(light)
+    }
+}
+
 /// A light as a point of projective space: `w = 1` for a point light at `xyz`, `w = 0` for a
 /// directional light that shines *from* the direction `xyz` (of any length but 0).
 ///

@@ -9,19 +9,19 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 
 /// The abilities of an adapter that matter to shadows.
 ///
-/// Everything in this crate runs at WebGPU's default limits without any feature; each field that
-/// is `false` costs what its [`Fallback`] says.
+/// Everything in this crate runs with WebGPU's default limits and without any feature. For each field that
+/// is `false`, [`fallbacks`](Self::fallbacks) tells what is used instead.
 ///
 /// # wgpu's GL back end
-/// It differs from the others in what none of the fields says:
-/// - Clip z becomes `2 z - w`, which takes from reverse-Z most of its digits, and all that is farther
-///   than 2^23 near planes. Shadow maps are drawn there with depth written by their fragments, and hold
-///   what they hold elsewhere, at the price of early depth tests. A host that draws into them itself
-///   ([`begin_face`](crate::CubeShadowMap::begin_face)) has to do likewise. A host's own depth buffer
-///   is as coarse as that, and shadow volumes with it: of 260 random scenes that are exact elsewhere,
-///   257 are there (`tests/volume/random.rs`), receivers a million near planes away have 1.4 % of their
-///   pixels wrong, and a host whose vertices are not multiplied as the crate's are
-///   ([`wgsl::POSITION`](crate::wgsl::POSITION)) 0.07 %, at their caps.
+/// It has restrictions that the fields do not express:
+/// - It converts clip z to `2 z - w`, which loses most of the precision of reverse-Z, and everything
+///   farther away than 2^23 near planes. Shadow maps avoid this: their fragments write the depth, so they hold the
+///   same values as elsewhere, but have no early depth test. A host that draws into a map itself
+///   ([`begin_face`](crate::CubeShadowMap::begin_face)) must do the same. The host's own depth buffer has
+///   the loss, and shadow volumes depend on it: of 260 random scenes that are exact elsewhere, 257
+///   are exact there (`tests/volume/random.rs`). 1.4 % of the pixels of receivers a million near planes away are
+///   wrong, and 0.07 % (at light caps) in a host that does not compute its positions with
+///   [`wgsl::POSITION`](crate::wgsl::POSITION).
 /// - Textures of several samples cannot be read in shaders: [`LightJoin`](crate::LightJoin) and
 ///   [`ExactCount`](crate::ExactCount) take one sample.
 /// - A cube array cannot be read as single cubes, a [`ShadowMask`](crate::ShadowMask) may have a spare
@@ -130,9 +130,9 @@ impl Support {
 
     /// The depth-stencil format to make the host's buffer of, and to name in every descriptor of
     /// shadow volumes: `Depth32FloatStencil8`, their default, where the adapter has it and the device
-    /// is created with [`features`](Self::features); else `Depth24PlusStencil8`, which every device
-    /// has. What that costs says
-    /// [`ShadowVolumeDescriptor`](crate::ShadowVolumeDescriptor::depth_stencil_format).
+    /// is created with [`features`](Self::features); otherwise `Depth24PlusStencil8`, which every device
+    /// has. [`ShadowVolumeDescriptor::depth_stencil_format`](crate::ShadowVolumeDescriptor::depth_stencil_format)
+    /// states what that costs.
     pub fn depth_stencil_format(&self) -> wgpu::TextureFormat {
         match self.depth32float_stencil8 {
             true => wgpu::TextureFormat::Depth32FloatStencil8,

@@ -9,7 +9,7 @@ use crate::error::ViewError;
 /// WebGPU's clip space is `0 <= z <= w`, y up. Right-handed or left-handed view spaces both work:
 /// only the product `clip_from_world` counts.
 ///
-/// Exhaustive, for a host's own projection goes by it.
+/// Exhaustive, because a host's own projection depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DepthConvention {
     /// 1 at the near plane, 0 at infinity: clip z is `near` for every point. The convention to

@@ -79,12 +79,10 @@ pub enum CasterMeshError {
         /// Bytes before the first position.
         offset: u64,
     },
-    /// The host's positions are farther apart than the device allows.
-    #[error(
-        "position stride {stride} is over the device's max_vertex_buffer_array_stride, {limit}"
-    )]
+    /// The host's positions or transforms are farther apart than the device allows.
+    #[error("stride {stride} is over the device's max_vertex_buffer_array_stride, {limit}")]
     Stride {
-        /// Bytes between positions.
+        /// Bytes between them.
         stride: u64,
         /// The most that work.
         limit: u64,
@@ -114,6 +112,37 @@ pub enum CasterMeshError {
     /// The host's index buffer cannot be drawn with.
     #[error("the index buffer was created without INDEX; add it to its usages")]
     IndexBufferUsage,
+    /// The host's transforms have a stride or offset that is no multiple of four, or a stride below their
+    /// size.
+    #[error(
+        "transform stride {stride} and offset {offset} do not fit; both must be multiples of 4 bytes, stride at least {least}"
+    )]
+    InstanceLayout {
+        /// Bytes between transforms.
+        stride: u64,
+        /// Bytes before the first transform.
+        offset: u64,
+        /// Bytes of a transform.
+        least: u64,
+    },
+    /// The host's buffer of transforms is too short.
+    #[error("the buffer of transforms holds {size} bytes; {needed} are needed for {count}")]
+    InstanceBufferTooSmall {
+        /// Its size in bytes.
+        size: u64,
+        /// Bytes needed.
+        needed: u64,
+        /// Number of transforms.
+        count: u32,
+    },
+    /// The host's transforms cannot be drawn with.
+    #[error("the buffer of transforms was created without VERTEX; add it to its usages")]
+    InstanceBufferUsage,
+    /// A mesh of many places, or one that the host draws, where one is to be placed many times.
+    #[error(
+        "only a mesh that is drawn once can be placed many times; pass the mesh that this one was made from"
+    )]
+    NotPlain,
     /// The host's position buffer is too short.
     #[error("the position buffer holds {size} bytes; {needed} are needed for {vertices} vertices")]
     BufferTooSmall {
@@ -177,6 +206,14 @@ pub enum CasterError {
     /// An entry of the transform is NaN or infinite.
     #[error("caster {index}: its transform holds an entry that is not finite")]
     NotFinite {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+    /// Geometry that only the host can draw, on a map that does not ask it to.
+    #[error(
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), which this map cannot ask for; use a ShadowAtlas, or draw it between `encode` and the next frame yourself"
+    )]
+    HostDrawn {
         /// Place in the slice of casters.
         index: usize,
     },

@@ -5,21 +5,20 @@ use crate::error::BiasError;
 /// How far a receiver is moved before it is compared with the map.
 ///
 /// Every tap is compared with the depth of the receiver's own plane in that tap's direction (see
-/// [`PcfSampler`](crate::PcfSampler)), so a bias has nothing to do with slope or kernel width. What
-/// is left for it is rounding, the rasteriser's snapping of vertices to 1/256 of a texel (to 1/16 on
-/// SwiftShader: docs/numerics.md says what of the defaults is left there), and the bend from one
+/// [`PcfSampler`](crate::PcfSampler)), so the bias does not depend on slope or kernel width. It covers
+/// three things: rounding, the rasteriser's snapping of vertices to 1/256 of a texel (1/16 on
+/// SwiftShader; docs/numerics.md states how much of the defaults remains there), and the bend from one
 /// triangle of a concave surface to the next. The first two fields are in texels: one texel is
-/// `2 d / size` wide at a distance `d` along the major axis. A scene at another scale needs no
-/// other numbers.
+/// `2 d / size` wide at a distance `d` along the major axis. They suit scenes of any scale.
 ///
-/// Far from the origin positions in f32 are coarser than texels. There the fourth field counts, which is
-/// in units in the last place of the receiver's own coordinates: docs/numerics.md derives it.
+/// Far from the origin, f32 positions are coarser than texels. The fourth field covers that, in units in
+/// the last place of the receiver's own coordinates; docs/numerics.md derives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bias {
     /// Distance along the geometric normal toward the light, in texels at the receiver, scaled by
     /// the sine of the angle between normal and light (no offset where the light falls straight
-    /// on). Default 0.1. At least 0. More of it hides acne on coarse concave meshes and lets light
-    /// in where a caster touches its receiver (Holbert, "Saying Goodbye to Shadow Acne", 2011).
+    /// on). Default 0.1. At least 0. A larger value hides acne on coarse concave meshes, and leaks more
+    /// light where a caster touches its receiver (Holbert, "Saying Goodbye to Shadow Acne", 2011).
     pub normal_offset: f32,
     /// Distance toward the light, in texels at the receiver. Default 0.05. At least 0.
     pub constant: f32,
@@ -29,11 +28,10 @@ pub struct Bias {
     /// At least 0.
     pub slope_scale: f32,
     /// How far rounding may have moved a receiver along each axis, in ulps of that coordinate
-    /// (2^-23 of it). Counts only where that is farther than `normal_offset` moves it. Default 4: what a
-    /// host's transform, the interpolation of world positions and a caster's own rounding come to. At
-    /// least 0. Light gets in under a caster as far: a wall at x = 1e6 lights up for 0.5 units in front
-    /// of what touches it, and one at x = 1e3 for 0.0005. Counted from a nearer origin
-    /// ([`Caster::placed`](crate::Caster::placed)) it is nothing.
+    /// (2^-23 of it). Used only where that is more than `normal_offset`. Default 4: the sum of a host's
+    /// transform, the interpolation of world positions and a caster's own rounding. At least 0. Light
+    /// leaks under a caster by the same distance: 0.5 units at a wall at x = 1e6, 0.0005 at x = 1e3. With
+    /// coordinates counted from a nearer origin ([`Caster::placed`](crate::Caster::placed)) there is no leak.
     pub position_ulps: f32,
 }
 

@@ -6,9 +6,9 @@ use super::cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
 use super::encoding::DepthEncoding;
 use super::gpu::{CubeGpu, Draw, TooLarge, most_tiles};
 use super::plan::{
-    Rules, Slot, SlotPlan, Slots, casters_drawn, choose_faces, follow, longest_wait, tally,
+    Rules, Slot, SlotPlan, Slots, Tally, casters_drawn, choose_tiles, follow, longest_wait,
 };
-use super::projection::CubeFace;
+use super::projection::{CubeFace, LightProjection, SlotLight};
 use super::statistics::{Clock, CubeStatistics, FaceStatistics};
 use crate::Radius;
 use crate::error::CubeShadowMapError;
@@ -26,39 +26,23 @@ use crate::submissions::Submissions;
 ///
 /// # What is drawn again
 ///
-/// A face whose light, casters, transforms and mesh revisions are those it was drawn with is left
-/// alone. This is found by comparing, so there is no flag to set; only a mesh that the host deforms
-/// in its own buffer needs [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision). The
-/// order of the casters does not matter. A still scene costs one comparison of 80 bytes a caster
-/// and no GPU work; a caster that moves costs a culling test a light, and the faces it left or
-/// entered their draws; a light that moves finds the casters that it reaches through a tree.
+/// A face is drawn again only if its light, its casters, their transforms or the revisions of their
+/// meshes have changed since it was drawn. The map finds this by comparison, so there is no flag to
+/// set. The one exception is a mesh that the host deforms in its own buffer: call
+/// [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision) for it. The order of the casters
+/// does not matter.
 ///
-/// `prepare` for 16 lights that reach some 700 casters each, on one core of a shared server, medians
-/// of the bench `cube_map`:
+/// A static scene costs the CPU one comparison of 80 bytes per caster and the GPU nothing. A caster
+/// that moves costs one culling test per light and the draws of the faces that it left or entered. A
+/// light that moves finds its casters through a tree (boxes over the casters in Morton order), which is
+/// kept between frames where that pays. `docs/benches.md` has what `prepare` takes for 100 to 100,000
+/// casters, and how the tree compares with a linear search and a compute shader.
 ///
-/// | casters | none moved | one moved | one light moved |
-/// |---|---|---|---|
-/// | 100 | 0.01 ms | 0.02 ms | 0.02 ms |
-/// | 10,000 | 0.02 ms | 0.04 ms | 0.08 ms |
-/// | 100,000 | 0.29 ms | 0.41 ms | 0.50 ms |
+/// # Accuracy
 ///
-/// What grows with the casters that stand still is the comparison, 3 to 5 ns each, and that it
-/// empties the caches: a hundred casters that move near a light add 36 us among 1,000, 48 us among
-/// 100,000 (`moved_among_1e5_vs_among_1e3`), and no more than that among 400,000.
-///
-/// The tree (boxes over the casters in Morton order) is kept from frame to frame where it pays, which
-/// is found by adding up. With a hundredth of the casters and all 16 lights moving, keeping it and
-/// asking it takes as long as testing every caster's sphere among 100 casters (too few for a tree),
-/// 0.26 to 0.41 of that among 10,000 and 0.04 to 0.14 among 100,000 (`culling_N_vs_linear`). A
-/// uniform grid took 20 to 35, 0.6 to 1.3 and 0.03 to 0.29. A compute shader that fills the lists of
-/// indirect draws takes at least 4, 7 and 12 times as long as the tree on llvmpipe
-/// (`culling_N_vs_compute`), and only the CPU can tell beforehand which faces need no draw at all.
-///
-/// # What depths are at fault for
-///
-/// On the 64 spheres of the example `compare` (1280 x 720 pixels, one bilinear tap) 0.28 % of the
-/// pixels are wrong at 512 texels a face, 0.14 % at 1024 and 0.07 % at 2048, none of them away from
-/// an outline.
+/// A map is as exact as its texels are small. On the 64 spheres of the example `compare` (1280x720
+/// pixels, one bilinear tap) 0.28 % of the pixels are wrong with 512 texels per face, 0.14 % with 1024 and
+/// 0.07 % with 2048. All of them lie at shadow edges.
 #[derive(Debug)]
 pub struct CubeShadowMap {
     size: u32,
@@ -132,8 +116,10 @@ impl CubeShadowMap {
         if encoder_dropped {
             self.invalidate();
         }
-        self.slots
-            .take_over(frame.lights, &mut self.casters, frame.casters);
+        let lights = frame.lights.iter().copied().map(LightProjection::Point);
+        let lights: Vec<_> = lights.map(SlotLight::from).collect();
+        self.casters.update(frame.casters);
+        self.slots.take_over(&lights, &mut self.casters);
         self.allocate(device);
         let revision = self.texture_revision();
         self.gpu.replace_lights(device, queue, revision);
@@ -148,6 +134,7 @@ impl CubeShadowMap {
         let lazy = self.allocation == Allocation::WithFirstCaster;
         self.gpu.write_lights(frame.lights, &self.slots, lazy);
 
+        let tally = Tally::new(&plans, &self.slots, self.casters.records().len());
         let draws = self.gpu.draws();
         let statistics = CubeStatistics {
             draws: draws.iter().count() as u32,
@@ -156,7 +143,7 @@ impl CubeShadowMap {
             uploaded: self.gpu.uploaded(),
             not_encoded,
             encoder_dropped,
-            ..tally(&plans, &self.slots, self.casters.records().len())
+            ..CubeStatistics::of(&tally)
         };
         self.statistics = CubeStatistics {
             prepare: clock.elapsed(),
@@ -221,7 +208,7 @@ impl CubeShadowMap {
         }
         let clear = self.gpu.clear();
         let pass = self.gpu.begin_face(encoder, index, face, clear)?;
-        self.slots[index].touched(face);
+        self.slots[index].touched(face.layer() as usize);
         Some(pass)
     }
 
@@ -231,9 +218,11 @@ impl CubeShadowMap {
     /// waits for its faces, this is still the matrix of where it was.
     pub fn clip_from_world(&self, light: usize, face: CubeFace) -> Option<Mat4> {
         let slot = &self.slots[self.slots.of_light(light)?];
-        let light = slot.shown.or(slot.light)?;
-        let near = self.gpu.near_plane().of_point(&light);
-        Some(face.clip_from_light(near) * Mat4::from_translation(-light.position))
+        let tile = face.layer() as usize;
+        let shown = slot.tiles.get(tile)?.shown;
+        let projection = shown.or_else(|| slot.projection(tile))?;
+        let from_light = projection.clip_from_light(tile, self.gpu.near_plane());
+        Some(from_light * Mat4::from_translation(-projection.origin()))
     }
 
     /// A light's texture and the first of its six layers, in the order of [`CubeFace::ALL`]; `None`
@@ -286,7 +275,7 @@ impl CubeShadowMap {
     /// position of their light, are drawn at once, outside the budget.
     pub fn max_age(&self) -> Option<u32> {
         let budget = self.budget?;
-        Some(longest_wait(self.slots.len(), budget))
+        Some(longest_wait(6 * self.slots.len(), budget))
     }
 
     /// Texels along each side of a face.
@@ -309,9 +298,10 @@ impl CubeShadowMap {
     pub fn face_statistics(&self, light: usize, face: CubeFace) -> Option<FaceStatistics> {
         let index = self.slots.of_light(light)?;
         let slot = &self.slots[index];
-        let of = &slot.faces[face.layer() as usize];
+        let tile = face.layer() as usize;
+        let of = slot.tiles.get(tile)?;
         Some(FaceStatistics {
-            state: self.plans.get(index)?.state(slot, face),
+            state: self.plans.get(index)?.state(slot, tile),
             casters: of.content.casters,
             triangles: of.content.triangles,
             age: of.age,
@@ -365,15 +355,14 @@ impl CubeShadowMap {
     /// Chooses the faces to draw. Changes nothing.
     fn plan(&self, frame: &CubeFrame<'_>) -> Vec<SlotPlan> {
         let rules = Rules {
-            view: frame.view,
+            views: frame.view.as_slice(),
             reach: self.reach,
-            size: self.size,
             cache: self.cache,
             budget: self.budget,
             pinned: frame.pinned,
         };
-        choose_faces(&self.slots, &rules, |slot| {
-            self.gpu.textures().slot(slot).is_some()
+        choose_tiles(&self.slots, &rules, |slot| {
+            self.gpu.textures().slot(slot).map(|_| self.size)
         })
     }
 

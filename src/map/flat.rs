@@ -5,12 +5,12 @@ use glam::{Mat4, Vec4};
 use super::encoding::{DepthEncoding, texel_bytes};
 use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 use super::gpu::{
-    Draw, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, FlatLightUniform, INSTANCE_SIZE,
-    Instances, PipelineKind, Pipelines, TooLarge, begin_depth_pass, can_pull_casters,
-    create_texture, draws_of_flat,
+    Draw, DrawLists, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, FlatLightUniform,
+    INSTANCE_SIZE, Instances, PipelineKind, Pipelines, TooLarge, begin_depth_pass,
+    can_pull_casters, create_texture,
 };
-use super::plan::{Content, FlatPlace, Signature, Texels};
-use super::projection::{FlatFrame, NearPlane};
+use super::plan::{FlatPlace, Rules, SlotPlan, Slots, choose_tiles, follow};
+use super::projection::NearPlane;
 use super::sides::CasterSides;
 use super::statistics::ShadowMapStatistics;
 use crate::error::ShadowMapError;
@@ -66,12 +66,10 @@ pub struct ShadowMap {
     instances: Instances,
     casters: Casters,
     place: FlatPlace,
-    /// What the texels are to show, and what they do.
-    wanted: Signature<FlatFrame>,
-    texels: Texels<FlatFrame>,
-    /// Whether the next encode draws, and what.
-    pending: bool,
-    draws: Vec<Draw>,
+    near_plane: NearPlane,
+    /// One, with one tile.
+    slots: Slots,
+    draws: DrawLists,
     uploads: Uploads,
     submissions: Submissions,
     statistics: ShadowMapStatistics,
@@ -118,10 +116,9 @@ impl ShadowMap {
             light: FlatLightBuffer::new(device, &label),
             instances: Instances::new(device, &label),
             casters: Casters::default(),
-            wanted: Signature::new(None, Content::default()),
-            texels: Texels::UNKNOWN,
-            pending: false,
-            draws: Vec::new(),
+            near_plane,
+            slots: Slots::new(1, true),
+            draws: DrawLists::default(),
             uploads: Uploads::new(device),
             submissions: Submissions::default(),
             statistics: ShadowMapStatistics::default(),
@@ -146,27 +143,32 @@ impl ShadowMap {
         self.validate_reach(&frame.light)?;
         self.validate_count(device, frame.casters.len())?;
         self.casters.compare(frame.casters, device)?;
-        if self.place.take_over(frame, &mut self.casters)? {
-            self.wanted = self.content();
+        self.casters.update(frame.casters);
+        let placed = self.place.take_over(frame, &self.casters);
+        if placed.is_err() {
+            self.slots.miss_update();
         }
+        placed?;
+        let light = self.place.projection();
+        self.slots.take_over(&[light.into()], &mut self.casters);
 
         let encoder_dropped = self.submissions.take_dropped();
         if encoder_dropped {
             self.invalidate();
         }
-        let not_encoded = self.pending || self.uploads.bytes() > 0;
+        let not_encoded = self.is_pending() || self.uploads.bytes() > 0;
         if not_encoded {
             self.forget_uploads();
         }
-        let again = !self.cache && !self.wanted.content().is_empty();
-        self.pending = again || !self.texels.show(&self.wanted);
-        self.texels.schedule(self.wanted);
+        let plans = self.plan();
+        follow(&plans, &mut self.slots);
         self.draws.clear();
-        if self.pending {
+        if self.is_pending() {
             self.record_draws(device, frame.casters)?;
         }
         let (size, format) = (self.size, self.texture.format());
-        let light = FlatLightUniform::new(self.place.frame(), &self.bias, size, format);
+        let frame_shown = self.place.frame();
+        let light = FlatLightUniform::new(frame_shown, &self.bias, size, format);
         self.light.write(&mut self.uploads, light);
         self.statistics = ShadowMapStatistics {
             not_encoded,
@@ -185,10 +187,10 @@ impl ShadowMap {
     /// ([`ShadowMapStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let copied = self.uploads.record(encoder);
-        if copied || self.pending {
+        if copied || self.is_pending() {
             self.submissions.watch(encoder);
         }
-        if !std::mem::take(&mut self.pending) {
+        if !self.is_pending() {
             return;
         }
         let drawing = Drawing {
@@ -196,8 +198,8 @@ impl ShadowMap {
             pipelines: &self.pipelines,
             instances: &self.instances,
         };
-        drawing.record(&mut self.pass(encoder), 0, &self.draws);
-        self.texels.encoded();
+        drawing.record(&mut self.pass(encoder), 0, &self.draws.of(0, 0).tile.draws);
+        self.slots[0].encoded(1);
     }
 
     /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the map drawn again. What the
@@ -206,8 +208,7 @@ impl ShadowMap {
     /// For a host that has written to the map's texture, or has lost what was recorded in a way that
     /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
     pub fn invalidate(&mut self) {
-        self.pending = false;
-        self.texels.forget();
+        self.slots[0].doubt_texels();
         self.forget_uploads();
     }
 
@@ -226,8 +227,9 @@ impl ShadowMap {
         if self.uploads.record(encoder) {
             self.submissions.watch(encoder);
         }
-        self.pending = false;
-        self.texels.forget();
+        if !self.slots[0].tiles.is_empty() {
+            self.slots[0].touched(0);
+        }
         self.pass(encoder)
     }
 
@@ -300,15 +302,21 @@ impl ShadowMap {
         }
     }
 
-    /// What the map is to show.
-    fn content(&self) -> Signature<FlatFrame> {
-        let Some(frame) = self.place.frame() else {
-            return Signature::new(None, Content::default());
+    /// Whether the next encode draws.
+    fn is_pending(&self) -> bool {
+        self.slots[0].pending != 0
+    }
+
+    /// Decides whether the map is drawn. Changes nothing.
+    fn plan(&self) -> Vec<SlotPlan> {
+        let rules = Rules {
+            views: &[],
+            reach: self.reach,
+            cache: self.cache,
+            budget: None,
+            pinned: &[],
         };
-        let frustum = frame.frustum();
-        let on_map = self.casters.records().iter();
-        let on_map = on_map.filter(|record| frustum.holds(record));
-        Signature::new(Some(*frame), Content::of(on_map))
+        choose_tiles(&self.slots, &rules, |_| Some(self.size))
     }
 
     /// Lists the draws of the casters on the map, and stages what they need.
@@ -317,22 +325,30 @@ impl ShadowMap {
         device: &wgpu::Device,
         casters: &[Caster],
     ) -> Result<(), ShadowMapError> {
-        let Some(frame) = self.place.frame() else {
-            return Ok(());
-        };
-        let (draws, instances) = draws_of_flat(frame, self.sides, &self.casters, casters);
-        self.draws = draws;
+        let slot = &self.slots[0];
+        let casters = (&self.casters, casters);
+        self.draws.add(
+            (0, slot),
+            slot.pending,
+            self.near_plane,
+            self.sides,
+            casters,
+        );
+        let instances = self.draws.instances();
         let reserved = self.instances.reserve(device, instances.len());
         reserved.map_err(|TooLarge { size, limit }| ShadowMapError::TooManyCasters {
             casters: instances.len(),
             size,
             limit,
         })?;
-        self.instances.write(&mut self.uploads, &instances);
+        self.instances.write(&mut self.uploads, instances);
         self.pipelines
             .make(device, self.draws.iter().map(Draw::key));
-        let uniform = FaceUniform::new(&frame.clip_from_light(), frame.range, self.size);
-        self.uniforms.write(&mut self.uploads, 0, uniform);
+        if let Some(projection) = slot.projection(0) {
+            let matrix = projection.clip_from_light(0, self.near_plane);
+            let uniform = FaceUniform::new(&matrix, projection.range(), self.size);
+            self.uniforms.write(&mut self.uploads, 0, uniform);
+        }
         Ok(())
     }
 
@@ -344,12 +360,12 @@ impl ShadowMap {
     }
 
     fn count(&self, casters: usize) -> ShadowMapStatistics {
-        let drawn = self.wanted.content().casters;
+        let drawn = self.slots[0].casting as u32;
         ShadowMapStatistics {
-            rendered: self.pending,
+            rendered: self.is_pending(),
             casters_drawn: drawn,
             casters_outside: casters as u32 - drawn,
-            draws: self.draws.len() as u32,
+            draws: self.draws.iter().count() as u32,
             triangles: self.draws.iter().map(Draw::triangles).sum(),
             bytes: u64::from(self.size).pow(2) * texel_bytes(self.texture.format())
                 + self.instances.bytes()

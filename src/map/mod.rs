@@ -1,6 +1,10 @@
 //! Shadow maps.
 
+mod atlas;
+mod atlas_descriptor;
+mod atlas_statistics;
 mod bias;
+mod cascades;
 mod cross;
 mod cube;
 mod cube_descriptor;
@@ -13,15 +17,22 @@ mod projection;
 mod sides;
 mod static_layers;
 mod statistics;
+mod suns;
 
+pub use atlas::{AtlasTile, ShadowAtlas};
+pub use atlas_descriptor::{AtlasFrame, AtlasLight, AtlasView, LocalLight, ShadowAtlasDescriptor};
+pub use atlas_statistics::AtlasStatistics;
 pub use bias::Bias;
+pub use cascades::{CascadeFit, CascadeSplit, Cascades, DepthBounds};
 pub use cross::{CubeCross, CubeCrossDescriptor};
 pub use cube::CubeShadowMap;
 pub use cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
 pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
+pub use gpu::HostDraw;
 pub(crate) use gpu::{FlatLightUniform, LightUniform};
+pub use plan::TileSize;
 pub use projection::CubeFace;
 pub use sides::CasterSides;
 pub use static_layers::StaticLayers;

@@ -16,18 +16,15 @@ use crate::error::CubeShadowMapError;
 pub enum StaticLayers {
     /// Where enough triangles are static for the texels of a face. Nowhere on the GL back end.
     ///
-    /// On software drivers one triangle is enough for 1024 texels: 64 on a face of 256 texels a
-    /// side, 1,024 on one of 1024. Mesa's llvmpipe draws a small triangle in the time in which it
-    /// copies 120 to 180 texels (`texels_a_triangle` of the bench `cube_map`, five runs), and takes
-    /// no longer to copy a layer than to clear a face, so a layer loses nothing but its making: one
-    /// copy, which the rule has repaid within eight frames. With a caster moving on each face, a
-    /// frame takes 0.4 to 1.0 of the time with 8 static triangles a face, and 0.08 to 0.2 with 4,608
-    /// that cover a third of it (`static_layer_vs_redraw`).
+    /// On software drivers one triangle is enough for 1024 texels: 64 on a face of 256 texels a side, 1,024
+    /// on one of 1024. Mesa's llvmpipe draws a small triangle in the time in which it copies 120 to 180 texels
+    /// (`docs/benches.md`), and copies a layer as fast as it clears a face. So a layer costs nothing but
+    /// making it, one copy, which this rule repays within eight frames.
     ///
-    /// On GPUs one triangle is enough for 16 texels, which is an estimate: it supposes that
-    /// clearing costs nothing, that a copied texel moves 12 bytes (read, written, and read again by
-    /// the pass over it) at 500 GB/s, and that 2.5 triangles are drawn a nanosecond. Where you know
-    /// better, say [`AtLeast`](Self::AtLeast).
+    /// On GPUs one triangle is enough for 16 texels. That is an estimate, not a measurement: it assumes that
+    /// clearing is free, that a copied texel moves 12 bytes (read, written, and read again by the pass
+    /// over it) at 500 GB/s, and that 2.5 triangles are drawn per nanosecond. Where you know better, use
+    /// [`AtLeast`](Self::AtLeast).
     #[default]
     Auto,
     /// Nowhere.

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use super::plan::Tally;
+
 /// What the last [`CubeShadowMap::prepare`](crate::CubeShadowMap::prepare) found and the next
 /// `encode` will do.
 ///
@@ -107,14 +109,19 @@ pub struct ShadowMapStatistics {
 }
 
 impl CubeStatistics {
-    pub(crate) fn count(&mut self, state: FaceState) {
-        *match state {
-            FaceState::Rendered => &mut self.faces_rendered,
-            FaceState::Kept => &mut self.faces_kept,
-            FaceState::Empty => &mut self.faces_empty,
-            FaceState::Hidden => &mut self.faces_hidden,
-            FaceState::Postponed => &mut self.faces_postponed,
-        } += 1;
+    pub(crate) fn of(tally: &Tally) -> Self {
+        Self {
+            faces_rendered: tally.rendered,
+            faces_kept: tally.kept,
+            faces_empty: tally.empty,
+            faces_hidden: tally.hidden,
+            faces_postponed: tally.postponed,
+            faces_copied: tally.copied,
+            layers_drawn: tally.layers_drawn,
+            casters_in_range: tally.casting,
+            casters_out_of_range: tally.not_casting,
+            ..Self::default()
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! A caster: a mesh somewhere in the world.
 
+use std::num::NonZeroU32;
+
 use glam::{Affine3A, DAffine3, DVec3};
 
 use super::CasterMesh;
@@ -12,6 +14,14 @@ pub struct Caster {
     pub mesh: CasterMesh,
     /// Any affine map from the mesh's space to world space: scale, shear and mirror included.
     pub world_from_object: Affine3A,
+    /// The layers it is on, a bit each. A light of a [`ShadowAtlas`](crate::ShadowAtlas) casts the shadows of
+    /// what is on any of its own layers ([`AtlasLight::with_layers`](crate::AtlasLight::with_layers)); other
+    /// maps and shadow volumes take no notice. Default all.
+    pub layers: u32,
+    /// Whose it is: an atlas's light of the same owner
+    /// ([`AtlasLight::owned_by`](crate::AtlasLight::owned_by)) does not cast its shadow, as a lamp shines
+    /// out of its own bulb. Other maps and shadow volumes take no notice. Default `None`: nobody's.
+    pub owner: Option<NonZeroU32>,
 }
 
 impl Caster {
@@ -20,6 +30,8 @@ impl Caster {
         Self {
             mesh,
             world_from_object,
+            layers: u32::MAX,
+            owner: None,
         }
     }
 

@@ -6,7 +6,9 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat3, Vec3};
 
 use super::data::{MeshData, edge_records};
-use super::host::{HostMesh, HostPositions, POSITION_SIZE};
+use super::host::{
+    HostInstances, HostMesh, HostPositions, InstanceLayout, POSITION_SIZE, check_bounds,
+};
 use super::records::VertexRecords;
 use super::solid::is_solid;
 use super::upload::{storage_usage, upload};
@@ -26,12 +28,14 @@ struct Inner {
     triangles: Triangles,
     kind: MeshKind,
     solid: bool,
+    host_drawn: bool,
+    places: Option<Places>,
     /// For shadow volumes; shadow maps read nothing of it.
     welded: Option<Welded>,
 }
 
 /// Where the positions are and what is known of them.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Positions {
     buffer: wgpu::Buffer,
     stride: u64,
@@ -42,12 +46,22 @@ struct Positions {
 }
 
 /// Three indices a triangle.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Triangles {
     buffer: wgpu::Buffer,
     format: wgpu::IndexFormat,
     offset: u64,
     count: u32,
+}
+
+/// Where in the host's buffer the transforms are that it is drawn under.
+#[derive(Clone, Debug)]
+pub(crate) struct Places {
+    pub buffer: wgpu::Buffer,
+    pub layout: InstanceLayout,
+    pub stride: u64,
+    pub offset: u64,
+    pub count: u32,
 }
 
 /// What an adjacency says of a mesh, on the GPU and in main memory.
@@ -167,6 +181,89 @@ impl CasterMesh {
         ))
     }
 
+    /// Stands for geometry that only the host can draw into a map: alpha-tested, skinned by its own
+    /// shader, tessellated, driven by the GPU. As a [`Caster`](crate::Caster) its bounds are culled, and
+    /// it is cached, like any other's; where a tile that they touch is drawn, the host is asked to draw it
+    /// ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with)). When it has changed,
+    /// [`bump_revision`](Self::bump_revision) says so.
+    ///
+    /// `bounds`, in the mesh's own space, enclose all that it will ever draw; `triangles`, at least 1, is
+    /// about how many that are, by which [`StaticLayers`](crate::StaticLayers) go.
+    ///
+    /// Other maps refuse such casters ([`HostDrawn`](crate::error::CasterError::HostDrawn)), and so do
+    /// shadow volumes ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if the bounds are not finite.
+    pub fn host_drawn(
+        device: &wgpu::Device,
+        bounds: Bounds,
+        triangles: u32,
+    ) -> Result<Self, CasterMeshError> {
+        check_bounds(&bounds)?;
+        let nothing = |usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("shadows: drawn by the host"),
+                size: 0,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let positions = Positions {
+            buffer: nothing(wgpu::BufferUsages::VERTEX),
+            stride: POSITION_SIZE,
+            offset: 0,
+            count: 0,
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+        };
+        let triangles = Triangles {
+            buffer: nothing(wgpu::BufferUsages::INDEX),
+            format: wgpu::IndexFormat::Uint32,
+            offset: 0,
+            count: triangles.max(1),
+        };
+        let kind = MeshKind::General;
+        let mut inner = Self::inner(device, positions, triangles, kind, false, None);
+        inner.host_drawn = true;
+        Ok(Self(Arc::new(inner)))
+    }
+
+    /// A mesh at many places, which lie in a buffer of the host: one caster for a whole forest, in one draw
+    /// a tile. It shares the mesh's buffers. Transforms that the host changes there count from the frame
+    /// that follows a [`bump_revision`](Self::bump_revision).
+    ///
+    /// The caster's own transform comes after each of them. Positions in between are in `f32`, from the
+    /// caster's origin: place the caster near its instances, not all at the world's origin. Both sides are
+    /// drawn, as some places may mirror it. For shadow maps and the atlas; shadow volumes refuse it
+    /// ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    ///
+    /// # Errors
+    /// [`CasterMeshError`] if layout, size, usages or bounds do not fit, or the mesh is such a one itself.
+    pub fn at_places(&self, instances: &HostInstances<'_>) -> Result<Self, CasterMeshError> {
+        let mesh = &self.0;
+        if mesh.places.is_some() || mesh.host_drawn {
+            return Err(CasterMeshError::NotPlain);
+        }
+        instances.validate(&mesh.device)?;
+        let bounds = instances.bounds;
+        let positions = Positions {
+            bounds,
+            radius: bounds.radius_of([bounds.min, bounds.max]),
+            ..mesh.positions.clone()
+        };
+        let (triangles, kind) = (mesh.triangles.clone(), MeshKind::General);
+        let mut inner = Self::inner(&mesh.device, positions, triangles, kind, false, None);
+        inner.places = Some(Places {
+            buffer: instances.buffer.clone(),
+            layout: instances.layout,
+            stride: instances.stride,
+            offset: instances.offset,
+            count: instances.count,
+        });
+        Ok(Self(Arc::new(inner)))
+    }
+
     /// `packed`: the positions in main memory, if they are known there.
     fn welded(
         device: &wgpu::Device,
@@ -212,8 +309,20 @@ impl CasterMesh {
         solid: bool,
         welded: Option<Welded>,
     ) -> Self {
+        let inner = Self::inner(device, positions, triangles, kind, solid, welded);
+        Self(Arc::new(inner))
+    }
+
+    fn inner(
+        device: &wgpu::Device,
+        positions: Positions,
+        triangles: Triangles,
+        kind: MeshKind,
+        solid: bool,
+        welded: Option<Welded>,
+    ) -> Inner {
         static NEXT_ID: AtomicU64 = AtomicU64::new(0);
-        Self(Arc::new(Inner {
+        Inner {
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
             revision: AtomicU64::new(0),
             device: device.clone(),
@@ -221,8 +330,15 @@ impl CasterMesh {
             triangles,
             kind,
             solid,
+            host_drawn: false,
+            places: None,
             welded,
-        }))
+        }
+    }
+
+    /// Whether only the host can draw it.
+    pub fn is_host_drawn(&self) -> bool {
+        self.0.host_drawn
     }
 
     /// The rule its shadow volume follows.
@@ -235,9 +351,20 @@ impl CasterMesh {
         self.0.solid
     }
 
-    /// Number of triangles that cast (those that collapsed in the weld do not).
+    /// Number of triangles that cast (those that collapsed in the weld do not), at all places together.
     pub fn triangle_count(&self) -> u32 {
-        self.0.triangles.count
+        let places = self.0.places.as_ref().map_or(1, |places| places.count);
+        self.0.triangles.count.saturating_mul(places)
+    }
+
+    /// Where it is drawn, if the host's buffer says so.
+    pub(crate) fn places(&self) -> Option<&Places> {
+        self.0.places.as_ref()
+    }
+
+    /// Number of indices to draw once.
+    pub(crate) fn index_count(&self) -> u32 {
+        self.0.triangles.count * 3
     }
 
     /// Bounds in the mesh's own space.

@@ -51,6 +51,83 @@ pub struct HostMesh<'a> {
     pub bounds: Bounds,
 }
 
+/// Transforms of one mesh that lie in a vertex buffer of the host: so many are drawn where a caster has such
+/// a mesh. Read in place every frame, and copied nowhere.
+#[derive(Clone, Debug)]
+pub struct HostInstances<'a> {
+    /// The buffer; its usages must include `VERTEX`.
+    pub buffer: &'a wgpu::Buffer,
+    /// What each transform is.
+    pub layout: InstanceLayout,
+    /// Bytes from one transform to the next: a multiple of 4, no less than a transform has, and at most the
+    /// device's `max_vertex_buffer_array_stride`.
+    pub stride: u64,
+    /// Bytes before the first transform: a multiple of 4.
+    pub offset: u64,
+    /// How many there are.
+    pub count: u32,
+    /// A box around the mesh at all of its places, as they are before the caster's own transform.
+    ///
+    /// What leaves it may be culled.
+    pub bounds: Bounds,
+}
+
+/// What one transform of [`HostInstances`] is: an affine map of the mesh's space, in `f32`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum InstanceLayout {
+    /// The four columns of a 4x4 matrix, 64 bytes, as `glam::Mat4` has them. The last row is not read.
+    Columns4x4,
+    /// The three rows of a 3x4 matrix, 48 bytes.
+    Rows3x4,
+}
+
+impl InstanceLayout {
+    fn size(self) -> u64 {
+        match self {
+            Self::Columns4x4 => 64,
+            Self::Rows3x4 => 48,
+        }
+    }
+}
+
+impl HostInstances<'_> {
+    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), CasterMeshError> {
+        let Self {
+            stride,
+            offset,
+            count,
+            ..
+        } = *self;
+        let least = self.layout.size();
+        if !stride.is_multiple_of(4) || !offset.is_multiple_of(4) || stride < least {
+            return Err(CasterMeshError::InstanceLayout {
+                stride,
+                offset,
+                least,
+            });
+        }
+        let limit = u64::from(device.limits().max_vertex_buffer_array_stride);
+        if stride > limit {
+            return Err(CasterMeshError::Stride { stride, limit });
+        }
+        let size = self.buffer.size();
+        let last = u64::from(count.saturating_sub(1)).saturating_mul(stride);
+        let needed = last.saturating_add(offset).saturating_add(least);
+        if count > 0 && size < needed {
+            return Err(CasterMeshError::InstanceBufferTooSmall {
+                size,
+                needed,
+                count,
+            });
+        }
+        if !self.buffer.usage().contains(wgpu::BufferUsages::VERTEX) {
+            return Err(CasterMeshError::InstanceBufferUsage);
+        }
+        check_bounds(&self.bounds)
+    }
+}
+
 impl HostPositions<'_> {
     /// Whether buffer, layout and bounds fit the device and an adjacency.
     pub(super) fn validate(
@@ -149,7 +226,7 @@ fn check_positions(
     }
 }
 
-fn check_bounds(bounds: &Bounds) -> Result<(), CasterMeshError> {
+pub(super) fn check_bounds(bounds: &Bounds) -> Result<(), CasterMeshError> {
     for corner in [bounds.min, bounds.max] {
         if !corner.is_finite() {
             return Err(CasterMeshError::NotFinite {

@@ -27,7 +27,7 @@ pub use bounds::Bounds;
 pub use caster::Caster;
 pub use caster_mesh::CasterMesh;
 pub(crate) use data::{MeshData, edge_records as mesh_edges};
-pub use host::{HostMesh, HostPositions};
+pub use host::{HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub(crate) use planes::{Facings, LANES};
 pub(crate) use records::EdgeRecord;
 #[cfg(test)]

@@ -7,19 +7,24 @@ use crate::error::PcfError;
 
 /// Which texels of the map a receiver looks at, and with what weights.
 ///
-/// Whatever the kernel but [`HardwareBilinear`](Self::HardwareBilinear), every texel is compared with the depth of the receiver's own plane in that
-/// texel's direction, so wide kernels and face edges need no more bias than narrow ones. Near the
-/// plane's horizon as the light sees it that depth grows without bound: no tap takes the plane for
-/// nearer to the light than a thirty-second of the receiver's own distance along the axis of the face
-/// (for a directional light: nearer than the receiver by more than sixteen times the map's width), so
-/// what casts from nearer casts at any grazing angle; and a texel beyond the horizon is replaced by
-/// its mirror image at the receiver, or compared with the receiver's own depth where that is beyond
-/// the horizon too, as are the texels of a disk (whose taps are all on the plane). What is farther from the light than that is missed only where
-/// the plane itself comes as near: for a kernel of `k` texels on a face of `n`, where the light falls
-/// in at less than `2 k / (31 n)` (for the widest square, 0.015 degrees at 1024 texels). A receiver whose
-/// plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
+/// With every kernel except [`HardwareBilinear`](Self::HardwareBilinear), each texel is compared with the depth that
+/// the receiver's own plane has in that texel's direction. Wide kernels and face edges therefore need no more
+/// bias than narrow ones.
 ///
-/// On a cube a kernel goes on over edges and corners, texel for texel: within a texel of them it is
+/// At grazing angles, near the horizon of that plane as seen from the light, its depth grows without bound. Two rules
+/// bound it:
+///
+/// - No tap takes the plane to be nearer to the light than 1/32 of the receiver's own distance along the axis
+///   of the face (for a directional light: nearer than the receiver by more than sixteen times the map's width). So
+///   a caster nearer than that casts at any grazing angle. One farther than that is missed only where the plane
+///   itself comes as near: for a kernel of `k` texels on a face of `n`, where the light arrives at less than
+///   `2 k / (31 n)` (for the widest square, 0.015 degrees at 1024 texels).
+/// - A texel beyond the horizon is replaced by its mirror image at the receiver. Where that is beyond the horizon too,
+///   and for the texels of disks (whose taps all lie on the plane), it is compared with the receiver's own depth.
+///
+/// A receiver whose plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
+///
+/// On a cube a kernel continues across edges and corners, texel for texel: within a texel of them it is
 /// wrong at less than 0.7 times as many points as in the middle of a face (`tests/receivers/pcf_seams.rs`).
 ///
 /// The first seven are squares of texels. The last three are disks in the receiver's tangent plane,
@@ -47,7 +52,7 @@ use crate::error::PcfError;
 /// | `ContactHardening` | 0.022 | 0.16 | 0.057 | 0.63 | 0.12 | 0.021 | 1.3 % |
 ///
 /// `docs/kernels.png` in the repository shows all of them on the same shadows
-/// (`cargo run --release --example kernel_sheet -- docs/kernels.png`).
+/// (`cargo run --release --example kernel_sheet -- --kernels docs/kernels.png`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Kernel {
@@ -66,13 +71,13 @@ pub enum Kernel {
     Weighted7,
     /// One bilinear comparison by the sampler (`textureSampleCompareLevel`): [`Bilinear`](Self::Bilinear)
     /// at half of its instructions (`docs/shader-cost.md`), for the tightest budgets. All four texels
-    /// are compared with one depth: that which the receiver's plane has at the nearest of them to the light
-    /// (on a cube a bound of that, for no more than a texel along both axes). So no plane shadows itself at
-    /// any angle, and nothing is darker than with `Bilinear`; but what touches a surface
-    /// casts a shadow that begins later: by as much of the surface as one texel covers away from the
-    /// light, 1.12 times that at most where it is steep along one axis of the map, twice that along
-    /// both (`tests/receivers/pcf_hardware.rs`; `Bilinear`: 0). A surface that the light grazes at 0.1 loses ten texels of
-    /// a contact's shadow.
+    /// are compared with one depth, the one that the receiver's plane has at whichever of them is nearest to the light
+    /// (on a cube: a bound of it, within a texel along both axes). So no plane shadows itself at any angle, and
+    /// nothing is darker than with `Bilinear`. The price is at contacts: where a caster touches a surface, its shadow
+    /// begins later by as much of the surface as one texel covers away from the light, by 1.12 times that at most
+    /// where the surface is steep along one axis of the map, and by twice that along both
+    /// (`tests/receivers/pcf_hardware.rs`; `Bilinear`: 0). A surface that the light grazes at 0.1 loses ten texels
+    /// of a contact's shadow.
     ///
     /// Errors of pictures of 480x270 from maps of 512 texels, false light and false shadow in per cent of the
     /// pixels that face the light, none of them in the interior of light or shadow:
@@ -84,9 +89,9 @@ pub enum Kernel {
     /// | `courtyard`, sun | 0.829 + 1.346 | 1.026 + 0.647 |
     /// | `courtyard`, spot | 0.609 in all | 0.395 in all |
     ///
-    /// Far from the origin, where a pixel is hardly wider than the rounding of positions and screen derivatives
-    /// say nothing of the normal, all is lit but what is behind something very near the light, since this
-    /// kernel cannot ask the map for a slope: pass a normal there.
+    /// Far from the origin a pixel is hardly wider than the rounding of positions, and screen derivatives give no
+    /// usable normal. This kernel cannot read a slope from the map instead, so everything is lit there except what is
+    /// behind a caster very near the light. Pass a normal in such scenes.
     ///
     /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only, and no cube arrays on GL.
     HardwareBilinear,

@@ -16,7 +16,7 @@ pub enum MapKind {
     Flat,
 }
 
-/// Which lights a flat map's receivers are for. Those of one kind cost less: docs/shader-cost.md.
+/// Which kinds of light a sampler of flat maps serves. One for a single kind costs less (docs/shader-cost.md).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FlatLights {

@@ -155,13 +155,18 @@ fn derived(kernel: Option<Kernel>, light: &str, index: &str) -> String {
         false => ("", ""),
         true => (", shadows_kernel, shadows_offsets", ", pixel"),
     };
-    // As far as a tap's texel may be from the receiver: in texels, and in the world.
+    // As far as a tap's texel may be from the receiver, in texels and in the world: across the light's rays,
+    // and in the receiver's plane, in which disks lie.
     let reach = match kernel {
-        Kernel::Hard => "vec2f(0.71, 0.0)",
-        _ if kernel.uses_pixel() => {
-            "vec2f(shadows_kernel.radius_texels + 0.71, shadows_kernel.radius_world)"
+        Kernel::Hard => "vec4f(0.71, 0.0, 0.0, 0.0)",
+        // Stretched along the rays' footprint.
+        Kernel::ContactHardening(_) => {
+            "vec4f(shadows_kernel.radius_texels + 0.71, shadows_kernel.radius_world, 0.0, 0.0)"
         }
-        _ => "vec2f(1.42 * f32(shadows_cube_pairs), 0.0)",
+        _ if kernel.uses_pixel() => {
+            "vec4f(0.71, 0.0, shadows_kernel.radius_texels, shadows_kernel.radius_world)"
+        }
+        _ => "vec4f(1.42 * f32(shadows_cube_pairs), 0.0, 0.0, 0.0)",
     };
     let function = kernel.function();
     format!(

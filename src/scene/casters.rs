@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
+use std::num::NonZeroU32;
 
 use glam::{Affine3A, DVec3};
 
@@ -16,6 +17,8 @@ struct Compared {
     mesh: u64,
     revision: u64,
     transform: Affine3A,
+    layers: u32,
+    owner: Option<NonZeroU32>,
 }
 
 impl Compared {
@@ -24,6 +27,8 @@ impl Compared {
             mesh: caster.mesh.id(),
             revision: caster.mesh.revision(),
             transform: caster.world_from_object,
+            layers: caster.layers,
+            owner: caster.owner,
         }
     }
 }
@@ -33,7 +38,7 @@ impl Compared {
 pub(crate) struct Record {
     /// In world space.
     pub bounds: CasterBounds,
-    /// Stands for mesh, revision and transform; see [`digest`].
+    /// Stands for mesh, revision, transform, layers and owner; see [`digest`].
     pub digest: u128,
     pub triangles: u32,
     /// Its mesh's place: see [`Casters::mesh`].
@@ -43,6 +48,10 @@ pub(crate) struct Record {
     pub solid: bool,
     /// Whether its transform turns windings over.
     pub mirrored: bool,
+    /// Whether the host draws it.
+    pub host_drawn: bool,
+    pub layers: u32,
+    pub owner: Option<NonZeroU32>,
     /// The frame in which it became what it is.
     pub since: u64,
 }
@@ -84,6 +93,8 @@ pub(crate) struct Casters {
     replaced: Vec<(u32, Option<Record>)>,
     /// Counts the updates.
     frame: u64,
+    /// Whether the host is asked to draw what only it can.
+    asks_host: bool,
 }
 
 impl std::fmt::Debug for Casters {
@@ -95,6 +106,14 @@ impl std::fmt::Debug for Casters {
 }
 
 impl Casters {
+    /// Casters of a map that asks the host to draw what only it can. (Others, by default, refuse those.)
+    pub fn with_host_drawn() -> Self {
+        Self {
+            asks_host: true,
+            ..Self::default()
+        }
+    }
+
     pub fn records(&self) -> &[Record] {
         &self.records
     }
@@ -124,6 +143,9 @@ impl Casters {
         for (index, caster) in casters.iter().enumerate() {
             if self.compared.get(index) != Some(&Compared::of(caster)) {
                 caster.validate(index, device)?;
+                if caster.mesh.is_host_drawn() && !self.asks_host {
+                    return Err(CasterError::HostDrawn { index });
+                }
                 self.different.push(index as u32);
             }
         }
@@ -135,19 +157,22 @@ impl Casters {
         self.different.is_empty() && casters.len() == self.compared.len()
     }
 
-    /// Takes over what [`compare`](Self::compare) found. Gives what that changes: those that are gone
-    /// from the end of the list first, the last of them before the others.
-    pub fn update(&mut self, casters: &[Caster]) -> impl Iterator<Item = Change<'_>> {
+    /// Takes over what [`compare`](Self::compare) found: see [`changes`](Self::changes).
+    pub fn update(&mut self, casters: &[Caster]) {
         if !self.are_unchanged(casters) {
             self.take_over(casters);
         } else {
             self.replaced.clear();
         }
-        let records = &self.records;
+    }
+
+    /// What the last [`update`](Self::update) changed: those that are gone from the end of the list
+    /// first, the last of them before the others.
+    pub fn changes(&self) -> impl ExactSizeIterator<Item = Change<'_>> {
         self.replaced.iter().map(|(index, old)| Change {
             index: *index as usize,
             old: old.as_ref(),
-            new: records.get(*index as usize),
+            new: self.records.get(*index as usize),
         })
     }
 
@@ -220,6 +245,9 @@ impl Casters {
             solid: caster.mesh.is_solid(),
             // In f64, where no scale underflows.
             mirrored: caster.transform().matrix3.determinant() < 0.0,
+            host_drawn: caster.mesh.is_host_drawn(),
+            layers: caster.layers,
+            owner: caster.owner,
             since: self.frame,
         }
     }
@@ -285,7 +313,7 @@ impl Hasher for DigestHasher {
     }
 }
 
-/// 128 bits that stand for one caster: mesh, revision and transform. A tile's content is the sum
+/// 128 bits that stand for one caster: mesh, revision, transform, layers and owner. A tile's content is the sum
 /// over its casters, so that their order means nothing and one can be taken out again (an additive
 /// multiset hash: Clarke et al., "Incremental Multiset Hash Functions and Their Application to
 /// Memory Integrity Checking", 2003). Two contents that differ have the same sum with a chance of
@@ -308,6 +336,7 @@ fn digest(of: &Compared) -> u128 {
     for pair in transform.chunks_exact(2) {
         take(u64::from(pair[0].to_bits()) << 32 | u64::from(pair[1].to_bits()));
     }
+    take(u64::from(of.layers) << 32 | u64::from(of.owner.map_or(0, NonZeroU32::get)));
     take(0);
     take(0);
     u128::from(lanes[0]) << 64 | u128::from(lanes[1])

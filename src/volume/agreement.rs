@@ -13,8 +13,9 @@ use wgpu::util::DeviceExt as _;
 
 use super::*;
 use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
-use crate::volume::near_plane::NearPlane;
-use crate::volume::params::Arguments;
+use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::gpu::draw_pipelines::Feed;
+use crate::volume::plan::params::Arguments;
 use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, StartFrom, View};
 use gpu::Gpu;
 use shapes::Shape;
@@ -67,7 +68,7 @@ fn renderer(gpu: &Gpu, silhouettes: Silhouettes, start_from: StartFrom) -> Shado
 /// The slot of each caster drawn.
 fn slots(
     renderer: &ShadowVolumeRenderer,
-) -> impl Iterator<Item = (u32, &super::super::kept::Slot)> {
+) -> impl Iterator<Item = (u32, &crate::volume::plan::cache::Slot)> {
     let numbers = renderer.plan.slot_of.iter();
     numbers.map(|&number| (number, renderer.kept.get(number).unwrap()))
 }
@@ -89,7 +90,7 @@ fn extracted(
     let arguments = bound.map(|bound| {
         bytemuck::pod_collect_to_vec::<u8, Arguments>(&gpu.read_buffer(bound.arguments))
     });
-    let volume = |(number, slot): (u32, &super::super::kept::Slot)| {
+    let volume = |(number, slot): (u32, &crate::volume::plan::cache::Slot)| {
         let [_, caps, sides] = renderer.buffers.chunk(slot.place.chunk).unwrap();
         let (caps, sides) = (words(caps), words(sides));
         let cap_base = slot.place.cap;

@@ -1,10 +1,12 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
-use super::method::{Caps, Extrusion, Method};
-use super::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
-use super::{Counter, Silhouettes, StartFrom, counter, limits};
 use crate::error::ShadowVolumeError;
 use crate::mesh::Bounds;
+use crate::volume::decide::method::{Caps, Extrusion, Method};
+use crate::volume::gpu::counter;
+use crate::volume::light_pass::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
+use crate::volume::plan::limits;
+use crate::volume::{Counter, Silhouettes, StartFrom};
 use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
@@ -111,7 +113,7 @@ impl ShadowVolumeDescriptor<'_> {
 
 impl ShadowVolumeDescriptor<'_> {
     /// Whether the device can do what the descriptor asks for.
-    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+    pub(crate) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
         let format = self.depth_stencil_format;
         if !matches!(
             format,
@@ -160,7 +162,7 @@ impl ShadowVolumeDescriptor<'_> {
 }
 
 /// Whether the device keeps what lies beyond a far plane.
-pub(super) fn check_depth(
+pub(crate) fn check_depth(
     device: &wgpu::Device,
     depth: DepthConvention,
 ) -> Result<(), ShadowVolumeError> {
@@ -205,9 +207,8 @@ pub struct ShadowVolumeFrame<'a> {
     /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
     /// default: anywhere.
     ///
-    /// Worth giving: the whole of a frame's shadows then took 0.6 to 0.7 of the time on a scene of
-    /// 64 spheres around a point light, 0.4 under a directional light (software Vulkan, 1280x720;
-    /// `cargo bench --bench shadow_volume`). The closer the bounds, the better.
+    /// Worth giving, as it saves much of the fill (`unbounded_vs_textbook` against `auto_vs_textbook` in
+    /// `docs/benches.md`). The closer the bounds, the better.
     pub receivers: Option<Bounds>,
     /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
     /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound

@@ -1,22 +1,24 @@
 //! The renderer: prepare, encode, render.
 
-use super::buffers::Buffers;
-use super::draw::{self, DrawPipelines, Feed, issue};
-use super::found::Found;
-use super::groups::{Groups, Parts};
-use super::kept::Kept;
-use super::layers;
-use super::method::Options;
-use super::near_plane::NearPlane;
-use super::plan::{Batch, Draw, Means, Outline, Plan, PlanLimits};
-use super::silhouette::{CpuVolume, Extraction, Way, Ways, workgroups};
-use super::statistics::CasterState;
-use super::subject::words;
-use super::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 use crate::DepthConvention;
 use crate::error::{ShadowVolumeError, VolumeRenderError};
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
+use crate::volume::decide::decision::words;
+use crate::volume::decide::method::Options;
+use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::gpu::bind_groups::{Groups, Parts};
+use crate::volume::gpu::buffers::Buffers;
+use crate::volume::gpu::draw_calls::record;
+use crate::volume::gpu::draw_pipelines;
+use crate::volume::gpu::pipelines::{OwnPipelines, VolumePipelines};
+use crate::volume::gpu::staged::Found;
+use crate::volume::plan::cache::Kept;
+use crate::volume::plan::count_bound;
+use crate::volume::plan::faces::{Batch, Draw, Means, Outline, Plan, PlanLimits};
+use crate::volume::silhouette::{CpuVolume, Way, Ways, workgroups};
+use crate::volume::statistics::CasterState;
+use crate::volume::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 
 /// Stencil shadow volumes of one light for any number of casters.
 ///
@@ -55,13 +57,9 @@ pub struct ShadowVolumeRenderer {
     depth: DepthConvention,
     label: String,
     ways: Ways,
-    extraction: Option<Extraction>,
+    pipelines: OwnPipelines,
     /// Where the CPU finds one volume after another.
     on_cpu: CpuVolume,
-    /// Pipelines that read the lists of an extraction.
-    pulled: Option<DrawPipelines>,
-    /// Pipelines that are fed all triangles and edges.
-    fed: Option<DrawPipelines>,
     buffers: Buffers,
     groups: Groups,
     limits: PlanLimits,
@@ -78,7 +76,7 @@ pub struct ShadowVolumeRenderer {
 }
 
 /// What the last frame draws, and where it lies.
-pub(super) struct Drawn<'a> {
+pub(crate) struct Drawn<'a> {
     pub plan: &'a Plan,
     pub kept: &'a Kept,
     pub buffers: &'a Buffers,
@@ -87,7 +85,8 @@ pub(super) struct Drawn<'a> {
 }
 
 impl ShadowVolumeRenderer {
-    /// Compiles the pipelines.
+    /// Compiles the pipelines: for one renderer. Several share theirs:
+    /// [`with_pipelines`](Self::with_pipelines).
     ///
     /// # Errors
     /// [`ShadowVolumeError`] if a format or sample count does not fit, or the device lacks a
@@ -96,6 +95,19 @@ impl ShadowVolumeRenderer {
         device: &wgpu::Device,
         descriptor: &ShadowVolumeDescriptor<'_>,
     ) -> Result<Self, ShadowVolumeError> {
+        Self::with_pipelines(&VolumePipelines::new(device, None), descriptor)
+    }
+
+    /// A renderer for the device of these pipelines, which compiles those of them that no other
+    /// renderer has needed so far.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_pipelines(
+        pipelines: &VolumePipelines,
+        descriptor: &ShadowVolumeDescriptor<'_>,
+    ) -> Result<Self, ShadowVolumeError> {
+        let device = pipelines.device();
         descriptor.validate(device)?;
         let ways = Ways::new(descriptor.silhouettes, device)?;
         let label = match descriptor.label {
@@ -110,16 +122,9 @@ impl ShadowVolumeRenderer {
             limits,
             uploads: Uploads::new(device),
             submissions: Submissions::default(),
+            pipelines: pipelines.take(descriptor, &ways),
             ways,
-            extraction: ways
-                .contain(Way::Compute)
-                .then(|| Extraction::new(device, &label)),
             on_cpu: CpuVolume::default(),
-            pulled: (ways.contain(Way::Compute) || ways.contain(Way::Cpu))
-                .then(|| DrawPipelines::new(device, descriptor, Feed::Pulled, &label)),
-            fed: ways
-                .contain(Way::Vertex)
-                .then(|| DrawPipelines::new(device, descriptor, Feed::Records, &label)),
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             plan: Plan::default(),
@@ -214,7 +219,7 @@ impl ShadowVolumeRenderer {
         }
         self.submissions.watch(encoder);
         self.uploads.record(encoder);
-        let Some(extraction) = self.extraction.as_ref() else {
+        let Some(extraction) = self.pipelines.extraction.as_ref() else {
             return;
         };
         if self.plan.batches.is_empty() {
@@ -279,8 +284,8 @@ impl ShadowVolumeRenderer {
                 continue;
             };
             let pipelines = match slot.way {
-                Way::Vertex => self.fed.as_ref(),
-                Way::Compute | Way::Cpu => self.pulled.as_ref(),
+                Way::Vertex => self.pipelines.fed.as_ref(),
+                Way::Compute | Way::Cpu => self.pipelines.pulled.as_ref(),
             };
             let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw)) else {
                 continue;
@@ -293,7 +298,7 @@ impl ShadowVolumeRenderer {
                 pass.set_pipeline(pipeline);
                 current = Some(state);
             }
-            issue(pass, draw, slot, &drawn);
+            record(pass, draw, slot, &drawn);
         }
     }
 
@@ -309,7 +314,7 @@ impl ShadowVolumeRenderer {
     /// The pass needs write access to the stencil. Between lights, clear the stencil to 0 and keep
     /// the depth.
     pub fn light_pass_stencil() -> wgpu::StencilState {
-        draw::light_pass()
+        draw_pipelines::light_pass()
     }
 
     /// What the last [`prepare`](Self::prepare) came to.
@@ -323,7 +328,7 @@ impl ShadowVolumeRenderer {
     }
 
     /// What the debug views draw from.
-    pub(super) fn drawn(&self) -> Drawn<'_> {
+    pub(crate) fn drawn(&self) -> Drawn<'_> {
         Drawn {
             plan: &self.plan,
             kept: &self.kept,
@@ -334,7 +339,7 @@ impl ShadowVolumeRenderer {
     }
 
     /// Sets the bind group that a draw reads, if it is there.
-    pub(super) fn bind_volume(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
+    pub(crate) fn bind_volume(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
         let Some(group) = self.groups.of_caster(draw.caster as usize) else {
             return false;
         };
@@ -350,13 +355,12 @@ impl ShadowVolumeRenderer {
     /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
     /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
     ///
-    /// Takes the CPU once or twice as long as extracting the volumes drawn
-    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)); what a caster comes to is kept with its
-    /// volume, and what is left to do where nothing moved is to sort the casters: on the example's
-    /// scenes 3 for `spheres`, 17 for `teapot` and 62 for `courtyard`, there in 32 ms the first time
-    /// and 0.05 ms each time after.
+    /// The first time this takes the CPU once or twice as long as extracting the volumes
+    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)). Each caster's bound is kept with its volume, so where
+    /// nothing moved only the casters are sorted. On the scenes of the example `compare` the bound is 3
+    /// for `spheres`, 17 for `teapot` and 62 for `courtyard`.
     pub fn count_bound(&mut self) -> u64 {
-        layers::bound(&self.plan, &mut self.kept, &mut self.on_cpu)
+        count_bound::bound(&self.plan, &mut self.kept, &mut self.on_cpu)
     }
 
     /// Whether the counter could wrap in the frame prepared last, so that a point in shadow would
@@ -431,9 +435,9 @@ impl ShadowVolumeRenderer {
             device: &self.device,
             label: &self.label,
             buffers: &self.buffers,
-            extraction: self.extraction.as_ref(),
-            pulled: self.pulled.as_ref(),
-            fed: self.fed.as_ref(),
+            extraction: self.pipelines.extraction.as_ref(),
+            pulled: self.pipelines.pulled.as_ref(),
+            fed: self.pipelines.fed.as_ref(),
         };
         self.groups.update(&self.plan, &self.kept, &parts);
     }

@@ -1,7 +1,7 @@
 //! What became of each caster.
 
-use super::VolumeStatistics;
-use super::method::{Count, Skip};
+use crate::volume::VolumeStatistics;
+use crate::volume::decide::method::{Count, Skip};
 
 /// What a renderer decided for one caster of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -44,7 +44,7 @@ impl From<Skip> for CasterState {
 
 /// What is counted while a frame is planned.
 #[derive(Debug, Default)]
-pub(super) struct Tally {
+pub(crate) struct Tally {
     pub statistics: VolumeStatistics,
     /// One for each caster of the frame, in its order.
     pub states: Vec<CasterState>,

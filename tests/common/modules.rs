@@ -10,6 +10,8 @@ pub const JOINED: &[&[&str]] = &[
     FACE,
     &["cube_caster", "cube_caster_gl"],
     &["cube_cross"],
+    // Written by nobody yet.
+    &["light_record"],
     PULLED,
     PULLED_STEPS,
     RECORDS,

@@ -1,5 +1,8 @@
 //! Shadow maps as they are drawn: every texel, what is cached and what is left out, each against an exact answer.
 
+mod atlas;
+mod atlas_cascades;
+mod atlas_casters;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_budget;
@@ -19,5 +22,6 @@ mod host_mesh;
 mod map_calls;
 mod near_plane;
 mod numerics;
+mod places;
 #[path = "../common/receivers.rs"]
 mod receivers;

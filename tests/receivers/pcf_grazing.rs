@@ -6,8 +6,8 @@ use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     AnyMap, Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
-    FlatLight, Kernel, PcfDescriptor, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    SpotLight, glam,
+    FlatLight, Kernel, MapKind, PcfDescriptor, PointLight, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, SpotLight, glam,
 };
 
 const SIZE: u32 = 256;
@@ -263,6 +263,7 @@ fn what_stands_beyond_the_horizon_of_a_receiver_casts_no_shadow_on_it() {
             .replace("select(receiver.own, ", "select(0.0, ")
             .replace("select(own, ", "select(0.0, ")
             .replace(", receiver.own, ", ", 0.0, ")
+            .replace(", receiver.alone, ", ", 0.0, ")
     });
     for (kernel, [right, broken]) in counts {
         // No texel by itself has a depth there that could be broken.
@@ -302,5 +303,62 @@ fn texels_beyond_the_horizon_are_reflected_into_the_shadow_of_what_ends_there() 
             // The taps of a disk are on the plane, and nothing is to be reflected.
             true => assert!(right < 30 && broken == right, "{kernel:?}: {right}"),
         }
+    }
+}
+
+/// Rows of the map are so wide there that the one that a receiver lies in has its centre above the horizon
+/// of the ground.
+#[test]
+fn a_disk_by_a_row_above_the_ground_is_compared_with_the_receivers_own_distance() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let light = Vec3::Y * 8e-3;
+    // A wall at x = 9, and the ground behind it.
+    let wall = Affine3A::from_translation(Vec3::X * 9.0)
+        * Affine3A::from_rotation_z(std::f32::consts::FRAC_PI_2);
+    let casters = [square(8.0).caster(&gpu.device, wall)];
+    let mut random = Random::new(4);
+    let points: Vec<_> = (0..600)
+        .map(|_| Vec3::new(13.0 + 3.0 * random.next(), 0.0, 2.0 * random.next()))
+        .map(|point| (point, Vec3::Y))
+        .collect();
+    // The horizon is 0.45 of a row above the axis, the ground behind the wall 0.2 to 0.3.
+    let tilt = 0.45 * 2.0 * 0.35f32.tan() / SIZE as f32;
+    let axis = Vec3::new(1.0, -tilt, 0.0);
+    let descriptor = ShadowMapDescriptor {
+        size: SIZE,
+        ..Default::default()
+    };
+    let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();
+    let spot = FlatLight::Spot(SpotLight::new(light, axis, 0.35, 40.0));
+    map.prepare(&gpu.device, &gpu.queue, &ShadowFrame::new(spot, &casters))
+        .unwrap();
+    gpu.run(|encoder| map.encode(encoder));
+    let disks = [
+        Kernel::RandomDisk(Default::default()),
+        Kernel::Vogel(Default::default()),
+        Kernel::ContactHardening(Default::default()),
+    ];
+    for kernel in disks {
+        let descriptor = PcfDescriptor {
+            kernel,
+            map: MapKind::Flat,
+            ..Default::default()
+        };
+        let lit = |own: &str| {
+            let seen = ask_changed(&gpu, (&map).into(), &descriptor, 0, &points, |module| {
+                let asked = "select(depth, receiver.alone, beyond)";
+                assert!(module.contains(asked));
+                module.replace(asked, own)
+            });
+            seen.into_iter().filter(|&lit| lit > 0.0).count()
+        };
+        assert_eq!(
+            lit("select(depth, receiver.alone, beyond)"),
+            0,
+            "{kernel:?}"
+        );
+        // The broken twin: the plane's depth there, which the bias takes for much nearer.
+        let biased = lit("select(depth, receiver.own, beyond)");
+        assert!(biased > 300, "{kernel:?}: {biased}");
     }
 }

@@ -5,7 +5,6 @@ mod dependencies;
 mod features;
 mod figures;
 mod pages;
-mod readme;
 mod rust_version;
 
 /// The text of a file of the repository.

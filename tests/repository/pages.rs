@@ -20,7 +20,8 @@ fn is_excerpt(block: &str) -> bool {
 
 #[test]
 fn the_steps_of_adding_the_crate_are_excerpts_of_examples() {
-    let blocks = blocks(&read("docs/adding.md"), "rust");
+    // The others are tests of the documentation.
+    let blocks = blocks(&read("docs/adding.md"), "rust,ignore");
     assert!(blocks.len() >= 8, "{} blocks", blocks.len());
     for block in blocks {
         assert!(is_excerpt(&block), "in no example:\n{block}");
@@ -28,10 +29,35 @@ fn the_steps_of_adding_the_crate_are_excerpts_of_examples() {
     }
 }
 
-/// Where a page's links and pictures lead, but for other sites and places within the page.
+/// README's code: the pieces between its comments `// ...` are excerpts.
+#[test]
+fn the_readme_shows_code_that_runs() {
+    let blocks = blocks(&read("README.md"), "rust");
+    assert_eq!(blocks.len(), 1);
+    let lines: Vec<&str> = blocks[0].lines().collect();
+    let pieces: Vec<String> = lines
+        .split(|line| line.starts_with("// ..."))
+        .map(|piece| piece.join("\n"))
+        .collect();
+    assert!(pieces.len() >= 4, "{} pieces", pieces.len());
+    for piece in pieces {
+        assert!(is_excerpt(&piece), "in no example:\n{piece}");
+        assert!(!is_excerpt(&piece.replacen('(', "((", 1)));
+    }
+    assert!(
+        lines.len() <= 40,
+        "{} lines are not the shortest code",
+        lines.len()
+    );
+}
+
+/// Where a page's links and pictures lead, those of its definitions `[name]: target` included, but for other
+/// sites and places within the page.
 fn links(page: &str) -> Vec<&str> {
     let starts = page.split("](").skip(1);
-    let targets = starts.map(|rest| rest.split(')').next().unwrap());
+    let inline = starts.map(|rest| rest.split(')').next().unwrap());
+    let defined = page.lines().filter(|line| line.starts_with('['));
+    let targets = inline.chain(defined.filter_map(|line| line.split_once("]: ").map(|(_, to)| to)));
     targets
         .map(|target| target.split('#').next().unwrap())
         .filter(|target| !target.is_empty() && !target.contains("://") && !target.contains("data:"))
@@ -65,6 +91,9 @@ fn what_pages_link_to_is_there() {
         assert!(broken.is_empty(), "{}: {broken:?}", path.display());
     }
     let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let broken = broken_links(&readme, "![a](docs/none.png) [b](docs/adding.md#none)");
-    assert_eq!(broken, ["docs/none.png"]);
+    let broken = broken_links(
+        &readme,
+        "![a](docs/none.png) [b](docs/adding.md) [c][c]\n[c]: no.md",
+    );
+    assert_eq!(broken, ["docs/none.png", "no.md"]);
 }

@@ -18,6 +18,7 @@ mod near_light;
 mod near_plane;
 mod passes;
 mod pictures;
+mod pipelines;
 mod random;
 mod receivers;
 mod screen;

@@ -1,12 +1,14 @@
-//! Every kernel on the same shadows, as one picture: docs/kernels.png. Or ours and other engines' in our
-//! rendition, with what is wrong in colour (red: false light, blue: false shadow): docs/peers.png.
+//! The same shadows by several techniques, as one picture:
 //!
 //! ```text
-//! cargo run --release --example kernel_sheet -- docs/kernels.png
-//! cargo run --release --example kernel_sheet -- --peers docs/peers.png
+//! cargo run --release --example kernel_sheet -- --kernels docs/kernels.png        every kernel
+//! cargo run --release --example kernel_sheet -- --peers docs/peers.png            ours and other engines'
+//! cargo run --release --example kernel_sheet -- --difference docs/difference.png  close-ups: textbook, ours
 //! ```
+//!
+//! In the last two wrong pixels have a colour: red where light is false, blue where shadow is.
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 use compare::shadow::Shadow;
 use compare::stage::Stage;
 use host::gpu::Gpu;
@@ -21,87 +23,150 @@ const COLUMNS: u32 = 4;
 /// Grey levels of the picture.
 const LEVELS: u32 = 48;
 
-/// What is shown of what.
+/// Tiles in reading order, each with its camera and a technique's name, or `exact` or `area` for rays.
 struct Sheet {
-    /// In reading order; rays where there is no such technique.
-    tiles: &'static [&'static str],
+    tiles: Vec<(Camera, &'static str)>,
     /// Texels of a face.
     side: u32,
-    camera: Camera,
     /// Whether wrong pixels have a colour.
     errors: bool,
 }
 
-/// Few texels, so that kernels show.
-const KERNELS: Sheet = Sheet {
-    tiles: &[
-        "exact",
-        "cube-hard",
-        "cube-2x2",
-        "cube-16",
-        "cube-3x3",
-        "cube-5x5",
-        "cube-7x7",
-        "cube-disk",
-        "cube-disk-full",
-        "cube-vogel",
-        "cube-pcss",
-        "area",
-    ],
-    side: 512,
-    camera: Camera {
-        eye: Vec3::new(-4.6, 5.9, 13.7),
-        target: Vec3::new(2.35, 0.0, 5.75),
-        fovy: 0.25,
-        near: 0.1,
-    },
-    errors: false,
-};
+const EYE: Vec3 = Vec3::new(-4.6, 5.9, 13.7);
 
-const PEERS: Sheet = Sheet {
-    tiles: &[
-        "exact",
-        "cube-2x2",
-        "cube-hw",
-        "cube-3x3",
-        "cube-textbook",
-        "peer-bevy-2x2",
-        "peer-bevy-gaussian",
-        "peer-three",
-    ],
-    side: 1024,
-    camera: Camera {
-        fovy: 0.13,
-        target: Vec3::new(1.2, 0.3, 6.2),
-        ..KERNELS.camera
-    },
-    errors: true,
-};
+/// A part of the courtyard, from where the whole of it is seen.
+const fn close_up(target: Vec3, fovy: f32) -> Camera {
+    Camera {
+        eye: EYE,
+        target,
+        fovy,
+        near: 0.1,
+    }
+}
+
+const CHAINS: Camera = close_up(Vec3::new(2.35, 0.0, 5.75), 0.25);
+const LINKS: Camera = close_up(Vec3::new(1.2, 0.3, 6.2), 0.13);
+
+/// Links of a chain, a bollard's foot, where two panels of the fence meet, a railing.
+const CLOSE_UPS: [Camera; COLUMNS as usize] = [
+    close_up(Vec3::new(1.55, 0.5, 5.2), 0.04),
+    close_up(Vec3::new(2.75, 0.08, 5.0), 0.05),
+    close_up(Vec3::new(-3.45, 0.05, 4.8), 0.07),
+    close_up(Vec3::new(5.9, 1.2, -0.3), 0.07),
+];
+
+fn of_one_view(camera: Camera, techniques: &[&'static str]) -> Vec<(Camera, &'static str)> {
+    techniques.iter().map(|name| (camera, *name)).collect()
+}
+
+fn sheet(kind: &str) -> Result<Sheet> {
+    Ok(match kind {
+        // Few texels, so that kernels show.
+        "--kernels" => Sheet {
+            tiles: of_one_view(
+                CHAINS,
+                &[
+                    "exact",
+                    "cube-hard",
+                    "cube-2x2",
+                    "cube-16",
+                    "cube-3x3",
+                    "cube-5x5",
+                    "cube-7x7",
+                    "cube-disk",
+                    "cube-disk-full",
+                    "cube-vogel",
+                    "cube-pcss",
+                    "area",
+                ],
+            ),
+            side: 512,
+            errors: false,
+        },
+        "--peers" => Sheet {
+            tiles: of_one_view(
+                LINKS,
+                &[
+                    "exact",
+                    "cube-2x2",
+                    "cube-hw",
+                    "cube-3x3",
+                    "cube-textbook",
+                    "peer-bevy-2x2",
+                    "peer-bevy-gaussian",
+                    "peer-three",
+                ],
+            ),
+            side: 1024,
+            errors: true,
+        },
+        "--difference" => Sheet {
+            tiles: ["cube-textbook", "cube-2x2", "volume"]
+                .iter()
+                .flat_map(|name| CLOSE_UPS.map(|camera| (camera, *name)))
+                .collect(),
+            side: 1024,
+            errors: true,
+        },
+        other => bail!("{other} is none of --kernels, --peers, --difference"),
+    })
+}
+
+/// One camera's stage and what is exact there.
+struct View {
+    camera: Camera,
+    stage: Stage,
+    reference: ReferenceImage,
+}
+
+impl View {
+    fn new(gpu: &Gpu, camera: Camera) -> Result<Self> {
+        let mut scene = courtyard();
+        scene.camera = camera;
+        let stage = Stage::new(gpu, scene, TILE)?;
+        let reference = stage.reference(|_| ())?;
+        Ok(Self {
+            camera,
+            stage,
+            reference,
+        })
+    }
+}
+
+/// The place of a camera's view, which is made where there is none.
+fn view_of(gpu: &Gpu, views: &mut Vec<View>, camera: Camera) -> Result<usize> {
+    if let Some(place) = views.iter().position(|view| view.camera == camera) {
+        return Ok(place);
+    }
+    views.push(View::new(gpu, camera)?);
+    Ok(views.len() - 1)
+}
 
 fn main() -> Result<()> {
-    let mut args: Vec<String> = std::env::args().skip(1).collect();
-    let peers = args.first().is_some_and(|arg| arg == "--peers");
-    let path = args.pop().filter(|path| !path.starts_with("--"));
-    let path = path.context("name the file to write, such as docs/kernels.png")?;
-    let sheet = if peers { PEERS } else { KERNELS };
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let [kind, path] = args.as_slice() else {
+        bail!("say --kernels, --peers or --difference, and the file to write");
+    };
+    let sheet = sheet(kind)?;
     let gpu = Gpu::new(None)?;
-    let mut scene = courtyard();
-    scene.camera = sheet.camera;
-    let stage = Stage::new(&gpu, scene, TILE)?;
-    let reference = stage.reference(|_| ())?;
     let rows = (sheet.tiles.len() as u32).div_ceil(COLUMNS);
     let size = [
         COLUMNS * (TILE[0] + GAP) - GAP,
         rows * (TILE[1] + GAP) - GAP,
     ];
     let mut pixels = vec![[255; 3]; (size[0] * size[1]) as usize];
-    for (place, name) in (0..).zip(sheet.tiles) {
+    let mut views = Vec::new();
+    for (place, (camera, name)) in (0..).zip(&sheet.tiles) {
+        let view = view_of(&gpu, &mut views, *camera)?;
+        let View {
+            stage, reference, ..
+        } = &views[view];
         let visibility = match *name {
             "exact" => reference.visibility(),
-            "area" => area(&reference),
-            name => shown(&gpu, &stage, name, sheet.side)?,
+            "area" => area(reference),
+            name => shown(&gpu, stage, name, sheet.side)?,
         };
-        let colors = tile(&reference, &visibility, sheet.errors)?;
+        let colors = tile(reference, &visibility, sheet.errors)?;
         let corner = [
             place % COLUMNS * (TILE[0] + GAP),
             place / COLUMNS * (TILE[1] + GAP),
@@ -118,8 +183,9 @@ fn main() -> Result<()> {
             host::image::grey_png(size, &grey)?
         }
     };
-    std::fs::write(&path, file)?;
-    host::terminal::say(&format!("{path}: {}", sheet.tiles.join(", ")))
+    std::fs::write(path, file)?;
+    let names: Vec<&str> = sheet.tiles.iter().map(|(_, name)| *name).collect();
+    host::terminal::say(&format!("{path}: {}", names.join(", ")))
 }
 
 /// Visibility in few levels, which make a small file.

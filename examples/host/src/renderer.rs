@@ -24,6 +24,7 @@ struct FrameUniform {
     ambient: [f32; 4],
     horizon: [f32; 4],
     zenith: [f32; 4],
+    light: LightUniform,
 }
 
 /// `HostLight` in host.wgsl.
@@ -46,7 +47,7 @@ pub struct Renderer {
     depth_stencil_format: wgpu::TextureFormat,
     targets: Targets,
     host_layout: wgpu::BindGroupLayout,
-    /// One for each light, as a second dynamic offset crashes Mesa's lavapipe.
+    /// One for each light.
     host_groups: Vec<wgpu::BindGroup>,
     uniforms: Uniforms,
     /// As they were last shown.
@@ -58,11 +59,11 @@ pub struct Renderer {
     unshadowed: LitPipeline,
 }
 
-/// What shaders are told of the frame, and of each light.
+/// What shaders are told of the frame, once for each light with that light. (A third uniform buffer in
+/// the host's group crashes Mesa 22's lavapipe where a map's group brings another.)
 struct Uniforms {
-    frame: wgpu::Buffer,
-    lights: wgpu::Buffer,
-    light_stride: u32,
+    frames: wgpu::Buffer,
+    stride: u32,
 }
 
 impl Renderer {
@@ -394,7 +395,7 @@ pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     }
 }
 
-fn frame_uniform(scene: &Scene, clip_from_world: Mat4) -> FrameUniform {
+fn frame_uniform(scene: &Scene, clip_from_world: Mat4, light: usize) -> FrameUniform {
     let sky = &scene.sky;
     let color = |[r, g, b]: [f32; 3], a| [r, g, b, a];
     FrameUniform {
@@ -404,6 +405,7 @@ fn frame_uniform(scene: &Scene, clip_from_world: Mat4) -> FrameUniform {
         ambient: color(sky.ambient, sky.haze),
         horizon: color(sky.horizon, 1.0),
         zenith: color(sky.zenith, 1.0),
+        light: light_uniform(scene, light),
     }
 }
 
@@ -437,31 +439,24 @@ fn light_uniform(scene: &Scene, number: usize) -> LightUniform {
 impl Uniforms {
     fn new(gpu: &Gpu, scene: &Scene) -> Self {
         let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment as usize;
-        let light_stride = size_of::<LightUniform>().next_multiple_of(alignment);
-        let buffer = |label, size| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: size as u64,
+        let stride = size_of::<FrameUniform>().next_multiple_of(alignment);
+        Self {
+            frames: gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("frames"),
+                size: (stride * scene.lights.len()) as u64,
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
-            })
-        };
-        Self {
-            frame: buffer("frame", size_of::<FrameUniform>()),
-            lights: buffer("lights", light_stride * scene.lights.len()),
-            light_stride: light_stride as u32,
+            }),
+            stride: stride as u32,
         }
     }
 
     fn write(&self, gpu: &Gpu, scene: &Scene, clip_from_world: Mat4) {
-        let frame = frame_uniform(scene, clip_from_world);
-        gpu.queue
-            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
-        for number in 0..scene.lights.len() {
-            let (at, light) = (number as u64, light_uniform(scene, number));
-            let at = at * u64::from(self.light_stride);
+        for light in 0..scene.lights.len() {
+            let frame = frame_uniform(scene, clip_from_world, light);
+            let at = light as u64 * u64::from(self.stride);
             gpu.queue
-                .write_buffer(&self.lights, at, bytemuck::bytes_of(&light));
+                .write_buffer(&self.frames, at, bytemuck::bytes_of(&frame));
         }
     }
 }
@@ -479,7 +474,7 @@ fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("host"),
-        entries: &[entry(0, false), entry(1, true), entry(2, false)],
+        entries: &[entry(0, false), entry(1, true)],
     })
 }
 
@@ -498,9 +493,8 @@ fn host_group(
         })
     };
     let resources = [
-        uniforms.frame.as_entire_binding(),
+        one_of(&uniforms.frames, uniforms.stride, light),
         one_of(&scene.object_uniforms, scene.object_stride, 0),
-        one_of(&uniforms.lights, uniforms.light_stride, light),
     ];
     let entries = (0..).zip(resources);
     let entries: Vec<_> = entries

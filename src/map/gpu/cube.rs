@@ -11,7 +11,7 @@ use super::uniforms::{FaceUniform, FaceUniforms};
 use crate::map::cube_descriptor::CubeShadowMapDescriptor;
 use crate::map::encoding::DepthEncoding;
 use crate::map::plan::{DrawMode, Slot, Slots};
-use crate::map::projection::{CubeFace, NearPlane};
+use crate::map::projection::{CubeFace, NearPlane, TileProjection};
 use crate::map::sides::CasterSides;
 use crate::mesh::Caster;
 use crate::scene::Casters;
@@ -74,7 +74,7 @@ impl CubeGpu {
             pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
             uniforms,
             instances: Instances::new(device, &label),
-            draws: DrawLists::new(slots),
+            draws: DrawLists::default(),
             uploads: Uploads::new(device),
             label,
         }
@@ -147,7 +147,7 @@ impl CubeGpu {
     ) {
         if let Some(least) = layer_least {
             slot.choose_modes(drawn, least, casters);
-            for (bit, face) in slot.faces.iter().enumerate() {
+            for (bit, face) in slot.tiles.iter().enumerate() {
                 let built = matches!(face.layer.mode(), DrawMode::Build(_));
                 if drawn & 1 << bit != 0 && built {
                     self.layers.make(device, index, bit);
@@ -157,10 +157,13 @@ impl CubeGpu {
         let (near_plane, sides) = (self.near_plane, self.sides);
         self.draws
             .add((index, slot), drawn, near_plane, sides, (casters, all));
-        let Some(light) = slot.light else { return };
-        let near = near_plane.of_point(&light);
         for face in CubeFace::ALL {
-            let uniform = FaceUniform::new(&face.clip_from_light(near), light.range, self.size);
+            let tile = face.layer() as usize;
+            let Some(projection) = slot.projection(tile) else {
+                continue;
+            };
+            let matrix = projection.clip_from_light(tile, near_plane);
+            let uniform = FaceUniform::new(&matrix, projection.range(), self.size);
             let at = uniform_index(index, face);
             self.uniforms.write(&mut self.uploads, at, uniform);
         }
@@ -179,7 +182,8 @@ impl CubeGpu {
     pub fn write_lights(&mut self, lights: &[PointLight], slots: &Slots, marks_casterless: bool) {
         for ((place, wanted), &index) in lights.iter().enumerate().zip(slots.order()) {
             let slot = &slots[index];
-            let depths = match (self.textures.slot(index), slot.shown) {
+            let shown = shown_light(slot);
+            let depths = match (self.textures.slot(index), shown) {
                 (None, _) => Depths::NoCaster,
                 (Some(_), Some(shown))
                     if marks_casterless && slot.casting == 0 && shown == *wanted =>
@@ -190,7 +194,7 @@ impl CubeGpu {
                 (Some(_), Some(_)) => Depths::Cube(0),
                 (Some(_), None) => Depths::NotYet,
             };
-            let light = slot.shown.unwrap_or(*wanted);
+            let light = shown.unwrap_or(*wanted);
             let near = self.near_plane.of_point(&light);
             let (size, bias, format) = (self.size, &self.bias, self.format);
             let uniform = LightUniform::new(&light, near, depths, size, bias, format);
@@ -244,7 +248,7 @@ impl CubeGpu {
         slot: &Slot,
         face: CubeFace,
     ) {
-        let draws = self.draws.of(index, face.layer() as usize);
+        let draws = &self.draws.of(index, face.layer() as usize).tile.draws;
         let load = match self.encode_layer(encoder, index, slot, face) {
             true if draws.is_empty() => return,
             true => wgpu::LoadOp::Load,
@@ -267,12 +271,12 @@ impl CubeGpu {
         let Some(view) = self.layers.view(index, face) else {
             return false; // prepare made a layer wherever there is a mode that needs one
         };
-        match slot.faces[face.layer() as usize].layer.mode() {
+        match slot.tiles[face.layer() as usize].layer.mode() {
             DrawMode::Whole => return false,
             DrawMode::Build(_) => {
                 let label = self.face_label(index, face);
                 let mut pass = begin_depth_pass(encoder, &label, view, self.clear());
-                let draws = self.draws.of_layer(index, face.layer() as usize);
+                let draws = &self.draws.of(index, face.layer() as usize).layer.draws;
                 self.record(&mut pass, index, face, draws);
             }
             DrawMode::Copy(_) => {}
@@ -315,6 +319,14 @@ impl CubeGpu {
 
     fn face_label(&self, index: usize, face: CubeFace) -> String {
         format!("{} {index} {face:?}", self.label)
+    }
+}
+
+/// The light that receivers are told of.
+pub(crate) fn shown_light(slot: &Slot) -> Option<PointLight> {
+    match slot.tiles.first()?.shown? {
+        TileProjection::Face(light) => Some(light),
+        TileProjection::Flat(_) => None,
     }
 }
 

@@ -5,10 +5,10 @@ use glam::DAffine3;
 use super::instances::{Instance, Instances, instance};
 use super::pipelines::{PipelineKey, Pipelines};
 use crate::map::plan::Slot;
-use crate::map::projection::{FlatFrame, NearPlane, clear_of_near};
+use crate::map::projection::{MOST_TILES, NearPlane};
 use crate::map::sides::{CasterSides, Cull};
 use crate::mesh::{Caster, CasterMesh};
-use crate::scene::Casters;
+use crate::scene::{Casters, Record};
 
 /// One draw call: a mesh, and where its instances lie.
 #[derive(Clone, Debug)]
@@ -25,6 +25,10 @@ impl Draw {
         PipelineKey {
             stride: self.mesh.layout().0,
             cull: self.cull,
+            places: self
+                .mesh
+                .places()
+                .map(|places| (places.layout, places.stride)),
         }
     }
 
@@ -50,7 +54,12 @@ impl Draw {
         pass.set_vertex_buffer(1, instances);
         let (indices, format) = self.mesh.indices();
         pass.set_index_buffer(indices, format);
-        pass.draw_indexed(0..self.mesh.triangle_count() * 3, 0, 0..self.instance_count);
+        let mut count = self.instance_count;
+        if let Some(places) = self.mesh.places() {
+            pass.set_vertex_buffer(2, places.buffer.slice(places.offset..));
+            count = places.count;
+        }
+        pass.draw_indexed(0..self.mesh.index_count(), 0, 0..count);
     }
 }
 
@@ -66,7 +75,12 @@ fn batch(
     draws: &mut Vec<Draw>,
 ) {
     members.sort_unstable();
-    for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+    let many_places = |mesh: u32| {
+        casters
+            .mesh(mesh)
+            .is_some_and(|mesh| mesh.places().is_some())
+    };
+    for run in members.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1) && !many_places(a.0)) {
         let Some(mesh) = casters.mesh(run[0].0) else {
             continue; // the mesh of every record is there
         };
@@ -80,74 +94,89 @@ fn batch(
     }
 }
 
-/// The draws of a flat map's casters, and their instances.
-pub(crate) fn draws_of_flat(
-    frame: &FlatFrame,
-    sides: CasterSides,
-    casters: &Casters,
-    all: &[Caster],
-) -> (Vec<Draw>, Vec<Instance>) {
-    let light_from_world = DAffine3::from_translation(-frame.origin.as_dvec3());
-    let frustum = frame.frustum();
-    let on_map = casters.records().iter().zip(all);
-    let on_map = on_map.filter(|(record, _)| frustum.holds(record));
-    let (mut members, mut rows) = (Vec::<Member>::new(), Vec::new());
-    for (record, caster) in on_map {
-        let cull = Cull::of(sides, record, frame.is_clear_of(&record.bounds));
-        members.push((record.mesh, cull, rows.len() as u32));
-        rows.push(instance(&(light_from_world * caster.transform())));
-    }
-    let (mut draws, mut instances) = (Vec::new(), Vec::with_capacity(rows.len()));
-    batch(&mut members, &rows, casters, &mut instances, &mut draws);
-    (draws, instances)
+/// What is drawn on one tile, and on the layer under it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct TileDraws {
+    pub tile: ListedDraws,
+    pub layer: ListedDraws,
 }
 
-/// The draws of all faces of a cube map that the next encode draws.
+/// Draws in one pass: those of the map, and the places of casters that the host draws.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ListedDraws {
+    pub draws: Vec<Draw>,
+    pub host: Vec<usize>,
+}
+
+impl ListedDraws {
+    const NONE: Self = Self {
+        draws: Vec::new(),
+        host: Vec::new(),
+    };
+}
+
+/// The draws of all tiles of a map that the next encode draws.
 #[derive(Debug, Default)]
 pub(crate) struct DrawLists {
-    faces: Vec<[Vec<Draw>; 6]>,
-    /// Those of the layers under the faces, where they are drawn.
-    layers: Vec<[Vec<Draw>; 6]>,
+    /// By slot; empty where nothing is drawn.
+    slots: Vec<Vec<TileDraws>>,
     instances: Vec<Instance>,
-    // Kept only for its memory: those of each face and layer.
-    members: [Vec<Member>; 12],
+    // Kept only for its memory: those of each tile and layer.
+    members: [[Vec<Member>; 2]; MOST_TILES],
     rows: Vec<Instance>,
 }
 
 impl DrawLists {
-    pub fn new(slots: usize) -> Self {
-        Self {
-            faces: (0..slots).map(|_| Default::default()).collect(),
-            layers: (0..slots).map(|_| Default::default()).collect(),
-            ..Self::default()
-        }
-    }
-
     pub fn clear(&mut self) {
-        let lists = self.faces.iter_mut().chain(&mut self.layers);
-        lists.flatten().for_each(Vec::clear);
+        self.slots.iter_mut().for_each(Vec::clear);
         self.instances.clear();
     }
 
-    pub fn of(&self, slot: usize, face: usize) -> &[Draw] {
-        &self.faces[slot][face]
-    }
-
-    /// What goes on the layer under a face.
-    pub fn of_layer(&self, slot: usize, face: usize) -> &[Draw] {
-        &self.layers[slot][face]
+    /// What is drawn on a tile of a slot.
+    pub fn of(&self, slot: usize, tile: usize) -> &TileDraws {
+        const NONE: &TileDraws = &TileDraws {
+            tile: ListedDraws::NONE,
+            layer: ListedDraws::NONE,
+        };
+        let tiles = self.slots.get(slot);
+        tiles.and_then(|tiles| tiles.get(tile)).unwrap_or(NONE)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Draw> {
-        self.faces.iter().chain(&self.layers).flatten().flatten()
+        let tiles = self.slots.iter().flatten();
+        tiles.flat_map(|draws| draws.tile.draws.iter().chain(&draws.layer.draws))
     }
 
     pub fn instances(&self) -> &[Instance] {
         &self.instances
     }
 
-    /// Adds some faces of a slot.
+    /// Adds some tiles of a slot.
     pub fn add(
+        &mut self,
+        (index, slot): (usize, &Slot),
+        drawn: u8,
+        near_plane: NearPlane,
+        sides: CasterSides,
+        (casters, all): (&Casters, &[Caster]),
+    ) {
+        let Some(light) = slot.light() else { return };
+        if self.slots.len() <= index {
+            self.slots.resize_with(index + 1, Vec::new);
+        }
+        self.slots[index].clear();
+        self.slots[index].resize_with(light.count(), TileDraws::default);
+        let tiles = (0..light.count()).filter(|tile| drawn & 1 << tile != 0);
+        // Tiles of one origin share the rows of their casters.
+        match light.is_joint() {
+            true => self.add_tiles((index, slot), drawn, near_plane, sides, (casters, all)),
+            false => tiles.for_each(|tile| {
+                self.add_tiles((index, slot), 1 << tile, near_plane, sides, (casters, all));
+            }),
+        }
+    }
+
+    fn add_tiles(
         &mut self,
         (index, slot): (usize, &Slot),
         mask: u8,
@@ -155,30 +184,62 @@ impl DrawLists {
         sides: CasterSides,
         (casters, all): (&Casters, &[Caster]),
     ) {
-        let Some(light) = slot.light else { return };
-        let near = f64::from(near_plane.of_point(&light));
-        let light_from_world = DAffine3::from_translation(-light.position.as_dvec3());
+        let first = mask.trailing_zeros() as usize;
+        let Some(projection) = slot.projection(first) else {
+            return;
+        };
+        let light_from_world = DAffine3::from_translation(-projection.origin().as_dvec3());
         self.rows.clear();
-        self.members.iter_mut().for_each(Vec::clear);
+        self.members.iter_mut().flatten().for_each(Vec::clear);
         for at in slot.masks().touching(mask) {
             let (caster, record) = (&all[at], &casters.records()[at]);
-            let lists = slot.lists(slot.masks().get(at) & mask, record);
-            if lists == 0 {
-                continue; // all on layers that are there
+            if record.host_drawn {
+                self.add_host_drawn((index, slot), at, mask, record);
+                continue;
             }
-            let bounds = record.bounds.relative_to(light.position);
-            let cull = Cull::of(sides, record, clear_of_near(&bounds, near));
-            for (bit, members) in self.members.iter_mut().enumerate() {
-                if lists & 1 << bit != 0 {
-                    members.push((record.mesh, cull, self.rows.len() as u32));
+            let clear = projection.is_clear_of(&record.bounds, near_plane);
+            let member = (
+                record.mesh,
+                Cull::of(sides, record, clear),
+                self.rows.len() as u32,
+            );
+            let on = slot.masks().get(at) & mask;
+            let mut listed = false;
+            for (tile, [on_tile, on_layer]) in self.members.iter_mut().enumerate() {
+                if on & 1 << tile != 0 {
+                    let (in_tile, in_layer) = slot.lists(tile, record);
+                    on_tile.extend(in_tile.then_some(member));
+                    on_layer.extend(in_layer.then_some(member));
+                    listed |= in_tile | in_layer;
                 }
             }
-            self.rows
-                .push(instance(&(light_from_world * caster.transform())));
+            if listed {
+                self.rows
+                    .push(instance(&(light_from_world * caster.transform())));
+            }
         }
-        let lists = self.faces[index].iter_mut().chain(&mut self.layers[index]);
-        for (members, draws) in self.members.iter_mut().zip(lists) {
-            batch(members, &self.rows, casters, &mut self.instances, draws);
+        for (draws, members) in self.slots[index].iter_mut().zip(&mut self.members) {
+            for (listed, members) in [&mut draws.tile, &mut draws.layer].into_iter().zip(members) {
+                let draws = &mut listed.draws;
+                batch(members, &self.rows, casters, &mut self.instances, draws);
+            }
+        }
+    }
+
+    fn add_host_drawn(
+        &mut self,
+        (index, slot): (usize, &Slot),
+        caster: usize,
+        mask: u8,
+        record: &Record,
+    ) {
+        let on = slot.masks().get(caster) & mask;
+        for (tile, draws) in self.slots[index].iter_mut().enumerate() {
+            if on & 1 << tile != 0 {
+                let (in_tile, in_layer) = slot.lists(tile, record);
+                draws.tile.host.extend(in_tile.then_some(caster));
+                draws.layer.host.extend(in_layer.then_some(caster));
+            }
         }
     }
 }

@@ -27,7 +27,7 @@ impl TilePlace {
         debug_assert!(self.x < Self::MOST_TEXELS && self.x.is_multiple_of(Self::UNIT));
         debug_assert!(self.y < Self::MOST_TEXELS && self.y.is_multiple_of(Self::UNIT));
         debug_assert!(self.layer < Self::MOST_LAYERS);
-        (self.x / Self::UNIT) | (self.y / Self::UNIT) << 10 | self.layer << 20
+        (self.x / Self::UNIT) | ((self.y / Self::UNIT) << 10) | (self.layer << 20)
     }
 }
 
@@ -186,12 +186,27 @@ impl LightRecord {
         }
     }
 
-    /// The nearest cascade of a directional light: `further` records of further ones come after it.
-    pub fn with_further(self, further: u32) -> Self {
+    /// The nearest cascade of a directional light: so many records of further ones begin at a place of
+    /// the buffer.
+    pub fn with_further(self, further: u32, first: u32) -> Self {
         debug_assert!(further <= Self::MOST_FURTHER);
+        if further == 0 {
+            return self;
+        }
+        let [tile, ..] = self.tiles;
         Self {
-            kind: self.kind | further << Self::FURTHER_SHIFT,
+            kind: self.kind | (further << Self::FURTHER_SHIFT),
+            tiles: [tile, first, 0, 0],
             ..self
+        }
+    }
+
+    /// A light that nothing is hidden from.
+    pub fn lit() -> Self {
+        Self {
+            kind: Self::DIRECTIONAL | Self::NO_CASTER,
+            range_squared: f32::MAX,
+            ..Self::DARK
         }
     }
 

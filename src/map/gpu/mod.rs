@@ -1,5 +1,8 @@
 //! What maps have on the GPU: textures, pipelines, draw lists, uniforms, and the passes.
 
+mod atlas;
+mod atlas_lights;
+mod atlas_texture;
 mod buffers;
 mod cube;
 mod cube_lights;
@@ -7,19 +10,23 @@ mod draws;
 mod encode;
 mod flat_light;
 mod instances;
-#[allow(dead_code)] // the atlas writes them
 mod light_record;
 mod pipelines;
 mod static_layers;
 mod texture;
+mod tile_fill;
 mod uniforms;
 
+pub use atlas::HostDraw;
+pub(crate) use atlas::{AtlasGpu, AtlasKind, DrawByHost, Tiled};
+pub(crate) use atlas_texture::Resized;
 pub(crate) use cube::CubeGpu;
 pub(crate) use cube_lights::LightUniform;
-pub(crate) use draws::{Draw, draws_of_flat};
+pub(crate) use draws::{Draw, DrawLists};
 pub(crate) use encode::{Drawing, begin_depth_pass};
 pub(crate) use flat_light::{FlatLightBuffer, FlatLightUniform};
 pub(crate) use instances::{INSTANCE_SIZE, Instances, TooLarge};
+pub(crate) use light_record::{LightRecord, TileTexture, Tiles};
 pub(crate) use pipelines::{PipelineKind, Pipelines, can_pull_casters};
 pub(crate) use texture::create_texture;
 pub(crate) use uniforms::{FaceUniform, FaceUniforms, most_tiles};

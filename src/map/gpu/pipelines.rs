@@ -5,6 +5,21 @@ use std::collections::HashMap;
 use super::instances::INSTANCE_SIZE;
 use crate::gl;
 use crate::map::encoding::DepthEncoding;
+use crate::mesh::InstanceLayout;
+
+const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+
+const OUR_ROWS: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![
+    1 => Float32x4, 2 => Float32x4, 3 => Float32x4
+];
+
+const HOST_COLUMNS: [wgpu::VertexAttribute; 4] = wgpu::vertex_attr_array![
+    4 => Float32x4, 5 => Float32x4, 6 => Float32x4, 7 => Float32x4
+];
+
+const HOST_ROWS: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![
+    4 => Float32x4, 5 => Float32x4, 6 => Float32x4
+];
 
 /// All that two draws must share to use the same pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -12,6 +27,8 @@ pub(crate) struct PipelineKey {
     /// Bytes between positions.
     pub stride: u64,
     pub cull: Option<wgpu::Face>,
+    /// The host's transforms, and bytes between them.
+    pub places: Option<(InstanceLayout, u64)>,
 }
 
 /// What all pipelines of one map share.
@@ -83,27 +100,40 @@ impl Pipelines {
             ("slope_scale", f64::from(kind.slope_scale)),
             ("pulled", f64::from(u8::from(kind.unclipped_depth))),
         ];
+        // Of a mesh at many places all are placed by one row of ours.
+        let (entry_point, attributes, row_stride): (_, &[_], _) = match key.places {
+            None => ("vertex", &[], INSTANCE_SIZE),
+            Some((InstanceLayout::Columns4x4, _)) => ("vertex_columns", &HOST_COLUMNS, 0),
+            Some((InstanceLayout::Rows3x4, _)) => ("vertex_rows", &HOST_ROWS, 0),
+        };
+        let places = key.places.map(|(_, stride)| wgpu::VertexBufferLayout {
+            array_stride: stride,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes,
+        });
+        let mut buffers = vec![
+            Some(wgpu::VertexBufferLayout {
+                array_stride: key.stride,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &POSITION,
+            }),
+            Some(wgpu::VertexBufferLayout {
+                array_stride: row_stride,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &OUR_ROWS,
+            }),
+        ];
+        if places.is_some() {
+            buffers.push(places);
+        }
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&self.label),
             layout: Some(&self.layout),
             vertex: wgpu::VertexState {
                 module: &self.shader,
-                entry_point: Some("vertex"),
+                entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[
-                    Some(wgpu::VertexBufferLayout {
-                        array_stride: key.stride,
-                        step_mode: wgpu::VertexStepMode::Vertex,
-                        attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-                    }),
-                    Some(wgpu::VertexBufferLayout {
-                        array_stride: INSTANCE_SIZE,
-                        step_mode: wgpu::VertexStepMode::Instance,
-                        attributes: &wgpu::vertex_attr_array![
-                            1 => Float32x4, 2 => Float32x4, 3 => Float32x4
-                        ],
-                    }),
-                ],
+                buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState {
                 cull_mode: key.cull,

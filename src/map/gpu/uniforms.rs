@@ -38,6 +38,7 @@ impl FaceUniform {
 /// The uniforms of all tiles of a map, picked by dynamic offset.
 #[derive(Debug)]
 pub(crate) struct FaceUniforms {
+    label: String,
     buffer: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
@@ -47,43 +48,36 @@ pub(crate) struct FaceUniforms {
 
 impl FaceUniforms {
     pub fn new(device: &wgpu::Device, label: &str, count: usize) -> Self {
-        let buffer = buffer(
-            device,
-            &format!("{label} faces"),
-            count as u64 * UNIFORM_STRIDE,
-            wgpu::BufferUsages::UNIFORM,
-        );
-        let size = wgpu::BufferSize::new(size_of::<FaceUniform>() as u64);
+        let label = format!("{label} faces");
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(label),
+            label: Some(&label),
             entries: &[wgpu::BindGroupLayoutEntry {
                 binding: 0,
                 visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
                 ty: wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
                     has_dynamic_offset: true,
-                    min_binding_size: size,
+                    min_binding_size: wgpu::BufferSize::new(size_of::<FaceUniform>() as u64),
                 },
                 count: None,
             }],
         });
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(label),
-            layout: &layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &buffer,
-                    offset: 0,
-                    size,
-                }),
-            }],
-        });
+        let (buffer, group) = make(device, &label, &layout, count);
         Self {
+            label,
             buffer,
             layout,
             group,
             written: vec![None; count],
+        }
+    }
+
+    /// Makes room for so many; those that were written are written again.
+    pub fn reserve(&mut self, device: &wgpu::Device, count: usize) {
+        if count > self.written.len() {
+            let count = count.next_power_of_two();
+            (self.buffer, self.group) = make(device, &self.label, &self.layout, count);
+            self.written = vec![None; count];
         }
     }
 
@@ -111,4 +105,27 @@ impl FaceUniforms {
     pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, index: usize) {
         pass.set_bind_group(0, &self.group, &[index as u32 * UNIFORM_STRIDE as u32]);
     }
+}
+
+fn make(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    count: usize,
+) -> (wgpu::Buffer, wgpu::BindGroup) {
+    let size = count as u64 * UNIFORM_STRIDE;
+    let buffer = buffer(device, label, size, wgpu::BufferUsages::UNIFORM);
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &buffer,
+                offset: 0,
+                size: wgpu::BufferSize::new(size_of::<FaceUniform>() as u64),
+            }),
+        }],
+    });
+    (buffer, group)
 }

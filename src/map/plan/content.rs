@@ -59,10 +59,6 @@ impl<P> Signature<P> {
             content,
         }
     }
-
-    pub fn content(&self) -> &Content {
-        &self.content
-    }
 }
 
 /// What the texels of a tile show.

@@ -2,7 +2,10 @@
 
 use crate::error::ShadowMapError;
 use crate::map::flat_descriptor::{FlatLight, ShadowFrame};
-use crate::map::projection::{Fit, FlatFrame, LightBox, NearPlane, fit_directional, fit_spot};
+use crate::map::projection::{
+    Fit, FlatFrame, LightBox, LightProjection, MapShape, NearPlane, Placed, fit_directional,
+    fit_spot,
+};
 use crate::mesh::Bounds;
 use crate::scene::{Casters, Record};
 use crate::{DirectionalLight, Radius, View};
@@ -28,14 +31,13 @@ impl Asked {
 /// The place of a map in the world.
 #[derive(Debug)]
 pub(crate) struct FlatPlace {
-    size: u32,
-    reach: Radius,
+    shape: MapShape,
     near_plane: NearPlane,
-    unclipped_depth: bool,
     /// What the last frame asked for, and where the map lies for it.
     asked: Option<Asked>,
     frame: Option<FlatFrame>,
-    width: Option<f64>,
+    /// Where a directional light's map was placed.
+    placed: Option<Placed>,
     /// The box around all casters, as a light sees them.
     caster_box: Option<(DirectionalLight, Option<LightBox>)>,
 }
@@ -44,13 +46,15 @@ impl FlatPlace {
     /// `unclipped_depth`: whether casters before the near plane are pulled onto it.
     pub fn new(size: u32, reach: Radius, near_plane: NearPlane, unclipped_depth: bool) -> Self {
         Self {
-            size,
-            reach,
+            shape: MapShape {
+                size,
+                reach,
+                unclipped_depth,
+            },
             near_plane,
-            unclipped_depth,
             asked: None,
             frame: None,
-            width: None,
+            placed: None,
             caster_box: None,
         }
     }
@@ -60,52 +64,55 @@ impl FlatPlace {
         self.frame.as_ref()
     }
 
-    /// Takes over a frame's light and casters, after the casters were compared. Whether what the map
-    /// shows may be something else now.
+    /// Finds where the map lies for a frame, after the casters were updated.
     pub fn take_over(
         &mut self,
         frame: &ShadowFrame<'_>,
-        casters: &mut Casters,
-    ) -> Result<bool, ShadowMapError> {
+        casters: &Casters,
+    ) -> Result<(), ShadowMapError> {
         let asked = Asked::of(frame);
-        let unchanged = casters.are_unchanged(frame.casters);
+        let unchanged = casters.changes().len() == 0;
         if unchanged && self.asked == Some(asked) {
-            return Ok(false);
+            return Ok(());
         }
         // Until all of it has succeeded, nothing is known to be what it was.
-        let known = self.asked.take().is_some() && unchanged;
+        self.asked = None;
         if !unchanged {
-            casters.update(frame.casters).for_each(drop);
             self.caster_box = None;
         }
-        let before = self.frame;
         self.place(frame, casters.records())?;
         self.asked = Some(asked);
-        Ok(!known || self.frame != before)
+        Ok(())
+    }
+
+    /// The light's only tile.
+    pub fn projection(&self) -> LightProjection {
+        match self.frame {
+            Some(frame) if frame.perspective => LightProjection::Spot(frame),
+            frame => LightProjection::Cascades(Box::new([frame])),
+        }
     }
 
     fn place(&mut self, frame: &ShadowFrame<'_>, casters: &[Record]) -> Result<(), ShadowMapError> {
-        let (placed, width) = match &frame.light {
+        let (lies, placed) = match &frame.light {
             FlatLight::Spot(light) => {
                 let near = self.near_plane.of_spot(light);
-                (Some(fit_spot(light, near)), self.width)
+                (Some(fit_spot(light, near)), self.placed)
             }
             FlatLight::Directional(light) => fit_directional(&Fit {
                 light,
                 view: frame.view,
                 receivers: frame.receivers,
-                size: self.size,
-                reach: self.reach,
-                unclipped_depth: self.unclipped_depth,
-                last_width: self.width,
+                shape: self.shape,
                 casters: self.caster_box(light, casters),
+                last: self.placed,
             })
             .unzip(),
         };
-        if placed.is_some_and(|frame| !frame.fits_f32()) {
+        if lies.is_some_and(|frame| !frame.fits_f32()) {
             return Err(ShadowMapError::BeyondF32);
         }
-        (self.frame, self.width) = (placed, width);
+        (self.frame, self.placed) = (lies, placed);
         Ok(())
     }
 

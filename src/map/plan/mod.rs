@@ -1,29 +1,27 @@
 //! What is drawn in a frame, and from which casters: tiles whose texels are out of date, in the order
 //! in which it matters, over layers of what is static.
 
-// Not used until the atlas is.
-#[allow(dead_code)]
 mod allocation;
+mod choice;
 mod content;
-mod face_masks;
-mod faces;
 mod flat_place;
-// Not used until the atlas is.
-#[allow(dead_code)]
 mod importance;
+mod residents;
 mod schedule;
-// Not used until the atlas is.
-#[allow(dead_code)]
 mod sizing;
 mod slot;
 mod slots;
 mod static_layer;
+mod tile_masks;
 mod visibility;
 
-pub(crate) use content::{Content, Signature, Texels};
-pub(crate) use faces::{Rules, SlotPlan, casters_drawn, choose_faces, follow, tally};
+pub(crate) use allocation::Place;
+pub(crate) use choice::{Rules, SlotPlan, Tally, casters_drawn, choose_tiles, follow};
 pub(crate) use flat_place::FlatPlace;
+pub(crate) use importance::{LitSphere, Screen, importance};
+pub(crate) use residents::{Claim, Residents};
 pub(crate) use schedule::longest_wait;
-pub(crate) use slot::Slot;
+pub use sizing::TileSize;
+pub(crate) use slot::{Slot, Tile};
 pub(crate) use slots::Slots;
 pub(crate) use static_layer::DrawMode;

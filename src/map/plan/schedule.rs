@@ -1,62 +1,62 @@
-//! Which of the faces that should be drawn are drawn this frame.
+//! Which of the tiles that should be drawn are drawn this frame.
 
 use super::slot::Slot;
 
-/// Faces of one light that are drawn together or not at all.
+/// Tiles of one light that are drawn together or not at all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Job {
     pub slot: usize,
-    pub faces: u8,
+    pub tiles: u8,
     pub age: u32,
     pub importance: f64,
 }
 
 impl Job {
     fn cost(&self) -> u32 {
-        self.faces.count_ones()
+        self.tiles.count_ones()
     }
 }
 
-/// The jobs of a light among which a budget may choose, and the faces about which it has no say.
+/// The jobs of a light among which a budget may choose, and the tiles about which it has no say.
 ///
-/// A light that moved has all its stale faces drawn together, since receivers are given one
-/// position for all of them. Faces that do not belong with the light that receivers are given must
-/// be drawn at once.
+/// A point light that moved has all its stale faces drawn together, since receivers are given one
+/// position for all of them. Tiles that do not belong with what receivers are given must be drawn at
+/// once.
 pub(crate) fn jobs_of(
     index: usize,
     slot: &Slot,
-    faces: u8,
+    tiles: u8,
     pinned: bool,
     view: f64,
 ) -> (u8, Vec<Job>) {
-    if pinned || faces == 0 {
-        return (faces, Vec::new());
+    if pinned || tiles == 0 {
+        return (tiles, Vec::new());
     }
     let job = |mask: u8| {
-        let of_mask = || (0..6).filter(|bit| mask & 1 << bit != 0);
+        let of_mask = || (0..slot.tiles.len()).filter(|bit| mask & 1 << bit != 0);
         Job {
             slot: index,
-            faces: mask,
-            age: of_mask().map(|bit| slot.faces[bit].age).max().unwrap_or(0),
-            importance: view * of_mask().map(|bit| slot.faces[bit].change).sum::<f64>(),
+            tiles: mask,
+            age: of_mask().map(|bit| slot.tiles[bit].age).max().unwrap_or(0),
+            importance: view * of_mask().map(|bit| slot.tiles[bit].change).sum::<f64>(),
         }
     };
-    if slot.shown != slot.light {
-        return (0, vec![job(faces)]);
+    if slot.waits_for_all() {
+        return (0, vec![job(tiles)]);
     }
-    let must = faces & slot.foreign();
-    let jobs = (0..6)
+    let must = tiles & (slot.foreign() | slot.urgent());
+    let jobs = (0..slot.tiles.len())
         .map(|bit| 1 << bit)
-        .filter(|bit| faces & !must & bit != 0)
+        .filter(|bit| tiles & !must & bit != 0)
         .map(job)
         .collect();
     (must, jobs)
 }
 
-/// Chooses jobs for a budget of faces: half of it (rounded up) goes to those that have waited
+/// Chooses jobs for a budget of tiles: half of it (rounded up) goes to those that have waited
 /// longest, the rest to the most important.
 ///
-/// Jobs are whole, so the first half may overdraw by at most five faces (a light that moved).
+/// Jobs are whole, so the first half may overdraw by at most five tiles (a point light that moved).
 /// Every frame at least half the budget goes to the oldest, and nothing gets in before them, so no
 /// job waits longer than [`longest_wait`].
 pub(crate) fn choose(mut jobs: Vec<Job>, budget: u32) -> Vec<Job> {
@@ -84,19 +84,19 @@ pub(crate) fn choose(mut jobs: Vec<Job>, budget: u32) -> Vec<Job> {
     chosen
 }
 
-/// The most frames that a stale face can wait, visible all the while.
-pub(crate) fn longest_wait(slots: usize, budget: u32) -> u32 {
-    (slots as u32 * 6).div_ceil(budget.div_ceil(2))
+/// The most frames that a stale tile can wait, visible all the while.
+pub(crate) fn longest_wait(tiles: usize, budget: u32) -> u32 {
+    (tiles as u32).div_ceil(budget.div_ceil(2))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn job(slot: usize, faces: u8, age: u32, importance: f64) -> Job {
+    fn job(slot: usize, tiles: u8, age: u32, importance: f64) -> Job {
         Job {
             slot,
-            faces,
+            tiles,
             age,
             importance,
         }
@@ -120,7 +120,7 @@ mod tests {
         let jobs = vec![job(0, 0b11_1111, 3, 1.0), job(1, 1, 0, 5.0)];
         let chosen = choose(jobs, 2);
         assert_eq!(chosen.len(), 1);
-        assert_eq!(chosen[0].faces, 0b11_1111);
+        assert_eq!(chosen[0].tiles, 0b11_1111);
     }
 
     #[test]
@@ -141,7 +141,7 @@ mod tests {
                 }
                 oldest = ages.iter().copied().max().unwrap().max(oldest);
             }
-            let bound = longest_wait(lights, budget);
+            let bound = longest_wait(6 * lights, budget);
             assert!(oldest <= bound, "{oldest} over {bound}");
         }
     }

@@ -59,6 +59,14 @@ impl TileSize {
         }
     }
 
+    /// The largest that it may be.
+    pub(crate) fn most(self) -> u32 {
+        match self {
+            Self::Fixed(texels) => texels,
+            Self::Auto { most, .. } => most,
+        }
+    }
+
     fn least(self) -> u32 {
         match self {
             Self::Fixed(texels) => texels,

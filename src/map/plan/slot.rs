@@ -1,31 +1,33 @@
-//! One light's place in a map: which casters its faces hold, and which they were drawn with.
+//! One light's place in a map: which casters its tiles hold, and which they were drawn with.
 
 use super::content::{Content, Signature, Texels};
-use super::face_masks::FaceMasks;
 use super::static_layer::{DrawMode, StaticLayer};
-use crate::PointLight;
-use crate::map::projection::{ALL_FACES, CubeFace, touched_faces};
+use super::tile_masks::TileMasks;
+use crate::map::projection::{LightProjection, SlotLight, TileProjection, TileSides};
 use crate::scene::{Casters, Change, Record};
 
-/// One face of one light.
+/// One tile of one light.
 #[derive(Clone, Debug)]
-pub(crate) struct Face {
+pub(crate) struct Tile {
     pub content: Content,
-    texels: Texels<PointLight>,
+    texels: Texels<TileProjection>,
+    /// What receivers are told that it shows; `None`: nothing yet.
+    pub shown: Option<TileProjection>,
     /// Frames for which it has waited to be drawn.
     pub age: u32,
-    /// How much has changed since it was drawn: the sum of (radius / distance)^2 of the casters
-    /// that did.
+    /// How much has changed since it was drawn: the sum of the shares of the tile that the casters
+    /// cover that did.
     pub change: f64,
     /// Its layer of static casters.
     pub layer: StaticLayer,
 }
 
-impl Default for Face {
+impl Default for Tile {
     fn default() -> Self {
         Self {
             content: Content::default(),
             texels: Texels::UNKNOWN,
+            shown: None,
             age: 0,
             change: 0.0,
             layer: StaticLayer::default(),
@@ -33,21 +35,25 @@ impl Default for Face {
     }
 }
 
+/// The light of this frame, for which a slot's masks and contents are.
+#[derive(Debug)]
+struct Current {
+    of: SlotLight,
+    sides: TileSides,
+}
+
 #[derive(Debug, Default)]
 pub(crate) struct Slot {
-    /// The light of this frame, for which the masks and contents below are.
-    pub light: Option<PointLight>,
-    /// The light that receivers are given: the one its faces were last drawn for together.
-    pub shown: Option<PointLight>,
-    pub faces: [Face; 6],
-    /// For each caster the faces it touches.
-    masks: FaceMasks,
-    /// Casters that touch any face.
+    current: Option<Current>,
+    pub tiles: Vec<Tile>,
+    /// For each caster the tiles it touches.
+    masks: TileMasks,
+    /// Casters that touch any tile.
     pub casting: usize,
     /// Frames since there was one.
     pub idle: u32,
     pub cull: bool,
-    /// Faces that the next encode must draw.
+    /// Tiles that the next encode must draw.
     pub pending: u8,
 }
 
@@ -59,77 +65,123 @@ impl Slot {
         }
     }
 
-    pub fn masks(&self) -> &FaceMasks {
+    /// The light of this frame.
+    pub fn light(&self) -> Option<&LightProjection> {
+        Some(&self.current.as_ref()?.of.projection)
+    }
+
+    /// The light of this frame, and which casters count for it.
+    pub fn slot_light(&self) -> Option<&SlotLight> {
+        Some(&self.current.as_ref()?.of)
+    }
+
+    /// A mask of all tiles of its light.
+    pub fn all(&self) -> u8 {
+        self.light().map_or(0, LightProjection::all)
+    }
+
+    pub fn masks(&self) -> &TileMasks {
         &self.masks
     }
 
-    /// Learns that faces were drawn as scheduled.
+    /// What a tile is to show.
+    pub fn projection(&self, tile: usize) -> Option<TileProjection> {
+        self.light()?.tile(tile)
+    }
+
+    /// Learns that tiles were drawn as scheduled.
     pub fn encoded(&mut self, mask: u8) {
         self.pending &= !mask;
-        for (bit, face) in self.faces.iter_mut().enumerate() {
+        for (bit, tile) in self.tiles.iter_mut().enumerate() {
             if mask & 1 << bit != 0 {
-                face.texels.encoded();
-                face.layer.encoded();
+                tile.texels.encoded();
+                tile.layer.encoded();
             }
         }
     }
 
-    /// Learns that somebody else draws on a face.
-    pub fn touched(&mut self, face: CubeFace) {
-        self.pending &= !face.bit();
-        self.faces[face.layer() as usize].texels.forget();
+    /// Learns that somebody else draws on a tile.
+    pub fn touched(&mut self, tile: usize) {
+        self.pending &= !(1 << tile);
+        self.tiles[tile].texels.forget();
+    }
+
+    /// Learns that a tile was drawn without some of its casters, and the layer under it, too.
+    pub fn spoil(&mut self, tile: usize) {
+        let tile = &mut self.tiles[tile];
+        tile.texels.forget();
+        tile.layer = StaticLayer::default();
     }
 
     /// Nothing is known of the texels any more: they are new.
     pub fn forget_texels(&mut self) {
-        self.faces.iter_mut().for_each(|face| face.texels.forget());
-        self.shown = None;
+        for tile in &mut self.tiles {
+            tile.texels.forget();
+            tile.shown = None;
+        }
     }
 
     /// The texels are gone, and the layers under them.
     pub fn texels_freed(&mut self) {
         self.forget_texels();
-        self.faces
-            .iter_mut()
-            .for_each(|face| face.layer = StaticLayer::default());
+        for tile in &mut self.tiles {
+            tile.layer = StaticLayer::default();
+        }
     }
 
     /// Nothing is known of the texels any more, nor of the layers under them, and nothing is to be
     /// drawn on those. Receivers are given the light that they were.
     pub fn doubt_texels(&mut self) {
         self.pending = 0;
-        for face in &mut self.faces {
-            face.texels.forget();
-            face.layer = StaticLayer::default();
+        for tile in &mut self.tiles {
+            tile.texels.forget();
+            tile.layer = StaticLayer::default();
         }
     }
 
-    /// Takes another light (or none) and sorts all casters anew, of which `reached` are those that
-    /// it may reach.
-    pub fn set_light(&mut self, light: Option<PointLight>, casters: &[Record], reached: &[u32]) {
-        self.light = light;
-        self.casting = 0;
-        self.masks.reset(casters.len());
-        for face in &mut self.faces {
-            face.content = Content::default();
-            face.change = 1.0;
+    /// Lets go of all casters, before [`set_light`](Self::set_light) sorts them anew for a light, if
+    /// there is a next one. If it is like the last one, receivers still know the tiles.
+    pub fn leave_light(&mut self, next: Option<&LightProjection>) {
+        let before = self.current.take();
+        let like = before
+            .zip(next)
+            .is_some_and(|(before, next)| before.of.projection.is_like(next));
+        if let Some(next) = next.filter(|next| next.count() != self.tiles.len()) {
+            self.tiles.clear();
+            self.tiles.resize_with(next.count(), Tile::default);
         }
-        let Some(light) = light else {
-            self.shown = None;
-            return;
-        };
+        if !like {
+            self.tiles.iter_mut().for_each(|tile| tile.shown = None);
+        }
+        self.casting = 0;
+        for tile in &mut self.tiles {
+            tile.content = Content::default();
+            tile.change = 1.0;
+        }
+    }
+
+    /// Sorts all casters for a light, of which `reached` are those that it may reach.
+    pub fn set_light(&mut self, of: SlotLight, casters: &[Record], reached: &[u32]) {
+        let sides = TileSides::new(&of.projection);
+        let all = of.projection.all();
+        self.current = Some(Current { of, sides });
+        self.masks.reset(casters.len());
         for &index in reached {
             let record = &casters[index as usize];
-            let mask = self.touched_by(&light, record);
+            let mask = self.touched_by(record, all);
             self.masks.set(index as usize, mask);
-            self.enter(mask, &light, record);
+            self.casting += usize::from(mask != 0);
+            self.each(mask, record, Content::add);
         }
     }
 
     /// Learns what became of one caster.
     pub fn apply(&mut self, change: &Change<'_>) {
-        let Some(light) = self.light else { return };
-        let after = change.new.map_or(0, |new| self.touched_by(&light, new));
+        let all = self.all();
+        if all == 0 {
+            return;
+        }
+        let after = change.new.map_or(0, |new| self.touched_by(new, all));
         let before = match (change.old, change.new) {
             (Some(_), Some(_)) => self.masks.get(change.index),
             (Some(_), None) => self.masks.pop().unwrap_or(0), // the last
@@ -143,130 +195,135 @@ impl Slot {
             return; // most casters are far from most lights
         }
         if let Some(old) = change.old {
-            self.leave(before, &light, old);
+            self.casting -= usize::from(before != 0);
+            self.each(before, old, Content::remove);
         }
         if let Some(new) = change.new {
             self.masks.set(change.index, after);
-            self.enter(after, &light, new);
+            self.casting += usize::from(after != 0);
+            self.each(after, new, Content::add);
         }
     }
 
-    fn touched_by(&self, light: &PointLight, record: &Record) -> u8 {
-        if !record.casts() {
-            return 0;
+    fn touched_by(&self, record: &Record, all: u8) -> u8 {
+        match &self.current {
+            Some(current) if !(record.casts() && current.of.filter.admits(record)) => 0,
+            Some(_) if !self.cull => all,
+            Some(current) => current.sides.touched_by(record),
+            None => 0,
         }
-        if !self.cull {
-            return ALL_FACES;
-        }
-        let bounds = record.bounds.relative_to(light.position);
-        touched_faces(&bounds, f64::from(light.range))
     }
 
-    fn enter(&mut self, mask: u8, light: &PointLight, record: &Record) {
-        self.casting += usize::from(mask != 0);
-        self.each(mask, light, record, Content::add);
-    }
-
-    fn leave(&mut self, mask: u8, light: &PointLight, record: &Record) {
-        self.casting -= usize::from(mask != 0);
-        self.each(mask, light, record, Content::remove);
-    }
-
-    fn each(
-        &mut self,
-        mask: u8,
-        light: &PointLight,
-        record: &Record,
-        change: fn(&mut Content, &Record),
-    ) {
-        if mask == 0 {
-            return;
-        }
-        let bounds = &record.bounds;
-        let squared = bounds.centre.distance_squared(light.position.as_dvec3());
-        let seen = (bounds.radius * bounds.radius / squared).min(1.0);
-        for (bit, face) in self.faces.iter_mut().enumerate() {
+    fn each(&mut self, mask: u8, record: &Record, change: fn(&mut Content, &Record)) {
+        let Some(current) = &self.current else { return };
+        for (bit, tile) in self.tiles.iter_mut().enumerate() {
             if mask & 1 << bit != 0 {
-                change(&mut face.content, record);
-                face.change += seen;
+                change(&mut tile.content, record);
+                tile.change += current.sides.share(bit, &record.bounds);
             }
         }
     }
 
-    fn wanted(&self, face: &Face) -> Signature<PointLight> {
-        Signature::new(self.light, face.content)
+    fn wanted(&self, tile: usize) -> Signature<TileProjection> {
+        Signature::new(self.projection(tile), self.tiles[tile].content)
     }
 
-    /// The faces whose texels are not what they should be.
+    /// The tiles whose texels are not what they should be.
     pub fn stale(&self) -> u8 {
-        self.mask_of(|face| !face.texels.show(&self.wanted(face)))
+        self.mask_of(|bit, tile| !tile.texels.show(&self.wanted(bit)))
     }
 
-    /// The faces whose texels belong with no light that receivers are given.
+    /// The tiles whose texels do not belong with what receivers are told of them.
     pub fn foreign(&self) -> u8 {
-        self.mask_of(|face| face.texels.are_foreign(self.shown))
+        self.mask_of(|_, tile| tile.shown.is_some() && tile.texels.are_foreign(tile.shown))
+    }
+
+    /// Whether receivers are told of another light than that of this frame: they are when all its
+    /// tiles are drawn, and not before.
+    pub fn waits_for_all(&self) -> bool {
+        let joint = self.light().is_some_and(LightProjection::is_joint);
+        joint && self.mask_of(|bit, tile| tile.shown != self.projection(bit)) != 0
+    }
+
+    /// The tiles of which receivers must be told something before they are told anything of the light:
+    /// cascades, which lie in each other's place where one is missing.
+    pub fn urgent(&self) -> u8 {
+        match self.light() {
+            Some(LightProjection::Cascades(_)) => {
+                self.mask_of(|bit, tile| tile.shown.is_none() && self.projection(bit).is_some())
+            }
+            _ => 0,
+        }
     }
 
     pub fn empty(&self) -> u8 {
-        self.mask_of(|face| face.content.is_empty())
+        self.mask_of(|_, tile| tile.content.is_empty())
     }
 
-    fn mask_of(&self, is: impl Fn(&Face) -> bool) -> u8 {
-        CubeFace::ALL
-            .into_iter()
-            .filter(|face| is(&self.faces[face.layer() as usize]))
-            .fold(0, |mask, face| mask | face.bit())
+    fn mask_of(&self, is: impl Fn(usize, &Tile) -> bool) -> u8 {
+        let tiles = self.tiles.iter().enumerate();
+        tiles.fold(0, |mask, (bit, tile)| mask | u8::from(is(bit, tile)) << bit)
     }
 
-    /// Decides which faces the next `encode` draws.
-    pub fn schedule(&mut self, mask: u8) {
-        for bit in 0..6 {
-            if mask & 1 << bit != 0 {
-                let wanted = self.wanted(&self.faces[bit]);
-                let face = &mut self.faces[bit];
-                face.texels.schedule(wanted);
-                face.age = 0;
-                face.change = 0.0;
+    /// Decides which of the tiles that should be drawn the next `encode` draws.
+    pub fn schedule(&mut self, wanted: u8, drawn: u8) {
+        let joint = self.light().is_none_or(LightProjection::is_joint);
+        for bit in 0..self.tiles.len() {
+            let (signature, projection) = (self.wanted(bit), self.projection(bit));
+            let tile = &mut self.tiles[bit];
+            if drawn & 1 << bit != 0 {
+                tile.texels.schedule(signature);
+                tile.age = 0;
+                tile.change = 0.0;
+            }
+            // Of one light's tiles that are read side by side all change over, or none.
+            let waiting = wanted & !drawn;
+            let ready = match joint {
+                true => waiting == 0,
+                false => waiting & 1 << bit == 0,
+            };
+            if ready {
+                tile.shown = projection;
             }
         }
-        self.pending = mask;
+        self.pending = drawn;
+        self.grow_older(wanted & !drawn);
     }
 
-    /// Decides how the faces of a mask are drawn: on layers of at least so many triangles of static
+    /// One more frame for the tiles that wait; the others have nothing to wait for.
+    fn grow_older(&mut self, waiting: u8) {
+        for (bit, tile) in self.tiles.iter_mut().enumerate() {
+            tile.age = match waiting & 1 << bit {
+                0 => 0,
+                _ => tile.age.saturating_add(1),
+            };
+        }
+    }
+
+    /// Decides how the tiles of a mask are drawn: on layers of at least so many triangles of static
     /// casters, or all at once.
     pub fn choose_modes(&mut self, mask: u8, least: u64, casters: &Casters) {
-        let Some(light) = self.light else { return };
-        for (bit, face) in self.faces.iter_mut().enumerate() {
-            if mask & 1 << bit != 0 {
-                let masks = &self.masks;
-                face.layer.choose(&light, casters.frame(), least, |frame| {
-                    let on_face = masks.touching(1 << bit).map(|at| &casters.records()[at]);
-                    Content::of(on_face.filter(|record| record.since <= frame))
+        let Some(current) = &self.current else { return };
+        for (bit, tile) in self.tiles.iter_mut().enumerate() {
+            let projection = current.of.projection.tile(bit);
+            if let Some(projection) = projection
+                && mask & 1 << bit != 0
+            {
+                let (masks, frame) = (&self.masks, casters.frame());
+                tile.layer.choose(&projection, frame, least, |frame| {
+                    let on_tile = masks.touching(1 << bit).map(|at| &casters.records()[at]);
+                    Content::of(on_tile.filter(|record| record.since <= frame))
                 });
             }
         }
     }
 
-    /// Which lists of draws a caster on the faces `on` goes to, as bits: 0 to 5 the faces, 6 to 11
-    /// the layers under them.
-    pub fn lists(&self, on: u8, record: &Record) -> u16 {
-        let list = |bit: usize| match self.faces[bit].layer.mode() {
-            DrawMode::Build(until) if record.since <= until => 64 << bit,
-            DrawMode::Copy(until) if record.since <= until => 0,
-            DrawMode::Whole | DrawMode::Copy(_) | DrawMode::Build(_) => 1 << bit,
-        };
-        (0..6)
-            .filter(|bit| on & 1 << bit != 0)
-            .fold(0, |lists, bit| lists | list(bit))
-    }
-
-    /// One more frame for the faces that wait; the others have nothing to wait for.
-    pub fn grow_older(&mut self, waiting: u8) {
-        for (bit, face) in self.faces.iter_mut().enumerate() {
-            face.age = match waiting & 1 << bit {
-                0 => 0,
-                _ => face.age.saturating_add(1),
-            };
+    /// Which lists of draws a caster on a tile goes to: the tile's, and that of the layer under it.
+    pub fn lists(&self, tile: usize, record: &Record) -> (bool, bool) {
+        match self.tiles[tile].layer.mode() {
+            DrawMode::Build(until) if record.since <= until => (false, true),
+            DrawMode::Copy(until) if record.since <= until => (false, false),
+            DrawMode::Whole | DrawMode::Copy(_) | DrawMode::Build(_) => (true, false),
         }
     }
 }

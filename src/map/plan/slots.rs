@@ -1,13 +1,18 @@
 //! The lights of a map, and which has which place in it.
 
+use std::collections::HashMap;
+
 use super::slot::Slot;
-use crate::PointLight;
-use crate::mesh::Caster;
+use crate::map::projection::{CasterFilter, LightProjection, SlotLight};
 use crate::scene::Casters;
 
 /// Frames in which a light reaches no caster after which its texels are given back: enough that a
 /// caster which comes and goes does not have them made each time.
 const IDLE: u32 = 60;
+
+/// Changes of casters, times lights, beyond which every light asks the tree of casters anew instead of
+/// looking at each change.
+const MANY: usize = 1 << 17;
 
 /// All slots of a map, and the lights of the last frame in them.
 #[derive(Debug)]
@@ -19,16 +24,26 @@ pub(crate) struct Slots {
     reordered: u64,
     // Kept only for its memory: the casters that a light reaches.
     reached: Vec<u32>,
+    /// Whether the casters went on without the slots.
+    behind: bool,
 }
 
 impl Slots {
-    /// `cull`: whether casters go only on the faces they touch.
+    /// `cull`: whether casters go only on the tiles they touch.
     pub fn new(count: usize, cull: bool) -> Self {
         Self {
             slots: (0..count).map(|_| Slot::new(cull)).collect(),
             order: Vec::new(),
             reordered: 0,
             reached: Vec::new(),
+            behind: false,
+        }
+    }
+
+    /// Makes places for so many lights at least.
+    pub fn grow(&mut self, count: usize) {
+        if count > self.slots.len() {
+            self.slots.resize_with(count, || Slot::new(true));
         }
     }
 
@@ -45,27 +60,27 @@ impl Slots {
         self.reordered
     }
 
-    /// Takes over a frame's lights and casters, after the casters were compared.
-    pub fn take_over(&mut self, lights: &[PointLight], casters: &mut Casters, all: &[Caster]) {
+    /// Takes over a frame's lights, after the casters were updated.
+    pub fn take_over(&mut self, lights: &[SlotLight], casters: &mut Casters) {
         let order = assign(lights, &self.slots, &self.order);
         let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
         self.reordered += u64::from(moved);
         let mut wanted = vec![None; self.slots.len()];
         for (light, &slot) in lights.iter().zip(&order) {
-            wanted[slot] = Some(*light);
+            wanted[slot] = Some(light);
         }
         self.order = order;
-        // Lights that change are sorted out once, after the casters.
+        let changes = casters.changes();
+        let anew = std::mem::take(&mut self.behind) || changes.len() * lights.len() > MANY;
+        // Those that change are sorted out by what they reach, the others by what changed.
         let mut changed = vec![false; self.slots.len()];
         for ((slot, light), changed) in self.slots.iter_mut().zip(&wanted).zip(&mut changed) {
-            *changed = slot.light != *light;
+            *changed = slot.slot_light() != *light || anew && light.is_some();
             if *changed {
-                let shown = slot.shown;
-                slot.set_light(None, casters.records(), &[]);
-                slot.shown = shown.filter(|_| light.is_some());
+                slot.leave_light(light.map(|light| &light.projection));
             }
         }
-        for change in casters.update(all) {
+        for change in changes {
             self.slots.iter_mut().for_each(|slot| slot.apply(&change));
         }
         for ((slot, light), changed) in self.slots.iter_mut().zip(wanted).zip(changed) {
@@ -73,13 +88,42 @@ impl Slots {
                 continue;
             };
             self.reached.clear();
-            let (centre, range) = (light.position.as_dvec3(), f64::from(light.range));
-            match slot.cull {
-                true => casters.within(centre, range, &mut self.reached),
-                false => self.reached.extend(0..casters.records().len() as u32),
+            match light.projection.sphere().filter(|_| slot.cull) {
+                Some((centre, range)) => casters.within(centre, range, &mut self.reached),
+                None => self.reached.extend(0..casters.records().len() as u32),
             }
-            slot.set_light(Some(light), casters.records(), &self.reached);
+            slot.set_light(light.clone(), casters.records(), &self.reached);
         }
+    }
+
+    /// Gives a slot another projection of its light, after it was taken over.
+    pub fn refit(&mut self, slot: usize, projection: LightProjection, casters: &Casters) {
+        let slot = &mut self.slots[slot];
+        let filter = slot.slot_light().map_or(CasterFilter::ALL, |of| of.filter);
+        let light = SlotLight { projection, filter };
+        if slot.slot_light() != Some(&light) {
+            self.reached.clear();
+            self.reached.extend(0..casters.records().len() as u32);
+            slot.leave_light(Some(&light.projection));
+            slot.set_light(light, casters.records(), &self.reached);
+        }
+    }
+
+    /// Counts the frames in which a light reaches no caster. Whether that is so short that its texels
+    /// stay.
+    pub fn needs_texels(&mut self, slot: usize, has_some: bool) -> bool {
+        let slot = &mut self.slots[slot];
+        slot.idle = match slot.casting {
+            0 => slot.idle.saturating_add(1),
+            _ => 0,
+        };
+        slot.casting > 0 || has_some && slot.idle < IDLE
+    }
+
+    /// Learns that casters were updated for a frame whose lights were refused: what changed is not
+    /// known any more when the next one comes.
+    pub fn miss_update(&mut self) {
+        self.behind = true;
     }
 
     /// Counts the frames in which a light reaches no caster. Gives the slots whose texels no light
@@ -115,29 +159,51 @@ impl std::ops::DerefMut for Slots {
 }
 
 /// For each light the slot it gets: the one that already holds it, wherever in the slice it was;
-/// else the one that its predecessor at this place had; else a free one.
+/// else the one that its predecessor at this place had, if that was of its kind; else a free one.
 ///
 /// `lights` are no more than there are slots.
-fn assign(lights: &[PointLight], slots: &[Slot], before: &[usize]) -> Vec<usize> {
+fn assign(lights: &[SlotLight], slots: &[Slot], before: &[usize]) -> Vec<usize> {
     let mut free = vec![true; slots.len()];
     let mut take = |slot: usize| std::mem::replace(&mut free[slot], false);
     let mut chosen: Vec<Option<usize>> = vec![None; lights.len()];
-    let holds = |slot: usize, light: &PointLight| slots[slot].light.as_ref() == Some(light);
+    let holds = |slot: usize, light: &SlotLight| slots[slot].slot_light() == Some(light);
     for (i, light) in lights.iter().enumerate() {
         let same = before.get(i).copied().filter(|&slot| holds(slot, light));
         chosen[i] = same.filter(|&slot| take(slot));
     }
-    for (i, light) in lights.iter().enumerate() {
-        if chosen[i].is_none() {
-            chosen[i] = (0..slots.len()).find(|&slot| holds(slot, light) && take(slot));
+    if chosen.iter().any(Option::is_none) {
+        let mut holders: HashMap<_, Vec<usize>> = HashMap::new();
+        for (index, slot) in slots.iter().enumerate().rev() {
+            if let Some(light) = slot.light() {
+                holders.entry(light.key()).or_default().push(index);
+            }
+        }
+        for (choice, light) in chosen.iter_mut().zip(lights) {
+            if choice.is_none() {
+                let alike = holders
+                    .get(&light.projection.key())
+                    .into_iter()
+                    .flatten()
+                    .rev();
+                *choice = alike
+                    .copied()
+                    .find(|&slot| holds(slot, light) && take(slot));
+            }
         }
     }
-    for (i, choice) in chosen.iter_mut().enumerate() {
+    for (i, (choice, light)) in chosen.iter_mut().zip(lights).enumerate() {
+        let like = |slot: usize| {
+            let held = slots[slot].light();
+            held.is_some_and(|held| held.is_like(&light.projection))
+        };
         if choice.is_none() {
-            *choice = before.get(i).copied().filter(|&slot| take(slot));
+            *choice = before
+                .get(i)
+                .copied()
+                .filter(|&slot| like(slot) && take(slot));
         }
     }
-    let unused = |slot: &usize| slots[*slot].light.is_none();
+    let unused = |slot: &usize| slots[*slot].light().is_none();
     let mut rest = (0..slots.len())
         .filter(unused)
         .chain((0..slots.len()).filter(|slot| !unused(slot)))
@@ -153,15 +219,19 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::PointLight;
 
-    fn light(x: f32) -> PointLight {
-        PointLight::new(Vec3::X * x, 10.0)
+    fn light(x: f32) -> SlotLight {
+        LightProjection::Point(PointLight::new(Vec3::X * x, 10.0)).into()
     }
 
     fn slots(lights: &[Option<f32>]) -> Vec<Slot> {
         let make = |x: &Option<f32>| {
             let mut slot = Slot::new(true);
-            slot.light = x.map(light);
+            if let Some(light) = x.map(light) {
+                slot.leave_light(Some(&light.projection));
+                slot.set_light(light, &[], &[]);
+            }
             slot
         };
         lights.iter().map(make).collect()
@@ -171,7 +241,7 @@ mod tests {
     fn lights_keep_their_slots_wherever_they_stand() {
         let slots = slots(&[Some(0.0), Some(1.0), Some(2.0), None]);
         let order = |lights: &[f32]| {
-            let lights: Vec<PointLight> = lights.iter().copied().map(light).collect();
+            let lights: Vec<SlotLight> = lights.iter().copied().map(light).collect();
             assign(&lights, &slots, &[0, 1, 2])
         };
         assert_eq!(order(&[0.0, 1.0, 2.0]), [0, 1, 2]);

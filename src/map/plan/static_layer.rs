@@ -1,9 +1,9 @@
-//! What is static on a face, and whether to keep it in a layer of its own.
+//! What is static on a tile, and whether to keep it in a layer of its own.
 
 use super::content::Content;
-use crate::PointLight;
+use crate::map::projection::TileProjection;
 
-/// Draws of a face in which its casters must have been the same before they are thought static: the
+/// Draws of a tile in which its casters must have been the same before they are thought static: the
 /// third is the one that makes a layer of them.
 const LEAST_PATIENCE: u32 = 2;
 
@@ -14,10 +14,10 @@ const MOST_PATIENCE: u32 = 64;
 /// [`StaticLayers::Auto`](crate::StaticLayers).
 const REPAID: u32 = 8;
 
-/// How a face is drawn.
+/// How a tile is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum DrawMode {
-    /// All casters, on a face that is cleared.
+    /// All casters, on a tile that is cleared.
     #[default]
     Whole,
     /// The casters that have not changed after a frame are copied from the layer, the others drawn
@@ -27,24 +27,24 @@ pub(crate) enum DrawMode {
     Build(u64),
 }
 
-/// The casters on a face that have not changed after a frame, for a light.
+/// The casters on a tile that have not changed after a frame, for one projection.
 #[derive(Clone, Copy, Debug)]
 struct Held {
-    light: PointLight,
+    projection: TileProjection,
     until: u64,
     content: Content,
 }
 
-/// Draws of a face that are looked over for what does not change in them.
+/// Draws of a tile that are looked over for what does not change in them.
 #[derive(Clone, Copy, Debug)]
 struct Watch {
-    light: PointLight,
+    projection: TileProjection,
     /// The frame of the first of them.
     from: u64,
     draws: u32,
 }
 
-/// The layer under one face. Casters belong to it by the frame in which they last changed, so that
+/// The layer under one tile. Casters belong to it by the frame in which they last changed, so that
 /// one that changes leaves it, and is missed in its sum.
 #[derive(Clone, Debug)]
 pub(crate) struct StaticLayer {
@@ -84,23 +84,24 @@ impl StaticLayer {
         }
     }
 
-    /// Chooses how the face is drawn in frame `now`. `since` sums up the casters that have not
+    /// Chooses how the tile is drawn in frame `now`. `since` sums up the casters that have not
     /// changed after a frame; a layer of fewer triangles than `least` is not worth its copy.
     pub fn choose(
         &mut self,
-        light: &PointLight,
+        projection: &TileProjection,
         now: u64,
         least: u64,
         since: impl Fn(u64) -> Content,
     ) {
         self.scheduled = None;
-        let from = self.ripe(light, now);
-        let right = |held: &Held| held.light == *light && since(held.until) == held.content;
+        let from = self.ripe(projection, now);
+        let right =
+            |held: &Held| held.projection == *projection && since(held.until) == held.content;
         self.mode = match self.holds {
             Some(held) if right(&held) => {
                 self.copies += 1;
                 // What stopped since then joins it if that is worth a layer by itself.
-                self.build(light, from, least + held.content.triangles, since)
+                self.build(projection, from, least + held.content.triangles, since)
                     .unwrap_or(DrawMode::Copy(held.until))
             }
             Some(_) => {
@@ -113,15 +114,15 @@ impl StaticLayer {
                 DrawMode::Whole
             }
             None => self
-                .build(light, from, least, since)
+                .build(projection, from, least, since)
                 .unwrap_or(DrawMode::Whole),
         };
     }
 
     /// Counts a draw. Gives the first of those watched if there were enough of them, and begins to
     /// watch anew.
-    fn ripe(&mut self, light: &PointLight, now: u64) -> Option<u64> {
-        let watched = self.watch.filter(|watch| watch.light == *light);
+    fn ripe(&mut self, projection: &TileProjection, now: u64) -> Option<u64> {
+        let watched = self.watch.filter(|watch| watch.projection == *projection);
         if let Some(watch) = watched
             && watch.draws + 1 < self.patience
         {
@@ -132,7 +133,7 @@ impl StaticLayer {
             return None;
         }
         self.watch = Some(Watch {
-            light: *light,
+            projection: *projection,
             from: now,
             draws: 0,
         });
@@ -141,7 +142,7 @@ impl StaticLayer {
 
     fn build(
         &mut self,
-        light: &PointLight,
+        projection: &TileProjection,
         from: Option<u64>,
         least: u64,
         since: impl Fn(u64) -> Content,
@@ -151,9 +152,9 @@ impl StaticLayer {
         if content.triangles < least {
             return None;
         }
-        let light = *light;
+        let projection = *projection;
         self.scheduled = Some(Held {
-            light,
+            projection,
             until,
             content,
         });
@@ -166,15 +167,16 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::PointLight;
 
-    fn light() -> PointLight {
-        PointLight::new(Vec3::ZERO, 10.0)
+    fn projection() -> TileProjection {
+        TileProjection::Face(PointLight::new(Vec3::ZERO, 10.0))
     }
 
-    /// Draws a face of casters of 100 triangles each, given by the frames in which they last changed.
+    /// Draws a tile of casters of 100 triangles each, given by the frames in which they last changed.
     fn draw(layer: &mut StaticLayer, now: u64, casters: &[u64]) -> DrawMode {
         let since = |frame: u64| Content::of_frames(casters.iter().filter(|&&at| at <= frame));
-        layer.choose(&light(), now, 150, since);
+        layer.choose(&projection(), now, 150, since);
         layer.encoded();
         layer.mode()
     }

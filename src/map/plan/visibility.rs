@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use crate::map::projection::{ALL_FACES, CubeFace};
+use crate::map::projection::{ALL_FACES, CubeFace, FlatFrame, LightProjection};
 use crate::scene::{Frustum, Region};
 use crate::{PointLight, Radius};
 
@@ -10,21 +10,50 @@ use crate::{PointLight, Radius};
 /// ([`ContactHardening`](crate::ContactHardening)).
 const STRETCH: f64 = 4.0;
 
+/// A mask of the tiles that kernels may read for something that any view shows, never too few. Without
+/// a view all are read. A directional light's tiles lie where they are seen.
+pub(crate) fn visible_tiles(
+    views: &[Frustum],
+    light: &LightProjection,
+    reach: Radius,
+    size: u32,
+) -> u8 {
+    let of_view = |frustum| match light {
+        LightProjection::Point(light) => visible_faces(frustum, light, reach, size),
+        LightProjection::Spot(frame) => u8::from(!frustum.misses(&around_cone(frame, reach, size))),
+        LightProjection::Cascades(_) => light.all(),
+    };
+    match views {
+        [] => light.all(),
+        _ => views.iter().map(of_view).fold(0, |all, mask| all | mask),
+    }
+}
+
 /// A mask of the faces that kernels may read for something that the view shows, never too few.
-pub(crate) fn visible_faces(frustum: &Frustum, light: &PointLight, reach: Radius, size: u32) -> u8 {
+fn visible_faces(frustum: &Frustum, light: &PointLight, reach: Radius, size: u32) -> u8 {
     let (texels, world) = reach.reach();
     let margin = STRETCH * f64::from(world);
     let Some(wide) = widened(f64::from(texels), f64::from(size)) else {
-        return if frustum.misses(&around_range(light)) {
-            0
-        } else {
-            ALL_FACES
+        return match frustum.misses(&around_range(light)) {
+            true => 0,
+            false => ALL_FACES,
         };
     };
     CubeFace::ALL
         .into_iter()
         .filter(|face| !frustum.misses(&around_face(light, *face, wide, margin)))
         .fold(0, |mask, face| mask | face.bit())
+}
+
+/// What a spot lights, and all from where kernels reach into its map.
+fn around_cone(frame: &FlatFrame, reach: Radius, size: u32) -> Region {
+    let axes = [frame.right, frame.up, frame.forward].map(|axis| axis.as_dvec3());
+    let (wide, range) = (1.0 / f64::from(frame.scale), f64::from(frame.range));
+    let (texels, world) = reach.reach();
+    // No texel is wider for a receiver than for one at the end of the range.
+    let widest = 2.0 * wide * range / f64::from(size);
+    let margin = STRETCH * (f64::from(world) + f64::from(texels) * widest);
+    around_pyramid(frame.origin.as_dvec3(), axes, wide, range, margin)
 }
 
 /// Whatever a light may reach.
@@ -44,8 +73,14 @@ fn around_range(light: &PointLight) -> Region {
 /// In range, and in a face's pyramid, made `wide` times as wide, or within `margin` of it.
 fn around_face(light: &PointLight, face: CubeFace, wide: f64, margin: f64) -> Region {
     let (apex, range) = (light.position.as_dvec3(), f64::from(light.range));
-    let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
-    // What is in range is so along the major axis, too; what it is near to may lie beyond.
+    let axes = face.axes().map(|axis| axis.as_dvec3());
+    around_pyramid(apex, axes, wide, range, margin)
+}
+
+/// In a pyramid that is `wide` half as wide as it is high, up to a range, or within `margin` of it.
+fn around_pyramid(apex: DVec3, axes: [DVec3; 3], wide: f64, range: f64, margin: f64) -> Region {
+    let [right, up, forward] = axes;
+    // What is in range is so along the axis, too; what it is near to may lie beyond.
     let far = range + margin;
     let mut points = vec![apex.extend(1.0)];
     for (s, t) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {

@@ -74,6 +74,7 @@ impl FlatFrame {
                 false => HalfSpace::new(scale * side, 1.0),
             }),
             range: self.perspective.then_some(f64::from(self.range)),
+            scale,
         }
     }
 }
@@ -85,6 +86,7 @@ pub(crate) struct FlatFrustum {
     sides: [HalfSpace; 4],
     /// Of a light with a position.
     range: Option<f64>,
+    scale: f64,
 }
 
 impl FlatFrustum {
@@ -95,5 +97,14 @@ impl FlatFrustum {
         record.casts()
             && self.sides.iter().all(|side| side.touches(&caster))
             && self.range.is_none_or(in_range)
+    }
+
+    /// About the share of the map's area that a caster covers, up to 1.
+    pub fn share(&self, caster: &CasterBounds) -> f64 {
+        let distance = match self.range {
+            Some(_) => caster.centre.distance(self.origin.as_dvec3()),
+            None => 1.0,
+        };
+        (caster.radius * self.scale / distance).powi(2).min(1.0)
     }
 }

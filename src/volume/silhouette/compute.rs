@@ -1,36 +1,35 @@
 //! Extraction on the GPU: facings and caps, then sides, in two compute passes.
 
-use super::super::layout::{storage, uniform};
-use super::super::limits::WORKGROUP;
-use super::super::params::BatchParams;
+use crate::volume::gpu::layout::{storage, uniform};
+use crate::volume::plan::limits::WORKGROUP;
+use crate::volume::plan::params::BatchParams;
 
 const BATCH: &str = include_str!("../../../shaders/volume_batch.wgsl");
 /// The rule of all ways.
-pub(in super::super) const LIGHT_SIDE: &str =
-    include_str!("../../../shaders/volume_light_side.wgsl");
+pub(crate) const LIGHT_SIDE: &str = include_str!("../../../shaders/volume_light_side.wgsl");
 const FACING: &str = include_str!("../../../shaders/volume_facing.wgsl");
 const EDGES: &str = include_str!("../../../shaders/volume_edges.wgsl");
 
 /// The shader of the facing pass.
-pub(in super::super) fn facing_source() -> String {
+pub(crate) fn facing_source() -> String {
     [BATCH, LIGHT_SIDE, FACING].join("\n")
 }
 
 /// The shader of the edge pass.
-pub(in super::super) fn edges_source() -> String {
+pub(crate) fn edges_source() -> String {
     [BATCH, EDGES].join("\n")
 }
 
 /// A compute pipeline and the layout of its only bind group.
-#[derive(Debug)]
-pub(in super::super) struct Pass {
+#[derive(Clone, Debug)]
+pub(crate) struct Pass {
     pub layout: wgpu::BindGroupLayout,
     pub pipeline: wgpu::ComputePipeline,
 }
 
 /// The two passes.
-#[derive(Debug)]
-pub(in super::super) struct Extraction {
+#[derive(Clone, Debug)]
+pub(crate) struct Extraction {
     /// Binds batch, instances, arguments, positions, triangles, facings, caps.
     pub facing: Pass,
     /// Binds batch, instances, arguments, edges, uses, facings, sides.
@@ -38,18 +37,18 @@ pub(in super::super) struct Extraction {
 }
 
 impl Extraction {
-    pub fn new(device: &wgpu::Device, label: &str) -> Self {
+    pub fn new(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Self {
         Self {
             facing: Pass::new(
-                device,
-                &format!("{label} facing"),
+                (device, cache),
+                "shadows volume facing",
                 facing_source(),
                 "shadows_volume_facing",
                 [true, false, true, true, false, false],
             ),
             edges: Pass::new(
-                device,
-                &format!("{label} edges"),
+                (device, cache),
+                "shadows volume edges",
                 edges_source(),
                 "shadows_volume_edges",
                 [true, false, true, true, true, false],
@@ -60,7 +59,7 @@ impl Extraction {
 
 impl Pass {
     fn new(
-        device: &wgpu::Device,
+        (device, cache): (&wgpu::Device, Option<&wgpu::PipelineCache>),
         label: &str,
         source: String,
         entry_point: &str,
@@ -90,14 +89,14 @@ impl Pass {
             module: &module,
             entry_point: Some(entry_point),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
+            cache,
         });
         Self { layout, pipeline }
     }
 }
 
 /// Workgroups for `count` elements of each of some instances: x first, folded into z.
-pub(in super::super) fn workgroups(count: u32, instances: u32, most: u32) -> [u32; 3] {
+pub(crate) fn workgroups(count: u32, instances: u32, most: u32) -> [u32; 3] {
     let groups = count.div_ceil(WORKGROUP);
     let x = groups.min(most);
     [x, instances, groups.div_ceil(x.max(1))]

@@ -6,14 +6,14 @@
 use glam::{Vec3, Vec4};
 use wgpu::WriteOnly;
 
-use super::super::params::InstanceParams;
-use super::super::rule::Counted;
 use super::light_side::light_side;
 use crate::mesh::{BLOCK, BlockWords, Facings, LANES, MeshData, MeshKind};
+use crate::volume::decide::facing::Counted;
+use crate::volume::plan::params::InstanceParams;
 
 /// What an extraction found. Kept for its memory.
 #[derive(Debug, Default)]
-pub(in super::super) struct CpuVolume {
+pub(crate) struct CpuVolume {
     facings: Vec<Facings>,
     /// `edge << 1 | flipped`, once for each side.
     pub sides: Vec<u32>,
@@ -21,7 +21,7 @@ pub(in super::super) struct CpuVolume {
 
 /// How many indices and sides a volume has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in super::super) struct Counts {
+pub(crate) struct Counts {
     pub front: u32,
     pub back: u32,
     pub sides: u32,

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3, Vec4, Vec4Swizzles as _};
 /// The shader, which has no f64, answers 0 there, as if the triangle were seen edge-on. So may a GPU
 /// that fuses a product and a sum into one rounding. These are two different volumes, both closed,
 /// and with one picture unless the light is at the very skin of the triangle.
-pub(in super::super) fn light_side(a: Vec3, b: Vec3, c: Vec3, light: Vec4, rest: Vec3) -> i8 {
+pub(crate) fn light_side(a: Vec3, b: Vec3, c: Vec3, light: Vec4, rest: Vec3) -> i8 {
     match clear_side(a, b, c, light, rest) {
         0 => exact_side([a, b, c].map(Vec3::as_dvec3), light, rest),
         side => side,

@@ -1,8 +1,8 @@
 //! Where silhouettes are found.
 
-use super::super::limits;
 use crate::error::ShadowVolumeError;
 use crate::mesh::CasterMesh;
+use crate::volume::plan::limits;
 
 /// How the silhouettes of casters are found. All ways count the same volumes, but for a light at the
 /// very skin of a triangle: see [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer).
@@ -36,7 +36,7 @@ pub enum Silhouettes {
 
 /// A way that was decided on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(in super::super) enum Way {
+pub(crate) enum Way {
     Compute,
     Cpu,
     Vertex,
@@ -44,7 +44,7 @@ pub(in super::super) enum Way {
 
 /// The ways open to one renderer, the best first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in super::super) struct Ways {
+pub(crate) struct Ways {
     first: Way,
     second: Option<Way>,
 }

@@ -49,7 +49,7 @@ pub fn judge(
         Expect::Rare(why) => Some(why),
         Expect::Streaks(why) if !has_blocks(&found, reference.width() as usize) => Some(why),
         Expect::Wraps if frame.may_wrap && only_falsely_lit(&outcome, unlit) => {
-            Some("8-bit counts wrap at 256; the renderer says so")
+            Some("8-bit counts wrap at 256, which `may_wrap` reports")
         }
         _ => None,
     };

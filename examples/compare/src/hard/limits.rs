@@ -64,30 +64,34 @@ const fn known(
 
 /// A few pixels of any scene, and more where distances are short or very long; a hundredth of a per cent
 /// is the least bound, since so few pixels are a matter of chance.
-const TEXTBOOK: &str = "the textbook's constant bias is 0.15, whatever the scene";
-const GRAZING: &str = "one texel covers 1/N.L texels of ground along the light";
-const CLIPPED: &str = "rasterisers clip in f32: the edges of a triangle a million times as large as its \
-                       distance from the light move by a texel where they leave a face";
-const TILTED: &str = "the same, and positions in f32 do not say how a surface lies that is seen from so near \
-                      its plane: a wide kernel is compared nearer to the light by as much";
-const RIM: &str = "outside the map all is lit: where a spot's cone touches its side, half of a disk \
-                   lies outside";
-const FULL_CAPS: &str =
-    "full caps: far triangles almost in one plane with the light are nearly singular";
-const FACING: &str = "nearer than 1e-5 of a triangle's size f32 does not tell the light from its \
-                      plane; the CPU way decides facing in f64";
-const THIN: &str = "what no texel's centre sees casts nothing";
+const TEXTBOOK: &str =
+    "the textbook map has a constant bias of 0.15, whatever the size of the scene";
+const GRAZING: &str = "one texel covers 1 / N.L texels of the ground in the light's direction, so shadow edges \
+    are that much coarser";
+const CLIPPED: &str = "rasterisers clip in f32: where a triangle a million times larger than its distance from \
+    the light leaves a cube face, its edges move by a texel";
+const TILTED: &str = "rasterisers clip in f32, and f32 positions do not determine the plane of a surface seen from \
+    so close to it: a wide kernel is compared that much nearer to the light";
+const RIM: &str = "everything outside a spot's square map is lit, and where its cone touches the map's side \
+    half of a disk kernel lies outside";
+const FULL_CAPS: &str = "full caps draw distant triangles that lie almost in one plane with the light, and their \
+    equations are nearly singular";
+const FACING: &str = "when the light is nearer to a triangle than 1e-5 of its size, f32 cannot tell on which \
+    side of its plane the light is; `Silhouettes::Cpu` decides that in f64";
+const THIN: &str = "a caster that no texel centre hits casts no shadow";
 
-const ONE_DEPTH: &str = "four texels are compared with one depth: what touches a surface shadows it as much later \
-                         as a texel covers of it";
-const POSITIONS: &str = "f32 positions are rounded by more than texels and pixels there: at 1e5 and 1e6 what \
-                         is seen from its edge is off by more than the bias in ulps";
-const VERTICES: &str = "f32 vertices: at 1e6 the picture itself is off by pixels";
-const TWENTY_FOUR_BITS: &str =
-    "steps of 2^-24, where depth is near / distance: 0.7 m at 500 m from a near plane of 2 cm";
+const ONE_DEPTH: &str = "hardware filtering compares four texels with one depth, so where a caster touches a \
+    receiver the shadow starts later, by the depth that a texel covers there";
+const POSITIONS: &str = "positions in f32 are rounded by more than a texel or a pixel there; at 1e5 and 1e6 surfaces \
+    seen edge-on are off by more than the bias in ulps";
+const VERTICES: &str =
+    "vertices are in f32: at 1e6 the rendered picture itself is off by whole pixels";
+const TWENTY_FOUR_BITS: &str = "depth is near / distance in steps of 2^-24: with the near plane at 2 cm a step is 0.7 m \
+    deep at a distance of 500 m";
 
-const SNAPPED: &str = "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L 1e-5 the ground is nearer \
-     than that to the sides of a volume whose caster stands on it";
+const SNAPPED: &str = "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L = 1e-5 \
+    the sides of a volume whose caster stands on the ground are nearer to the ground than \
+    that";
 
 /// Those of hardware alone. Bounds are of the arithmetic `snapped` on a software driver.
 pub const ON_HARDWARE: [Known; 1] = [known("Grazing light", "volume*", SNAPPED, [2.8, 0.0, 2.9])];
@@ -277,7 +281,7 @@ pub const ALL: &[Known] = &[
     known("Landscape", "volume-textbook", FULL_CAPS, [0.01, 0.01, 0.5]),
     known("*", "cube-textbook", TEXTBOOK, [0.01, 0.01, 0.57]),
     known("Grazing light", "cube-*", GRAZING, [0.0, 0.0, 15.0]),
-    known("Grazing light", "flat-*", GRAZING, [0.0, 0.00029, 8.4]),
+    known("Grazing light", "flat-*", GRAZING, [0.0, 0.00029, 7.4]),
     known(
         "Light very near a caster",
         "volume-textbook",

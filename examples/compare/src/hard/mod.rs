@@ -1,6 +1,7 @@
 //! `compare --hard-cases`: where shadows usually break, every technique, against the reference.
 
 pub mod cases;
+pub mod causes;
 pub mod course;
 pub mod expect;
 pub mod input;
@@ -10,7 +11,7 @@ pub mod outcome;
 pub mod seams;
 pub mod situation;
 pub mod small;
-mod table;
+pub mod table;
 pub mod trial;
 
 use std::path::Path;

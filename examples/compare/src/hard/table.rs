@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::limits;
+use super::causes;
 use super::outcome::Outcome;
 use super::seams::FACTOR;
 
@@ -75,8 +75,8 @@ impl Table {
              (maps), away from any edge of the true shadow.\n\n\
              `0` means: no interior pixel is wrong in any round; `0 (edges)`, that only edges suffer \
              more than they do elsewhere. A figure is a **known limit**: the wrong interior pixels in \
-             per cent of those that face the light. Why is said below the table, and how much it may \
-             be: above that it fails. **FAILS** is a defect. `-`: does not apply.\n\n\
+             per cent of those that face the light. Its cause and its bound are below the table; above the \
+             bound it fails. **FAILS** is a defect. `-`: does not apply.\n\n\
              On this driver `volume` found its silhouettes in the way `Silhouettes::{}`, as did the \
              other volumes that name no way: `Auto` takes `Compute` on a GPU, which `volume-compute` \
              does here, and `Cpu` on a software adapter.\n",
@@ -102,26 +102,14 @@ impl Table {
 
     fn limits(&self, text: &mut String) {
         text.push_str("## Known limits\n\n");
-        for row in &self.rows {
-            for (technique, outcome) in self.techniques.iter().zip(&row.outcomes) {
-                let Some(outcome) = outcome else { continue };
-                for why in &outcome.limits {
-                    let _ = writeln!(
-                        text,
-                        "- {}, {technique}: {why} ({} of {} pixels; edges included {:.3} %{}).",
-                        row.name,
-                        outcome.interior(),
-                        outcome.counted,
-                        outcome.wrong_percent(),
-                        bound(row.name, technique)
-                    );
-                }
-            }
-        }
-        for failure in self.failures() {
+        text.push_str(&causes::markdown(&self.techniques, &self.rows));
+        let failures = self.failures();
+        for failure in &failures {
             let _ = writeln!(text, "- **FAILS**: {failure}.");
         }
-        text.push('\n');
+        if !failures.is_empty() {
+            text.push('\n');
+        }
     }
 
     fn seams(&self, text: &mut String) {
@@ -229,16 +217,6 @@ impl Table {
             "inputs": self.refusals.iter().map(refusal).collect::<Vec<_>>(),
         })
     }
-}
-
-/// What a known limit is bounded by.
-fn bound(case: &str, technique: &str) -> String {
-    limits::of(case, technique).map_or(String::new(), |limit| {
-        let [lit, shadow, all] = limit.at_most;
-        format!(
-            "; in a round at most {lit} % lit and {shadow} % in shadow falsely, {all} % with edges"
-        )
-    })
 }
 
 fn cell(outcome: &Option<Outcome>) -> String {

@@ -3,6 +3,7 @@
 use shadows::reference::{Class, Interior, ReferenceImage};
 
 use compare::hard::cases::{self, Case, Course, mesh};
+use compare::hard::causes;
 use compare::hard::expect::{Expect, expected, is_software};
 use compare::hard::input::t_junction;
 use compare::hard::judge::{Frame, judge};
@@ -11,6 +12,7 @@ use compare::hard::outcome::Outcome;
 use compare::hard::seams::{self, Rates};
 use compare::hard::situation::Situation;
 use compare::hard::small::lit_where_nothing_casts;
+use compare::hard::table::Row;
 use compare::hard::{techniques, trial};
 use compare::shadow::Shadow;
 use compare::stage::Stage;
@@ -373,4 +375,47 @@ fn frames_around_it_leave_a_picture_as_it_is_alone() {
             }
         }
     }
+}
+
+/// A row of the table: what each technique got wrong, and why.
+fn row(name: &'static str, found: [(usize, Option<&'static str>); 3]) -> Row {
+    let outcome = |(wrong, why): (usize, Option<&'static str>)| Outcome {
+        counted: 100,
+        wrong,
+        limits: why.into_iter().collect(),
+        ..Outcome::default()
+    };
+    Row {
+        name,
+        build: "",
+        answer: "",
+        outcomes: found.map(|found| Some(outcome(found))).into(),
+        picture: Vec::new(),
+    }
+}
+
+#[test]
+fn a_cause_is_named_once_with_all_that_it_does() {
+    let names = ["cube-textbook", "cube-hard", "cube-2x2"].map(str::to_owned);
+    let (bias, thin) = (Some("a bias"), Some("thin casters"));
+    let rows = [
+        row("One", [(1, bias), (2, thin), (2, thin)]),
+        row("Two", [(1, bias), (2, thin), (3, thin)]),
+    ];
+    let page = causes::markdown(&names, &rows);
+    let causes = ["**A bias.**", "**Thin casters.**"];
+    assert_eq!(causes.map(|cause| page.matches(cause).count()), [1, 1]);
+    let [bias_at, thin_at] = causes.map(|cause| page.find(cause).unwrap());
+    assert!(
+        thin_at < bias_at,
+        "what only textbooks get wrong comes last"
+    );
+    let line = |line: &str| page.contains(line);
+    assert!(line("| One | cube-hard, cube-2x2 | 0 of 100 | 2.000 % |"));
+    assert!(line("| Two | cube-hard | 0 of 100 | 2.000 % |"));
+    assert!(line("| Two | cube-2x2 | 0 of 100 | 3.000 % |"));
+    // Two causes are two entries.
+    let apart = [row("One", [(1, bias), (2, thin), (2, Some("its kernel"))])];
+    let page = causes::markdown(&names, &apart);
+    assert_eq!(page.matches("| Case |").count(), 3);
 }

@@ -1,15 +1,6 @@
 // A plain forward renderer's shaders. `shadows_clip_position` comes from the library's
 // `wgsl::POSITION`: depths are then bit-equal in every pass, the shadow volumes' included.
 
-struct HostFrame {
-    clip_from_world: mat4x4f,
-    world_from_clip: mat4x4f,
-    eye: vec4f,
-    ambient: vec4f, // colour; the part of what is seen that the air swallows in a metre
-    horizon: vec4f,
-    zenith: vec4f,
-}
-
 struct HostLight {
     place: vec4f, // homogeneous
     cone: vec4f, // unit direction, cosine of the half angle
@@ -17,6 +8,16 @@ struct HostLight {
     range: f32,
     intensity: f32,
     number: u32,
+}
+
+struct HostFrame {
+    clip_from_world: mat4x4f,
+    world_from_clip: mat4x4f,
+    eye: vec4f,
+    ambient: vec4f, // colour; the part of what is seen that the air swallows in a metre
+    horizon: vec4f,
+    zenith: vec4f,
+    light: HostLight,
 }
 
 struct HostObject {
@@ -28,7 +29,6 @@ struct HostObject {
 
 @group(0) @binding(0) var<uniform> host_frame: HostFrame;
 @group(0) @binding(1) var<uniform> host_object: HostObject;
-@group(0) @binding(2) var<uniform> host_light: HostLight;
 
 struct HostVaryings {
     @invariant @builtin(position) clip: vec4f,
@@ -86,7 +86,7 @@ struct HostReceiver {
 fn host_receiver(in: HostFragment) -> HostReceiver {
     let flat_normal = host_flat_normal(in.world);
     let normal = host_normal(in, flat_normal);
-    return HostReceiver(in.world, flat_normal, normal, in.clip.xy, host_light.number);
+    return HostReceiver(in.world, flat_normal, normal, in.clip.xy, host_frame.light.number);
 }
 
 // How much of what is seen comes through the air: Beer's law.
@@ -116,19 +116,19 @@ struct HostLit {
 fn host_shade(in: HostFragment, visibility: f32) -> HostLit {
     let flat_normal = host_flat_normal(in.world);
     let normal = host_normal(in, flat_normal);
-    let toward_light = host_light.place.xyz - host_light.place.w * in.world;
+    let toward_light = host_frame.light.place.xyz - host_frame.light.place.w * in.world;
     let squared = dot(toward_light, toward_light);
-    let ratio = squared / (host_light.range * host_light.range);
+    let ratio = squared / (host_frame.light.range * host_frame.light.range);
     let window = saturate(1.0 - ratio * ratio);
-    let along = -dot(host_light.cone.xyz, toward_light) * inverseSqrt(squared);
-    let near_falloff = select(0.0, window * window / squared, along >= host_light.cone.w);
+    let along = -dot(host_frame.light.cone.xyz, toward_light) * inverseSqrt(squared);
+    let near_falloff = select(0.0, window * window / squared, along >= host_frame.light.cone.w);
     // No branch on what a uniform buffer says: Mesa's lavapipe would compile the shader anew for its
     // values at each draw.
-    let falloff = select(1.0, near_falloff, host_light.place.w != 0.0);
+    let falloff = select(1.0, near_falloff, host_frame.light.place.w != 0.0);
     let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
     let facing = select(0.0, 1.0, host_smooth || dot(flat_normal, toward_light) > 0.0);
-    let light = 1.0 - exp(-host_light.intensity * falloff * cosine * facing);
+    let light = 1.0 - exp(-host_frame.light.intensity * falloff * cosine * facing);
     let diffuse = host_object.albedo.rgb * (1.0 - host_frame.ambient.rgb) * light;
-    let seen = diffuse * host_light.color.rgb * host_clear_air(in.world);
+    let seen = diffuse * host_frame.light.color.rgb * host_clear_air(in.world);
     return HostLit(vec4f(seen * visibility, 0.0), visibility);
 }

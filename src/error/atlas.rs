@@ -1,0 +1,134 @@
+//! Errors of the atlas.
+
+use thiserror::Error;
+
+use super::{BiasError, CascadeError, CasterError, LightError, TileSizeError};
+
+/// What can be wrong with a [`ShadowAtlas`](crate::ShadowAtlas) or a frame of it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShadowAtlasError {
+    /// Layers that no tiles fill, or that the device does not have.
+    #[error("layer_size = {size} is out of range; pass a power of two from {least} to {limit}")]
+    LayerSize {
+        /// Texels along a side.
+        size: u32,
+        /// Texels along the smallest tile.
+        least: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// Not one layer fits.
+    #[error(
+        "memory = {memory} bytes holds no layer, which takes {layer}; pass more, or a smaller layer_size"
+    )]
+    Memory {
+        /// Bytes allowed.
+        memory: u64,
+        /// Bytes of a layer.
+        layer: u64,
+    },
+    /// The format is none that an atlas can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
+    /// A budget of no tile at all.
+    #[error("max_tiles_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
+    Budget,
+    /// Layers of static casters on a back end that cannot copy depth.
+    #[error(
+        "StaticLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
+    )]
+    StaticLayers,
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// A light is out of range.
+    #[error("light {index}: {source}")]
+    Light {
+        /// Its place in the frame.
+        index: usize,
+        /// What is wrong with it.
+        source: LightError,
+    },
+    /// A light's sizes are out of range.
+    #[error("light {index}: {source}")]
+    TileSize {
+        /// Its place in the frame.
+        index: usize,
+        /// What is wrong with them.
+        source: TileSizeError,
+    },
+    /// A directional light's cascades are out of range.
+    #[error("light {index}: {source}")]
+    Cascades {
+        /// Its place in the frame.
+        index: usize,
+        /// What is wrong with them.
+        source: CascadeError,
+    },
+    /// A picture without pixels.
+    #[error("view {index} fills a picture of {width} x {height} pixels; pass at least 1 x 1")]
+    Pixels {
+        /// Its place in the frame.
+        index: usize,
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// The depths that a view shows are out of range.
+    #[error("view {index}: {source}")]
+    DepthBounds {
+        /// Its place in the frame.
+        index: usize,
+        /// What is wrong with them.
+        source: CascadeError,
+    },
+    /// The receivers' bounds are out of range.
+    #[error(
+        "receivers from {min:?} to {max:?} are no box; pass finite corners, min no greater than max"
+    )]
+    Receivers {
+        /// The corner with the least coordinates.
+        min: [f32; 3],
+        /// The corner with the greatest coordinates.
+        max: [f32; 3],
+    },
+    /// The tiles do not fit, each as small as it may be.
+    #[error(transparent)]
+    Space(TileSizeError),
+    /// More lights than one buffer of the device can hold.
+    #[error(
+        "{records} records of lights, one for each light, view and cascade, are out of range; the device's shaders read {limit}"
+    )]
+    TooManyLights {
+        /// Records needed.
+        records: usize,
+        /// The most that work.
+        limit: usize,
+    },
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// More casters than one buffer of the device can hold.
+    #[error("{instances} casters on tiles need {size} bytes, max_buffer_size is {limit}")]
+    TooManyCasters {
+        /// Casters, each counted once for every tile it touches.
+        instances: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes allowed.
+        limit: u64,
+    },
+    /// A light or a caster is so far away that a directional light's matrix is not finite.
+    #[error(
+        "light {index}: its matrix is not finite in f32; a caster or the receivers are too far away, too large or too small: place all nearer the origin"
+    )]
+    BeyondF32 {
+        /// The light's place in the frame.
+        index: usize,
+    },
+}

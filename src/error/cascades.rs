@@ -1,0 +1,62 @@
+//! Errors of cascades.
+
+use thiserror::Error;
+
+/// What can be wrong with the cascades of a directional light.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CascadeError {
+    /// No cascade at all, or too many.
+    #[error("{count} cascades are out of range; pass 1 to {limit}")]
+    Count {
+        /// Cascades asked for.
+        count: u32,
+        /// The most that work.
+        limit: u32,
+    },
+    /// A field that is a share of something is out of range.
+    #[error("{field} = {value} is out of range; pass 0 to {limit}")]
+    Share {
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        value: f32,
+        /// The largest that works.
+        limit: f32,
+    },
+    /// The distance up to which a view shows shadows is out of range.
+    #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
+    Distance(f32),
+    /// The depths that are seen are no range.
+    #[error(
+        "depths seen from {nearest} to {farthest} are no range; pass finite distances, 0 <= nearest <= farthest"
+    )]
+    DepthBounds {
+        /// The least depth passed.
+        nearest: f32,
+        /// The greatest depth passed.
+        farthest: f32,
+    },
+    /// A map has not as many texels to spare as kernels reach and the camera may walk.
+    #[error(
+        "kernels that reach {reach} texels, and a camera that may walk {margin} of a cascade's width, need cascades of at least {} texels, not {size}: pass a larger size, a smaller reach or a smaller margin",
+        (4.0 * (reach + 1.25) / (1.0 - 4.0 * margin)).ceil()
+    )]
+    ReachOfSize {
+        /// Texels that kernels reach.
+        reach: f32,
+        /// [`Cascades::margin`](crate::map::Cascades::margin).
+        margin: f32,
+        /// Texels along a side.
+        size: u32,
+    },
+    /// A cascade lies so far from the origin, or is so large or so narrow, that its matrix is not
+    /// finite in `f32`.
+    #[error(
+        "the matrix of cascade {cascade} is not finite in f32: the view or a caster is too far away, or the distance too great; place all nearer the origin, or pass a smaller distance"
+    )]
+    BeyondF32 {
+        /// The cascade, counted from 0.
+        cascade: usize,
+    },
+}

@@ -1,0 +1,709 @@
+//! One texture for the shadows of all lights.
+
+use glam::Mat4;
+
+use super::atlas_descriptor::{AtlasFrame, AtlasView, LEAST_TILE, ShadowAtlasDescriptor};
+use super::atlas_statistics::AtlasStatistics;
+use super::gpu::{
+    AtlasGpu, AtlasKind, Draw, DrawByHost, HostDraw, LightRecord, Resized, TileTexture, Tiled,
+    Tiles, TooLarge,
+};
+use super::plan::{
+    Claim, LitSphere, Place, Residents, Rules, Screen, Slot, SlotPlan, Slots, Tally, casters_drawn,
+    choose_tiles, follow, importance, longest_wait,
+};
+use super::projection::{LightProjection, SlotLight, TileProjection, fit_spot};
+use super::statistics::{Clock, FaceState, FaceStatistics};
+use super::suns::{Sun, Suns};
+use super::{AtlasLight, StaticLayers};
+use crate::error::ShadowAtlasError;
+use crate::scene::Casters;
+use crate::submissions::Submissions;
+use crate::{Bias, Light, Radius};
+
+/// The shadow maps of all lights of a scene, of any kinds and sizes, as tiles of one texture: one light
+/// buffer, and one bind group that is made again only when the texture or the buffer grows.
+///
+/// A point light has six tiles, the faces of a cube; a spot has one; a directional light has one for each
+/// cascade and view. Each tile is what the same light's [`CubeShadowMap`](crate::CubeShadowMap) or
+/// [`ShadowMap`](crate::ShadowMap) of that size would hold, texel for texel; depths of steep triangles may
+/// differ by the rasteriser's rounding, which goes by where in the layer a tile lies (2^-14 of the depth
+/// is the most that was seen).
+///
+/// # What is drawn again
+///
+/// A tile whose light, casters, transforms and mesh revisions are those it was drawn with is left alone,
+/// as in a [`CubeShadowMap`](crate::CubeShadowMap). A still scene costs one comparison of 80 bytes a
+/// caster and no GPU work.
+///
+/// # Space
+///
+/// Lights say how large their tiles are, or between which sizes what they are worth on screen decides
+/// ([`TileSize`](crate::TileSize)). Lights to which nothing casts have none. Where
+/// [`memory`](ShadowAtlasDescriptor::memory) is short, the least important are halved, and
+/// [`AtlasStatistics::lights_reduced`] says how many; no light is left out. A tile that changed its size or
+/// place is drawn at once, whatever the budget.
+#[derive(Debug)]
+pub struct ShadowAtlas {
+    layer_size: u32,
+    bias: Bias,
+    format: wgpu::TextureFormat,
+    pub(crate) reach: Radius,
+    budget: Option<u32>,
+    static_layers: StaticLayers,
+    adapter: wgpu::AdapterInfo,
+    casters: Casters,
+    slots: Slots,
+    suns: Suns,
+    residents: Residents,
+    plans: Vec<SlotPlan>,
+    /// Lights and views of the last frame, and for each light its first slot's place among all and how
+    /// many it has.
+    lights: usize,
+    views: usize,
+    of_light: Vec<(usize, usize)>,
+    /// For each slot its light and view in the last frame.
+    names: Vec<(usize, usize)>,
+    gpu: AtlasGpu,
+    submissions: Submissions,
+    statistics: AtlasStatistics,
+}
+
+/// Where one tile lies, and what it shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AtlasTile {
+    /// The layer of the texture.
+    pub layer: u32,
+    /// The corner nearest to texel (0, 0), in texels.
+    pub x: u32,
+    /// See `x`.
+    pub y: u32,
+    /// Texels along a side.
+    pub size: u32,
+    /// World space to clip space. The frame is left-handed: triangles that are counter-clockwise seen from
+    /// the light are clockwise on the tile.
+    pub clip_from_world: Mat4,
+    /// What became of it in the last `prepare`.
+    pub statistics: FaceStatistics,
+}
+
+/// One light for one view: what has a slot.
+#[derive(Clone, Copy, Debug)]
+struct Entry<'a> {
+    /// Its place in the frame.
+    index: usize,
+    light: &'a AtlasLight,
+    /// For directional lights, if the frame has any.
+    view: Option<(usize, &'a AtlasView<'a>)>,
+    /// Its number among directional lights.
+    sun: Option<usize>,
+}
+
+impl ShadowAtlas {
+    /// Makes an atlas. It has no texture until a light casts.
+    ///
+    /// # Errors
+    /// [`ShadowAtlasError`] if a number is out of range.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &ShadowAtlasDescriptor<'_>,
+    ) -> Result<Self, ShadowAtlasError> {
+        descriptor.validate(device)?;
+        let &ShadowAtlasDescriptor {
+            layer_size,
+            bias,
+            format,
+            reach,
+            ..
+        } = descriptor;
+        let label = match descriptor.label {
+            Some(label) => format!("shadows atlas {label}"),
+            None => "shadows atlas".to_owned(),
+        };
+        let gpu = AtlasGpu::new(
+            device,
+            AtlasKind {
+                label,
+                layer_size,
+                format,
+                slope_scale: bias.slope_scale,
+                sides: descriptor.sides,
+            },
+        );
+        Ok(Self {
+            layer_size,
+            bias,
+            format,
+            reach,
+            budget: descriptor.max_tiles_per_frame,
+            static_layers: descriptor.static_layers,
+            adapter: device.adapter_info(),
+            casters: Casters::with_host_drawn(),
+            slots: Slots::new(0, true),
+            suns: Suns::new(reach, gpu.unclipped_depth()),
+            residents: Residents::new(layer_size, descriptor.most_layers(device), LEAST_TILE),
+            plans: Vec::new(),
+            lights: 0,
+            views: 1,
+            of_light: Vec::new(),
+            names: Vec::new(),
+            gpu,
+            submissions: Submissions::default(),
+            statistics: AtlasStatistics::default(),
+        })
+    }
+
+    /// Decides which casters go on which tiles, how large those are and which are drawn, and stages what
+    /// that needs.
+    ///
+    /// # Errors
+    /// [`ShadowAtlasError`] if a light, a view or a caster is out of range, or there are too many. What an
+    /// earlier `prepare` found then still stands.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: &AtlasFrame<'_>,
+    ) -> Result<(), ShadowAtlasError> {
+        let clock = Clock::start();
+        frame.validate(self.layer_size)?;
+        let entries = entries(frame);
+        let records = self.count_records(frame)?;
+        self.casters.compare(frame.casters, device)?;
+        self.casters.update(frame.casters);
+        self.suns.casters_changed(&self.casters);
+        let encoder_dropped = self.submissions.take_dropped();
+        if encoder_dropped {
+            self.invalidate();
+        }
+        let fitted = self.take_over(frame, &entries);
+        let moved = match fitted {
+            Ok(moved) => moved,
+            Err(error) => {
+                // What changed among the casters is not known any more when the next frame comes.
+                self.slots.miss_update();
+                return Err(error);
+            }
+        };
+        let resized = self
+            .gpu
+            .resize(device, queue, self.residents.layers(), records);
+        if resized == Resized::Lost {
+            self.slots.iter_mut().for_each(Slot::forget_texels);
+        }
+        let plans = self.plan(frame, &entries, &moved, resized);
+        self.reserve(device, &plans)?;
+        let not_encoded = self.is_pending();
+        if not_encoded {
+            self.gpu.forget_uploads();
+        }
+        follow(&plans, &mut self.slots);
+        self.record_draws(device, frame);
+        self.lights = frame.lights.len();
+        self.views = frame.views.len().max(1);
+        self.of_light.clear();
+        for run in entries.chunk_by(|a, b| a.index == b.index) {
+            let (first, count) = self.of_light.last().copied().unwrap_or_default();
+            self.of_light.push((first + count, run.len()));
+        }
+        self.names.clear();
+        self.names.resize(self.slots.len(), (0, 0));
+        for (place, entry) in entries.iter().enumerate() {
+            if let Some(slot) = self.slots.of_light(place) {
+                self.names[slot] = (entry.index, entry.view.map_or(0, |(view, _)| view));
+            }
+        }
+        self.write_lights(&entries);
+        self.plans = plans;
+        self.statistics = AtlasStatistics {
+            lights_moved: moved.len() as u32,
+            not_encoded,
+            encoder_dropped,
+            ..self.count()
+        };
+        self.statistics.prepare = clock.elapsed();
+        Ok(())
+    }
+
+    /// Records what the last [`prepare`](Self::prepare) found necessary: its passes, and what it tells
+    /// receivers of the lights. Once: a second call before the next `prepare` records nothing.
+    ///
+    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
+    /// lights as they were; of an atlas that was never drawn they see all lights dark. What is recorded
+    /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
+    /// ([`AtlasStatistics::encoder_dropped`]).
+    ///
+    /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
+    /// missing from what this draws. Their tiles count as not drawn, so that the next frame draws them
+    /// again. Hosts that have any call [`encode_with`](Self::encode_with).
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        self.encode_tiles(encoder, None);
+    }
+
+    /// As [`encode`](Self::encode), and asks the host to draw what only it can: `draw` is called within the
+    /// pass of each tile that such casters touch, after all else on that tile, once for the tile, or
+    /// once for its static casters and once for the others ([`StaticLayers`](crate::StaticLayers)).
+    ///
+    /// Viewport and scissor are set, and must stay. The pass has no colour target, one sample and a depth
+    /// target of the atlas's [`format`](ShadowAtlasDescriptor::format); compare with `Greater`, write
+    /// depth, and let vertices be at [`clip_from_world`](HostDraw::clip_from_world) times their position,
+    /// with `unclipped_depth` where the device has
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), so that what is nearer than the near
+    /// plane casts. On wgpu's GL back end, let the fragment shader of lights with a position write
+    /// clip z times its position's w as `frag_depth`: the rasteriser's own depth has too few digits there
+    /// (see [`Support`](crate::Support)).
+    pub fn encode_with(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        mut draw: impl FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>),
+    ) {
+        self.encode_tiles(encoder, Some(&mut draw));
+    }
+
+    fn encode_tiles(&mut self, encoder: &mut wgpu::CommandEncoder, draw: Option<DrawByHost<'_>>) {
+        let mut recorded = self.gpu.upload(encoder);
+        let host_draws = draw.is_some();
+        let tiles = Tiled {
+            slots: &self.slots,
+            residents: &self.residents,
+            names: &self.names,
+        };
+        self.gpu.encode(encoder, &tiles, draw);
+        for (index, slot) in self.slots.iter_mut().enumerate() {
+            recorded |= slot.pending != 0;
+            let pending = slot.pending;
+            slot.encoded(pending);
+            if !host_draws {
+                let missing = |tile: &usize| {
+                    let draws = self.gpu.draws().of(index, *tile);
+                    pending & 1 << tile != 0
+                        && !(draws.tile.host.is_empty() && draws.layer.host.is_empty())
+                };
+                let tiles: Vec<usize> = (0..slot.tiles.len()).filter(missing).collect();
+                tiles.into_iter().for_each(|tile| slot.spoil(tile));
+            }
+        }
+        if recorded {
+            self.submissions.watch(encoder);
+        }
+    }
+
+    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has every tile drawn again that a view
+    /// shows, whatever the budget. What the last one found is forgotten.
+    ///
+    /// For a host that has written to the texture, or has lost what was recorded in a way that the atlas
+    /// cannot see: an encoder that is kept but never submitted, a submission that failed.
+    pub fn invalidate(&mut self) {
+        self.slots.iter_mut().for_each(Slot::doubt_texels);
+        self.gpu.doubt();
+    }
+
+    /// The number by which shaders name a light of the last [`prepare`](Self::prepare) for one of its
+    /// views: `view * lights + light`. Only directional lights look different from another view. With one
+    /// view, or none, it is the light's place in the frame.
+    pub fn light_index(&self, light: usize, view: usize) -> u32 {
+        (view * self.lights + light) as u32
+    }
+
+    /// The tiles of a light: the faces of a point light in the order of
+    /// [`CubeFace::ALL`](crate::CubeFace::ALL), or the cascades of a directional light from the nearest
+    /// on, of which those are left out that nothing casts on; empty where nothing casts.
+    pub fn tiles(&self, light: usize, view: usize) -> Vec<AtlasTile> {
+        let Some(index) = self.slot_of(light, view) else {
+            return Vec::new();
+        };
+        let (slot, places) = (&self.slots[index], self.residents.places(index));
+        let tiles = places.iter().zip(&slot.tiles).enumerate();
+        let tile = |(number, (place, tile)): (usize, (&Place, &super::plan::Tile))| {
+            let projection = tile.shown.or_else(|| slot.projection(number))?;
+            let from_light = projection.clip_from_light(number, self.gpu.near_plane());
+            let plan = self.plans.get(index);
+            Some(AtlasTile {
+                layer: place.layer,
+                x: place.x,
+                y: place.y,
+                size: place.size,
+                clip_from_world: from_light * Mat4::from_translation(-projection.origin()),
+                statistics: FaceStatistics {
+                    state: plan.map_or(FaceState::Empty, |plan| plan.state(slot, number)),
+                    casters: tile.content.casters,
+                    triangles: tile.content.triangles,
+                    age: tile.age,
+                },
+            })
+        };
+        tiles.filter_map(tile).collect()
+    }
+
+    /// The texture of all tiles, of [`ShadowAtlasDescriptor::format`]; one texel while no light casts.
+    pub fn texture(&self) -> &wgpu::Texture {
+        self.gpu.texture().texture()
+    }
+
+    /// All layers as a 2D array, for hosts that sample them themselves.
+    pub fn view(&self) -> &wgpu::TextureView {
+        self.gpu.texture().view()
+    }
+
+    /// Changes when a bind group of this atlas must be made again: when its texture or its buffer of lights
+    /// grew, or was given back. Compare it after each [`prepare`](Self::prepare), before bind groups are
+    /// used. To a bind group that was not made again all lights are dark, so that nobody takes it for
+    /// right.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.gpu.lights().revision()
+    }
+
+    /// The most frames that a tile which changed waits to be drawn while a view shows it: as many tiles as
+    /// the last frame had over half of `max_tiles_per_frame`, both rounded up; `None` without a budget.
+    ///
+    /// Half the budget goes to the tiles that have waited longest, the rest to the most important: see
+    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age). A light that moved is seen where it was
+    /// until its turn, a new one is dark until then. Pinned lights, tiles that changed their size or place,
+    /// the first cascades of a directional light, and tiles that turned visible and show something else
+    /// are drawn at once, outside the budget.
+    pub fn max_age(&self) -> Option<u32> {
+        let tiles = self.slots.iter().map(|slot| slot.tiles.len()).sum();
+        Some(longest_wait(tiles, self.budget?))
+    }
+
+    /// What the last [`prepare`](Self::prepare) found.
+    pub fn statistics(&self) -> AtlasStatistics {
+        self.statistics
+    }
+
+    #[allow(dead_code)] // until receivers read it
+    pub(crate) fn light_buffer(&self) -> &wgpu::Buffer {
+        self.gpu.lights().buffer()
+    }
+
+    /// The records that shaders read: one for each light and view, and one for each further cascade.
+    fn count_records(&self, frame: &AtlasFrame<'_>) -> Result<usize, ShadowAtlasError> {
+        let views = frame.views.len().max(1);
+        let further = |light: &AtlasLight| match light.light() {
+            Light::Directional(_) => views * (Suns::tiles(light, frame.views.first()) - 1),
+            _ => 0,
+        };
+        let records = views * frame.lights.len() + frame.lights.iter().map(further).sum::<usize>();
+        let limit = self.gpu.lights().limit();
+        match records <= limit {
+            true => Ok(records),
+            false => Err(ShadowAtlasError::TooManyLights { records, limit }),
+        }
+    }
+
+    /// Finds what every light's tiles show and where they lie. Tells the slots whose tiles were elsewhere
+    /// before.
+    fn take_over(
+        &mut self,
+        frame: &AtlasFrame<'_>,
+        entries: &[Entry<'_>],
+    ) -> Result<Vec<usize>, ShadowAtlasError> {
+        let before: Vec<Option<u32>> = (0..entries.len())
+            .map(|entry| self.residents.size(self.slots.of_light(entry)?))
+            .collect();
+        let size = |entry: usize, of: &Entry<'_>| before[entry].unwrap_or(of.light.size().most());
+        let mut projections = Vec::with_capacity(entries.len());
+        for (place, entry) in entries.iter().enumerate() {
+            projections.push(SlotLight {
+                projection: self.project(frame, entry, size(place, entry))?,
+                filter: entry.light.filter(),
+            });
+        }
+        self.suns
+            .keep(entries.iter().filter(|of| of.sun.is_some()).count());
+        self.slots.grow(entries.len());
+        self.slots.take_over(&projections, &mut self.casters);
+        let claims = self.claims(frame, entries);
+        let had: Vec<bool> = (0..self.slots.len())
+            .map(|slot| self.residents.size(slot).is_some())
+            .collect();
+        let moved = self.residents.settle(self.slots.len(), &claims);
+        let mut moved = moved.map_err(ShadowAtlasError::Space)?;
+        // A directional light's tiles lie on a grid of texels, so where depends on their size.
+        for (place, entry) in entries.iter().enumerate() {
+            let Some(slot) = self.slots.of_light(place).filter(|_| entry.sun.is_some()) else {
+                continue;
+            };
+            let granted = self.residents.size(slot);
+            if let Some(granted) = granted.filter(|&granted| granted != size(place, entry)) {
+                let projection = self.project(frame, entry, granted)?;
+                self.slots.refit(slot, projection, &self.casters);
+            }
+        }
+        for &slot in &moved {
+            self.slots[slot].texels_freed();
+        }
+        // Those that are new can wait, as they are dark already.
+        moved.retain(|&slot| had[slot] && self.residents.size(slot).is_some());
+        Ok(moved)
+    }
+
+    /// What a light's tiles show.
+    fn project(
+        &mut self,
+        frame: &AtlasFrame<'_>,
+        entry: &Entry<'_>,
+        size: u32,
+    ) -> Result<LightProjection, ShadowAtlasError> {
+        match (entry.light.light(), entry.sun) {
+            (Light::Point(light), _) => Ok(LightProjection::Point(light)),
+            (Light::Spot(light), _) => {
+                let near = self.gpu.near_plane().of_spot(&light);
+                let frame = fit_spot(&light, near);
+                match frame.fits_f32() {
+                    true => Ok(LightProjection::Spot(frame)),
+                    false => Err(ShadowAtlasError::BeyondF32 { index: entry.index }),
+                }
+            }
+            (Light::Directional(light), number) => {
+                let sun = Sun {
+                    index: entry.index,
+                    light,
+                    cascades: entry.light.cascades(),
+                    view: entry.view.map(|(_, view)| view),
+                    size,
+                };
+                let records = self.casters.records();
+                self.suns.fit(number.unwrap_or(0), &sun, frame, records)
+            }
+        }
+    }
+
+    /// The lights that are to have tiles: those to which anything casts.
+    fn claims(&mut self, frame: &AtlasFrame<'_>, entries: &[Entry<'_>]) -> Vec<Claim> {
+        let screens: Vec<Screen<'_>> = frame.views.iter().map(screen).collect();
+        let worth = |lit: &LitSphere| match screens.is_empty() {
+            true => f64::INFINITY,
+            false => importance(lit, &screens),
+        };
+        let mut claims = Vec::new();
+        for (place, entry) in entries.iter().enumerate() {
+            let Some(slot) = self.slots.of_light(place) else {
+                continue;
+            };
+            let has_some = self.residents.size(slot).is_some();
+            if !self.slots.needs_texels(slot, has_some) {
+                continue;
+            }
+            claims.push(Claim {
+                slot,
+                tiles: self.slots[slot].tiles.len(),
+                size: entry.light.size(),
+                importance: match entry.light.light() {
+                    Light::Point(light) => worth(&LitSphere::of_point(&light)),
+                    Light::Spot(light) => worth(&LitSphere::of_spot(&light)),
+                    Light::Directional(_) => f64::INFINITY,
+                },
+            });
+        }
+        claims
+    }
+
+    /// Chooses the tiles to draw. Changes nothing.
+    fn plan(
+        &self,
+        frame: &AtlasFrame<'_>,
+        entries: &[Entry<'_>],
+        moved: &[usize],
+        resized: Resized,
+    ) -> Vec<SlotPlan> {
+        let views: Vec<_> = frame.views.iter().map(|view| view.view).collect();
+        let at_once = |&(place, entry): &(usize, &Entry<'_>)| {
+            let slot = self.slots.of_light(place);
+            entry.light.is_pinned() || slot.is_some_and(|slot| moved.contains(&slot))
+        };
+        let pinned = entries.iter().enumerate().filter(at_once);
+        let pinned: Vec<usize> = pinned.map(|(place, _)| place).collect();
+        let rules = Rules {
+            views: &views,
+            reach: self.reach,
+            cache: true,
+            budget: self.budget.filter(|_| resized != Resized::Lost),
+            pinned: &pinned,
+        };
+        choose_tiles(&self.slots, &rules, |slot| self.residents.size(slot))
+    }
+
+    /// Makes room for instances and matrices.
+    fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        plans: &[SlotPlan],
+    ) -> Result<(), ShadowAtlasError> {
+        let instances = casters_drawn(plans, &self.slots);
+        let reserved = self.gpu.reserve(device, instances, self.slots.len());
+        reserved.map_err(
+            |TooLarge { size, limit }| ShadowAtlasError::TooManyCasters {
+                instances,
+                size,
+                limit,
+            },
+        )
+    }
+
+    /// Lists what the pending tiles show, and stages what drawing that needs.
+    fn record_draws(&mut self, device: &wgpu::Device, frame: &AtlasFrame<'_>) {
+        let least = |size: u32| self.static_layers.least_triangles(size, &self.adapter);
+        self.gpu.clear_draws();
+        let casters = (&self.casters, frame.casters);
+        for (index, slot) in self.slots.iter_mut().enumerate() {
+            if slot.pending != 0 {
+                let places = self.residents.places(index);
+                self.gpu
+                    .add_tiles(device, (index, slot), places, &least, casters);
+            }
+        }
+        self.gpu.finish_draws(device);
+    }
+
+    /// Stages what receivers are told of the lights.
+    fn write_lights(&mut self, entries: &[Entry<'_>]) {
+        let mut next = self.views * self.lights;
+        for (place, entry) in entries.iter().enumerate() {
+            let Some(index) = self.slots.of_light(place) else {
+                continue;
+            };
+            let (first, further) = self.records(index, entry);
+            let views = match entry.view {
+                Some((view, _)) => view..view + 1,
+                None => 0..self.views,
+            };
+            let (lights, uploads) = self.gpu.lights_mut();
+            for view in views {
+                let record = first.with_further(further.len() as u32, next as u32);
+                lights.write(uploads, view * self.lights + entry.index, record);
+            }
+            for record in further {
+                lights.write(uploads, next, record);
+                next += 1;
+            }
+        }
+        let (lights, uploads) = self.gpu.lights_mut();
+        lights.end(uploads, next);
+    }
+
+    /// What receivers are told of a slot's light: its record, and those of further cascades.
+    fn records(&self, index: usize, entry: &Entry<'_>) -> (LightRecord, Vec<LightRecord>) {
+        let (slot, places) = (&self.slots[index], self.residents.places(index));
+        let texture = TileTexture {
+            side: self.layer_size,
+            bias: self.bias,
+            format: self.format,
+        };
+        let Some(light) = slot.light() else {
+            return (LightRecord::DARK, Vec::new());
+        };
+        let stale = slot.stale();
+        // Without casters every texel is right, and none need be read.
+        let casts = !places.is_empty() && (slot.casting > 0 || stale != 0);
+        match light {
+            LightProjection::Point(light) => {
+                let shown = match slot.tiles.first().and_then(|tile| tile.shown) {
+                    Some(TileProjection::Face(shown)) => shown,
+                    _ if casts => return (LightRecord::DARK, Vec::new()),
+                    _ => *light,
+                };
+                let near = self.gpu.near_plane().of_point(&shown);
+                let record = LightRecord::point(&shown, near, tiles(places, casts), &texture);
+                (record, Vec::new())
+            }
+            _ => {
+                let sun = entry.sun;
+                let flat = |(number, tile): (usize, &super::plan::Tile)| {
+                    let projection = match casts {
+                        true => tile.shown,
+                        false => slot.projection(number),
+                    };
+                    let Some(TileProjection::Flat(frame)) = projection else {
+                        return None;
+                    };
+                    let place = places.get(number..=number).unwrap_or_default();
+                    let record = LightRecord::flat(&frame, tiles(place, casts), &texture);
+                    let blend = sun.map_or(0.0, |sun| self.suns.blend(sun, number));
+                    Some(record.with_blend(blend))
+                };
+                let mut records = slot.tiles.iter().enumerate().filter_map(flat);
+                match records.next() {
+                    Some(first) => (first, records.collect()),
+                    None if casts => (LightRecord::DARK, Vec::new()),
+                    None => (LightRecord::lit(), Vec::new()),
+                }
+            }
+        }
+    }
+
+    /// Whether an `encode` would record anything.
+    fn is_pending(&self) -> bool {
+        self.gpu.uploaded() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
+    }
+
+    /// The slot of a light of the last frame for a view.
+    fn slot_of(&self, light: usize, view: usize) -> Option<usize> {
+        let &(first, count) = self.of_light.get(light)?;
+        let place = match count {
+            1 => first,
+            _ => first + view,
+        };
+        self.slots.of_light(place).filter(|_| view < self.views)
+    }
+
+    fn count(&self) -> AtlasStatistics {
+        let draws = self.gpu.draws();
+        let tally = Tally::new(&self.plans, &self.slots, self.casters.records().len());
+        AtlasStatistics {
+            lights_reduced: self.residents.reduced(),
+            draws: draws.iter().count() as u32,
+            triangles: draws.iter().map(Draw::triangles).sum(),
+            layers: self.gpu.texture().layers(),
+            texels: self.residents.texels(),
+            bytes: self.gpu.bytes(),
+            uploaded: self.gpu.uploaded(),
+            ..AtlasStatistics::of(&tally)
+        }
+    }
+}
+
+/// Where a light's `N` tiles are, if anything casts.
+fn tiles<const N: usize>(places: &[Place], casts: bool) -> Tiles<N> {
+    match <&[Place; N]>::try_from(places) {
+        Ok(places) if casts && N > 0 => Tiles::At {
+            size: places[0].size,
+            places: places.map(Into::into),
+        },
+        _ => Tiles::NoCaster,
+    }
+}
+
+fn screen<'a>(view: &AtlasView<'a>) -> Screen<'a> {
+    Screen {
+        view: view.view,
+        width: view.width.into(),
+        height: view.height.into(),
+    }
+}
+
+/// What has a slot: every light, a directional one once a view.
+fn entries<'a>(frame: &AtlasFrame<'a>) -> Vec<Entry<'a>> {
+    let mut suns = 0;
+    let mut entries = Vec::with_capacity(frame.lights.len());
+    for (index, light) in frame.lights.iter().enumerate() {
+        let is_sun = matches!(light.light(), Light::Directional(_));
+        let views: Vec<_> = match is_sun && !frame.views.is_empty() {
+            true => frame.views.iter().enumerate().map(Some).collect(),
+            false => vec![None],
+        };
+        for view in views {
+            let sun = is_sun.then_some(suns);
+            suns += usize::from(is_sun);
+            entries.push(Entry {
+                index,
+                light,
+                view,
+                sun,
+            });
+        }
+    }
+    entries
+}

@@ -1,0 +1,300 @@
+//! What an atlas is made from and told each frame.
+
+use std::num::NonZeroU32;
+
+use super::encoding::{quantum, texel_bytes};
+use super::plan::TileSize;
+use super::projection::CasterFilter;
+use super::{Bias, Cascades, CasterSides, DepthBounds, StaticLayers};
+use crate::error::ShadowAtlasError;
+use crate::mesh::{Bounds, Caster};
+use crate::{DirectionalLight, Light, PointLight, Radius, SpotLight, View};
+
+/// Texels along the smallest tile.
+pub(crate) const LEAST_TILE: u32 = 16;
+
+/// Layers of which shaders can be told.
+const MOST_LAYERS: u32 = 1 << 12;
+
+/// How to make a [`ShadowAtlas`](crate::ShadowAtlas).
+#[derive(Clone, Debug)]
+pub struct ShadowAtlasDescriptor<'a> {
+    /// Name of the atlas in debuggers. Default none.
+    pub label: Option<&'a str>,
+    /// Texels along a side of a layer, the largest size of a tile: a power of two from 16 to 8192, up to the
+    /// device's `max_texture_dimension_2d`. Default 4096. Layers are made when lights need them.
+    pub layer_size: u32,
+    /// Bytes that layers may take; as many whole layers as that gives, at least one. Default 256 MiB: four
+    /// layers of 4096 texels in 32 bits. Layers of static casters
+    /// ([`static_layers`](Self::static_layers)) come on top, at most as much again.
+    pub memory: u64,
+    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`: see
+    /// [`CubeShadowMapDescriptor::format`](crate::CubeShadowMapDescriptor::format) for what the last two
+    /// cost.
+    pub format: wgpu::TextureFormat,
+    /// Bias for receivers, in texels. Default [`Bias::default`], which needs no tuning.
+    pub bias: Bias,
+    /// Which sides of casters are drawn. Default [`CasterSides::Nearest`].
+    pub sides: CasterSides,
+    /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
+    /// that reads the atlas; bind groups for wider ones are refused. Default 12 texels, as wide as any
+    /// kernel is by default. Greater than 0, at most 64 texels; the tiles of a directional light must be
+    /// four times as wide as that, and more ([`CascadeError::ReachOfSize`](crate::error::CascadeError)).
+    pub reach: Radius,
+    /// The most tiles drawn in one `prepare`; default none. At least 1. See
+    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait and what the
+    /// budget does not count.
+    pub max_tiles_per_frame: Option<u32>,
+    /// Whether static casters are kept in layers under those that move. Default
+    /// [`StaticLayers::Auto`].
+    pub static_layers: StaticLayers,
+}
+
+impl Default for ShadowAtlasDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            layer_size: 4096,
+            memory: 256 << 20,
+            format: wgpu::TextureFormat::Depth32Float,
+            bias: Bias::default(),
+            sides: CasterSides::default(),
+            reach: Radius::Texels(Radius::USUAL_TEXELS),
+            max_tiles_per_frame: None,
+            static_layers: StaticLayers::default(),
+        }
+    }
+}
+
+impl ShadowAtlasDescriptor<'_> {
+    pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowAtlasError> {
+        let limit = device.limits().max_texture_dimension_2d.min(8192);
+        let size = self.layer_size;
+        if !size.is_power_of_two() || !(LEAST_TILE..=limit).contains(&size) {
+            return Err(ShadowAtlasError::LayerSize {
+                size,
+                least: LEAST_TILE,
+                limit,
+            });
+        }
+        if quantum(self.format).is_none() {
+            return Err(ShadowAtlasError::Format(self.format));
+        }
+        let (memory, layer) = (self.memory, self.layer_bytes());
+        if memory < layer {
+            return Err(ShadowAtlasError::Memory { memory, layer });
+        }
+        if !self.reach.is_in_range() {
+            return Err(ShadowAtlasError::Reach(self.reach));
+        }
+        if self.max_tiles_per_frame == Some(0) {
+            return Err(ShadowAtlasError::Budget);
+        }
+        Ok(self.bias.validate()?)
+    }
+
+    /// As many layers as memory and the device have room for.
+    pub(super) fn most_layers(&self, device: &wgpu::Device) -> u32 {
+        let limit = device.limits().max_texture_array_layers.min(MOST_LAYERS);
+        // wgpu's GL back end may want one more: `gl::array_layers`.
+        let limit = limit - u32::from(crate::gl::is_gl(device));
+        (self.memory / self.layer_bytes()).min(u64::from(limit)) as u32
+    }
+
+    fn layer_bytes(&self) -> u64 {
+        u64::from(self.layer_size).pow(2) * texel_bytes(self.format)
+    }
+}
+
+/// A light of an atlas, and how many texels it is to have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtlasLight {
+    light: Light,
+    cascades: Cascades,
+    size: TileSize,
+    pinned: bool,
+    filter: CasterFilter,
+}
+
+impl AtlasLight {
+    /// A point light or a spot, with tiles of 64 to 1024 texels by what it is worth on screen.
+    pub fn new(light: impl Into<LocalLight>) -> Self {
+        let light: LocalLight = light.into();
+        Self {
+            light: light.0,
+            cascades: Cascades::default(),
+            size: TileSize::Auto {
+                least: 64,
+                most: 1024,
+            },
+            pinned: false,
+            filter: CasterFilter::ALL,
+        }
+    }
+
+    /// A directional light with cascades for each view of the frame, of 1024 texels, or of 256 at least
+    /// where the space is short. In a frame without views it has one tile, fitted to all that casts (and
+    /// receives, where the frame says what does).
+    pub fn directional(light: DirectionalLight, cascades: Cascades) -> Self {
+        Self {
+            light: light.into(),
+            cascades,
+            size: TileSize::Auto {
+                least: 256,
+                most: 1024,
+            },
+            pinned: false,
+            filter: CasterFilter::ALL,
+        }
+    }
+
+    /// The same with tiles of another size.
+    pub fn with_size(self, size: TileSize) -> Self {
+        Self { size, ..self }
+    }
+
+    /// The same, drawn whatever the budget
+    /// ([`max_tiles_per_frame`](ShadowAtlasDescriptor::max_tiles_per_frame)).
+    pub fn pinned(self) -> Self {
+        Self {
+            pinned: true,
+            ..self
+        }
+    }
+
+    /// The same, casting the shadows of casters alone that are on any of these layers, a bit each
+    /// ([`Caster::layers`]).
+    pub fn with_layers(mut self, layers: u32) -> Self {
+        self.filter.layers = layers;
+        self
+    }
+
+    /// The same, casting no shadow of what is its owner's ([`Caster::owner`]): a lamp's own shade.
+    pub fn owned_by(mut self, owner: NonZeroU32) -> Self {
+        self.filter.owner = Some(owner);
+        self
+    }
+
+    /// The light.
+    pub fn light(&self) -> Light {
+        self.light
+    }
+
+    pub(super) fn cascades(&self) -> &Cascades {
+        &self.cascades
+    }
+
+    pub(super) fn size(&self) -> TileSize {
+        self.size
+    }
+
+    pub(super) fn filter(&self) -> CasterFilter {
+        self.filter
+    }
+
+    pub(super) fn is_pinned(&self) -> bool {
+        self.pinned
+    }
+}
+
+/// A light with a position: a [`PointLight`] or a [`SpotLight`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalLight(Light);
+
+impl From<PointLight> for LocalLight {
+    fn from(light: PointLight) -> Self {
+        Self(light.into())
+    }
+}
+
+impl From<SpotLight> for LocalLight {
+    fn from(light: SpotLight) -> Self {
+        Self(light.into())
+    }
+}
+
+/// One of a frame's cameras, and the picture that it fills.
+#[derive(Clone, Copy, Debug)]
+pub struct AtlasView<'a> {
+    /// The camera.
+    pub view: &'a View,
+    /// Of its picture, in pixels: each greater than 0.
+    pub width: u32,
+    /// See `width`.
+    pub height: u32,
+    /// The depths between which the picture shows anything, if the host knows them: cascades then divide
+    /// no more than that.
+    pub depth_bounds: Option<DepthBounds>,
+}
+
+impl<'a> AtlasView<'a> {
+    /// A camera and its picture's width and height in pixels.
+    pub fn new(view: &'a View, width: u32, height: u32) -> Self {
+        Self {
+            view,
+            width,
+            height,
+            depth_bounds: None,
+        }
+    }
+}
+
+/// What a [`ShadowAtlas`](crate::ShadowAtlas) is to show this frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AtlasFrame<'a> {
+    /// The lights; shaders name them by their place here. Lights that were there last frame keep their
+    /// tiles wherever they now stand in the slice.
+    pub lights: &'a [AtlasLight],
+    /// Everything that may cast; what a light cannot reach is left out by the atlas itself. Their order
+    /// does not matter, but what is found at another place in the slice than last frame counts as moved:
+    /// take casters out by `swap_remove` rather than by `remove`.
+    pub casters: &'a [Caster],
+    /// The cameras that see the frame. They decide how large tiles are that have no fixed size, which can
+    /// be put off because no kernel reads them for anything that is seen, and where cascades lie. None:
+    /// everything is seen from everywhere.
+    pub views: &'a [AtlasView<'a>],
+    /// Bounds of all receivers in world space: a directional light's tiles cover no more than those.
+    /// `None`: receivers may be anywhere.
+    pub receivers: Option<Bounds>,
+}
+
+impl AtlasFrame<'_> {
+    pub(super) fn validate(&self, layer_size: u32) -> Result<(), ShadowAtlasError> {
+        for (index, light) in self.lights.iter().enumerate() {
+            let of_light = |source| ShadowAtlasError::Light { index, source };
+            light.light.validate().map_err(of_light)?;
+            let of_size = |source| ShadowAtlasError::TileSize { index, source };
+            light
+                .size
+                .validate(LEAST_TILE, layer_size)
+                .map_err(of_size)?;
+            if let Light::Directional(_) = light.light {
+                let of_cascades = |source| ShadowAtlasError::Cascades { index, source };
+                light.cascades.validate().map_err(of_cascades)?;
+            }
+        }
+        for (index, view) in self.views.iter().enumerate() {
+            let (width, height) = (view.width, view.height);
+            if width == 0 || height == 0 {
+                return Err(ShadowAtlasError::Pixels {
+                    index,
+                    width,
+                    height,
+                });
+            }
+            if let Some(bounds) = view.depth_bounds {
+                let of_bounds = |source| ShadowAtlasError::DepthBounds { index, source };
+                bounds.validate().map_err(of_bounds)?;
+            }
+        }
+        match self.receivers {
+            Some(Bounds { min, max })
+                if !(min.is_finite() && max.is_finite() && min.cmple(max).all()) =>
+            {
+                let (min, max) = (min.to_array(), max.to_array());
+                Err(ShadowAtlasError::Receivers { min, max })
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,392 @@
+//! All that an atlas has on the GPU.
+
+use glam::Mat4;
+
+use super::atlas_lights::AtlasLights;
+use super::atlas_texture::{AtlasTexture, Resized};
+use super::draws::{Draw, DrawLists, ListedDraws};
+use super::encode::{Drawing, begin_depth_pass};
+use super::instances::{Instances, TooLarge};
+use super::light_record::TilePlace;
+use super::pipelines::{PipelineKind, Pipelines, can_pull_casters};
+use super::tile_fill::TileFill;
+use super::uniforms::{FaceUniform, FaceUniforms};
+use crate::map::encoding::DepthEncoding;
+use crate::map::plan::{DrawMode, Place, Residents, Slot, Slots};
+use crate::map::projection::{MOST_TILES, NearPlane};
+use crate::map::sides::CasterSides;
+use crate::mesh::Caster;
+use crate::scene::Casters;
+use crate::uploads::Uploads;
+
+/// What an atlas is made for.
+pub(crate) struct AtlasKind {
+    pub label: String,
+    /// Texels along a side of a layer.
+    pub layer_size: u32,
+    pub format: wgpu::TextureFormat,
+    pub slope_scale: f32,
+    pub sides: CasterSides,
+}
+
+/// Texture, pipelines, buffers, and what the next encode records.
+#[derive(Debug)]
+pub(crate) struct AtlasGpu {
+    label: String,
+    sides: CasterSides,
+    near_plane: NearPlane,
+    unclipped_depth: bool,
+    texture: AtlasTexture,
+    fill: TileFill,
+    pipelines: Pipelines,
+    uniforms: FaceUniforms,
+    lights: AtlasLights,
+    instances: Instances,
+    draws: DrawLists,
+    uploads: Uploads,
+}
+
+/// What the host is asked to draw on one tile.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct HostDraw<'a> {
+    /// The light's place in the last frame.
+    pub light: usize,
+    /// The view's, for a directional light.
+    pub view: usize,
+    /// The face of a point light, in the order of [`CubeFace::ALL`](crate::CubeFace::ALL), or the cascade of
+    /// a directional light.
+    pub tile: usize,
+    /// World space to clip space. The frame is left-handed: triangles that are counter-clockwise seen from
+    /// the light are clockwise on the tile.
+    pub clip_from_world: Mat4,
+    /// Texels along the tile's side.
+    pub size: u32,
+    /// The places in the last frame's casters of those that are to be drawn.
+    pub casters: &'a [usize],
+}
+
+/// Draws what only the host can.
+pub(crate) type DrawByHost<'a> = &'a mut dyn FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>);
+
+/// The lights whose tiles are drawn.
+pub(crate) struct Tiled<'a> {
+    pub slots: &'a Slots,
+    pub residents: &'a Residents,
+    /// Light and view of each slot.
+    pub names: &'a [(usize, usize)],
+}
+
+/// A tile that the next encode draws.
+#[derive(Clone, Copy, Debug)]
+struct Pending {
+    slot: usize,
+    tile: usize,
+    place: Place,
+}
+
+impl AtlasGpu {
+    pub fn new(device: &wgpu::Device, kind: AtlasKind) -> Self {
+        let AtlasKind {
+            label,
+            layer_size,
+            format,
+            slope_scale,
+            sides,
+        } = kind;
+        let encoding = DepthEncoding::MajorAxis;
+        let unclipped_depth = can_pull_casters(device);
+        let uniforms = FaceUniforms::new(device, &label, 1);
+        let kind = PipelineKind {
+            format,
+            encoding,
+            slope_scale,
+            unclipped_depth,
+        };
+        Self {
+            sides,
+            near_plane: NearPlane::new(format, encoding),
+            unclipped_depth,
+            texture: AtlasTexture::new(device, &label, layer_size, format),
+            fill: TileFill::new(device, &label, format),
+            pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
+            uniforms,
+            lights: AtlasLights::new(device, &label),
+            instances: Instances::new(device, &label),
+            draws: DrawLists::default(),
+            uploads: Uploads::new(device),
+            label,
+        }
+    }
+
+    pub fn texture(&self) -> &AtlasTexture {
+        &self.texture
+    }
+
+    pub fn lights(&self) -> &AtlasLights {
+        &self.lights
+    }
+
+    pub fn lights_mut(&mut self) -> (&mut AtlasLights, &mut Uploads) {
+        (&mut self.lights, &mut self.uploads)
+    }
+
+    pub fn draws(&self) -> &DrawLists {
+        &self.draws
+    }
+
+    pub fn near_plane(&self) -> NearPlane {
+        self.near_plane
+    }
+
+    /// Whether casters before the near plane are pulled onto it.
+    pub fn unclipped_depth(&self) -> bool {
+        self.unclipped_depth
+    }
+
+    /// Bytes that the next encode copies.
+    pub fn uploaded(&self) -> u64 {
+        self.uploads.bytes()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> u64 {
+        self.texture.bytes()
+            + self.instances.bytes()
+            + self.uniforms.bytes()
+            + self.lights.buffer().size()
+    }
+
+    /// Makes as many layers as are needed, and room for the records of lights.
+    pub fn resize(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layers: u32,
+        records: usize,
+    ) -> Resized {
+        let resized = self.texture.resize(device, layers);
+        let revision = self.texture.revision();
+        self.lights.reserve(device, queue, records, revision);
+        resized
+    }
+
+    /// Makes room for so many instances, and for the matrices of so many slots.
+    pub fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        instances: usize,
+        slots: usize,
+    ) -> Result<(), TooLarge> {
+        self.uniforms.reserve(device, slots * MOST_TILES);
+        self.instances.reserve(device, instances)
+    }
+
+    pub fn clear_draws(&mut self) {
+        self.draws.clear();
+    }
+
+    /// Lists what the pending tiles of a slot show. `layer_least`: for texels along a tile the fewest
+    /// triangles that are worth a static layer.
+    pub fn add_tiles(
+        &mut self,
+        device: &wgpu::Device,
+        (index, slot): (usize, &mut Slot),
+        places: &[Place],
+        layer_least: &impl Fn(u32) -> Option<u64>,
+        casters: (&Casters, &[Caster]),
+    ) {
+        let drawn = slot.pending;
+        let size = places.first().map_or(0, |place| place.size);
+        if let Some(least) = layer_least(size) {
+            slot.choose_modes(drawn, least, casters.0);
+            for (tile, place) in slot.tiles.iter().zip(places) {
+                if matches!(tile.layer.mode(), DrawMode::Build(_)) {
+                    let fill = &self.fill;
+                    let source = |view: &wgpu::TextureView| fill.source(device, view);
+                    self.texture.make_statics(device, place.layer, source);
+                }
+            }
+        }
+        let (near_plane, sides) = (self.near_plane, self.sides);
+        self.draws
+            .add((index, slot), drawn, near_plane, sides, casters);
+        for tile in (0..places.len()).filter(|tile| drawn & 1 << tile != 0) {
+            let Some(projection) = slot.projection(tile) else {
+                continue;
+            };
+            let matrix = projection.clip_from_light(tile, near_plane);
+            let uniform = FaceUniform::new(&matrix, projection.range(), size);
+            let at = uniform_index(index, tile);
+            self.uniforms.write(&mut self.uploads, at, uniform);
+        }
+    }
+
+    /// Stages what the listed draws need.
+    pub fn finish_draws(&mut self, device: &wgpu::Device) {
+        self.pipelines
+            .make(device, self.draws.iter().map(Draw::key));
+        self.instances
+            .write(&mut self.uploads, self.draws.instances());
+    }
+
+    /// Forgets what was to be written, and what has been.
+    pub fn forget_uploads(&mut self) {
+        self.uploads.clear();
+        self.lights.forget();
+        self.uniforms.forget();
+    }
+
+    /// Nothing is known of what encodes have recorded any more.
+    pub fn doubt(&mut self) {
+        self.texture.doubt();
+        self.forget_uploads();
+    }
+
+    /// Records the uploads, and the copy of what a texture of another size held; whether there were any.
+    pub fn upload(&mut self, encoder: &mut wgpu::CommandEncoder) -> bool {
+        self.texture.carry_over(encoder) | self.uploads.record(encoder)
+    }
+
+    /// Draws the pending tiles, those of a layer in one pass.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        tiled: &Tiled<'_>,
+        mut by_host: Option<DrawByHost<'_>>,
+    ) {
+        let slots = tiled.slots.iter().enumerate();
+        let mut pending: Vec<Pending> = slots
+            .flat_map(|(index, slot)| pending_tiles(index, slot, tiled.residents))
+            .collect();
+        pending.sort_by_key(|tile| tile.place.layer);
+        for tiles in pending.chunk_by(|a, b| a.place.layer == b.place.layer) {
+            self.encode_statics(encoder, tiled, tiles, &mut by_host);
+            self.encode_layer(encoder, tiled, tiles, &mut by_host);
+        }
+    }
+
+    /// Draws what is static on some tiles of a layer, where that is to be copied.
+    fn encode_statics(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        tiled: &Tiled<'_>,
+        tiles: &[Pending],
+        by_host: &mut Option<DrawByHost<'_>>,
+    ) {
+        let built = |tile: &&Pending| matches!(tile.mode(tiled), DrawMode::Build(_));
+        let built: Vec<&Pending> = tiles.iter().filter(built).collect();
+        let layer = tiles[0].place.layer;
+        let Some(statics) = self.texture.statics(layer).filter(|_| !built.is_empty()) else {
+            return;
+        };
+        let label = format!("{} static layer {layer}", self.label);
+        let mut pass = begin_depth_pass(encoder, &label, &statics.view, wgpu::LoadOp::Load);
+        for tile in built {
+            set_tile(&mut pass, tile.place);
+            self.fill.clear(&mut pass);
+            let draws = &self.draws.of(tile.slot, tile.tile).layer;
+            self.record(&mut pass, tiled, tile, draws, by_host);
+        }
+    }
+
+    fn encode_layer(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        tiled: &Tiled<'_>,
+        tiles: &[Pending],
+        by_host: &mut Option<DrawByHost<'_>>,
+    ) {
+        let layer = tiles[0].place.layer;
+        let Some(view) = self.texture.layer(layer) else {
+            return; // prepare made a layer wherever there is a tile
+        };
+        // Where all of a layer is drawn anew nothing of it need be read.
+        let whole = tiles.len() == tiled.residents.count_in(layer);
+        let load = match whole {
+            true => wgpu::LoadOp::Clear(DepthEncoding::MajorAxis.clear_depth()),
+            false => wgpu::LoadOp::Load,
+        };
+        let label = format!("{} layer {layer}", self.label);
+        let mut pass = begin_depth_pass(encoder, &label, view, load);
+        for tile in tiles {
+            set_tile(&mut pass, tile.place);
+            match (tile.mode(tiled), self.texture.statics(layer)) {
+                (DrawMode::Copy(_) | DrawMode::Build(_), Some(statics)) => {
+                    self.fill.copy(&mut pass, &statics.source);
+                }
+                _ if !whole => self.fill.clear(&mut pass),
+                _ => {}
+            }
+            let draws = &self.draws.of(tile.slot, tile.tile).tile;
+            self.record(&mut pass, tiled, tile, draws, by_host);
+        }
+    }
+
+    fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        tiled: &Tiled<'_>,
+        tile: &Pending,
+        listed: &ListedDraws,
+        by_host: &mut Option<DrawByHost<'_>>,
+    ) {
+        let drawing = Drawing {
+            uniforms: &self.uniforms,
+            pipelines: &self.pipelines,
+            instances: &self.instances,
+        };
+        drawing.record(pass, uniform_index(tile.slot, tile.tile), &listed.draws);
+        let projection = tiled.slots[tile.slot].projection(tile.tile);
+        if let (Some(draw), Some(projection)) = (by_host, projection)
+            && !listed.host.is_empty()
+        {
+            let (light, view) = tiled.names[tile.slot];
+            let from_light = projection.clip_from_light(tile.tile, self.near_plane);
+            let clip_from_world = from_light * Mat4::from_translation(-projection.origin());
+            let asked = HostDraw {
+                light,
+                view,
+                tile: tile.tile,
+                clip_from_world,
+                size: tile.place.size,
+                casters: &listed.host,
+            };
+            draw(pass, &asked);
+        }
+    }
+}
+
+impl Pending {
+    fn mode(&self, tiled: &Tiled<'_>) -> DrawMode {
+        tiled.slots[self.slot].tiles[self.tile].layer.mode()
+    }
+}
+
+fn pending_tiles<'a>(
+    slot: usize,
+    of: &'a Slot,
+    residents: &'a Residents,
+) -> impl Iterator<Item = Pending> + 'a {
+    let places = residents.places(slot).iter().enumerate();
+    let drawn = places.filter(|(tile, _)| of.pending & 1 << tile != 0);
+    drawn.map(move |(tile, &place)| Pending { slot, tile, place })
+}
+
+/// Confines what is drawn to a tile.
+fn set_tile(pass: &mut wgpu::RenderPass<'_>, place: Place) {
+    let Place { x, y, size, .. } = place;
+    pass.set_viewport(x as f32, y as f32, size as f32, size as f32, 0.0, 1.0);
+    pass.set_scissor_rect(x, y, size, size);
+}
+
+impl From<Place> for TilePlace {
+    fn from(place: Place) -> Self {
+        let Place { x, y, layer, .. } = place;
+        Self { x, y, layer }
+    }
+}
+
+fn uniform_index(slot: usize, tile: usize) -> usize {
+    slot * MOST_TILES + tile
+}

@@ -1,0 +1,391 @@
+//! What volumes look like: their surface, their silhouettes, their counts, and how each is counted.
+
+use glam::Mat4;
+use wgpu::util::DeviceExt as _;
+
+use crate::error::VolumeDebugError;
+use crate::mesh::CasterMesh;
+use crate::volume::debug::colors::{DebugColors, Swatch};
+use crate::volume::debug::pipelines::{
+    COLOR_BYTES, CountPipelines, Factory, FeedPipelines, color_layout,
+};
+use crate::volume::decide::decision::validate_casters;
+use crate::volume::decide::method::Count;
+use crate::volume::descriptor::check_depth;
+use crate::volume::gpu::buffers::{spread, window};
+use crate::volume::gpu::draw_calls::record;
+use crate::volume::gpu::draw_pipelines::Feed;
+use crate::volume::gpu::layout::bind;
+use crate::volume::light_pass::join::check_color;
+use crate::volume::light_pass::mask::check_target;
+use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::volume::plan::cache::Slot;
+use crate::volume::plan::faces::{Draw, Faces};
+use crate::volume::plan::limits;
+use crate::volume::plan::params::{Arguments, CasterParams};
+use crate::volume::renderer::Drawn;
+use crate::volume::silhouette::Way;
+use crate::volume::{ShadowVolumeFrame, ShadowVolumeRenderer};
+use crate::{Caster, DepthConvention};
+
+/// The pass that a [`VolumeDebug`] draws into.
+#[derive(Clone, Copy, Debug)]
+pub struct VolumeDebugDescriptor<'a> {
+    /// Names the GPU objects, after "shadows volume debug". Default `None`.
+    pub label: Option<&'a str>,
+    /// Format of the pass's one colour attachment: one that blends. Default `Rgba8Unorm`.
+    pub color_format: wgpu::TextureFormat,
+    /// Format of the depth-stencil buffer that the volumes were counted in. Default
+    /// `Depth32FloatStencil8`.
+    pub depth_stencil_format: wgpu::TextureFormat,
+    /// Samples per pixel of both, 1 (default) or 4.
+    pub sample_count: u32,
+    /// How the host's projection maps depth; that of the renderers to be shown. Default
+    /// [`DepthConvention::InfiniteReverse`].
+    pub depth: DepthConvention,
+    /// What is drawn how. Default: the legend in [`DebugColors`].
+    pub colors: DebugColors,
+}
+
+impl Default for VolumeDebugDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            color_format: wgpu::TextureFormat::Rgba8Unorm,
+            depth_stencil_format: DEPTH_STENCIL,
+            sample_count: 1,
+            depth: DepthConvention::default(),
+            colors: DebugColors::default(),
+        }
+    }
+}
+
+/// Debug views of a [`ShadowVolumeRenderer`], drawn over the host's picture.
+///
+/// All views are drawn into a pass with one colour attachment and the depth-stencil buffer that
+/// holds the scene's depth. Both of its aspects may be read-only. They change the pass's pipeline,
+/// bind groups 0 and 1, index buffer, vertex buffer 0 and stencil reference, nothing else; the
+/// scissor rectangle is the host's. One `VolumeDebug` serves any number of renderers of its device
+/// and depth convention.
+///
+/// `docs/volume-debug.png` in the repository shows all of them; it is drawn by
+/// `cargo run --release --example volume_debug -- --out docs/volume-debug.png`.
+#[derive(Debug)]
+pub struct VolumeDebug {
+    label: String,
+    depth: DepthConvention,
+    pulled: Option<FeedPipelines>,
+    fed: FeedPipelines,
+    counts: CountPipelines,
+    colors: wgpu::BindGroup,
+    /// Bytes from one colour to the next.
+    color_step: u32,
+    casters: Vec<ShownCaster>,
+}
+
+/// A caster as [`VolumeDebug::draw_casters`] draws it.
+#[derive(Debug)]
+struct ShownCaster {
+    mesh: CasterMesh,
+    feed: Feed,
+    group: wgpu::BindGroup,
+    /// Bytes from the buffer's start to its parameters.
+    offset: u32,
+    swatch: Swatch,
+}
+
+impl VolumeDebug {
+    /// Compiles the pipelines.
+    ///
+    /// # Errors
+    /// [`VolumeDebugError`] if a format or the sample count does not fit, or the device lacks a
+    /// feature or a limit; the message names it.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &VolumeDebugDescriptor<'_>,
+    ) -> Result<Self, VolumeDebugError> {
+        validate(device, descriptor)?;
+        let label = match descriptor.label {
+            Some(name) => format!("shadows volume debug {name}"),
+            None => "shadows volume debug".to_owned(),
+        };
+        let layout = color_layout(device, &label);
+        let factory = Factory {
+            device,
+            descriptor,
+            label: &label,
+            colors: &layout,
+        };
+        let pulls = limits::check_pulling(device).is_ok();
+        let colors = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(&label),
+            contents: &spread(&descriptor.colors.list(), device),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        Ok(Self {
+            depth: descriptor.depth,
+            pulled: pulls.then(|| FeedPipelines::new(&factory, Feed::Pulled)),
+            fed: FeedPipelines::new(&factory, Feed::Records),
+            counts: CountPipelines::new(&factory),
+            colors: bind(device, &label, &layout, (&colors, COLOR_BYTES), &[]),
+            color_step: window::<[f32; 4]>(&device.limits()) as u32,
+            casters: Vec::new(),
+            label,
+        })
+    }
+
+    /// Readies [`draw_casters`](Self::draw_casters), the one view that shows casters of which the
+    /// renderer draws nothing: call it after the renderer's own
+    /// [`prepare`](ShadowVolumeRenderer::prepare), with the same frame. The other views need no
+    /// preparation.
+    ///
+    /// # Errors
+    /// [`VolumeDebugError`], before any GPU work, if the renderer has another depth convention, or
+    /// was prepared with another number of casters, or a caster is not sound. What was prepared
+    /// before is then still drawn.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        frame: &ShadowVolumeFrame<'_>,
+        renderer: &ShadowVolumeRenderer,
+    ) -> Result<(), VolumeDebugError> {
+        let drawn = renderer.drawn();
+        if drawn.depth != self.depth {
+            return Err(VolumeDebugError::Depth {
+                debug: self.depth,
+                renderer: drawn.depth,
+            });
+        }
+        let states = &drawn.plan.states;
+        if frame.casters.len() != states.len() {
+            return Err(VolumeDebugError::Casters {
+                frame: frame.casters.len(),
+                renderer: states.len(),
+            });
+        }
+        validate_casters(frame.casters, device)?;
+        let shown = frame.casters.iter().zip(states);
+        let shown: Vec<_> = shown
+            .filter_map(|(caster, state)| Some((caster, Swatch::of_state(*state)?)))
+            .collect();
+        self.casters = self.show(device, frame, &shown);
+        Ok(())
+    }
+
+    fn show(
+        &self,
+        device: &wgpu::Device,
+        frame: &ShadowVolumeFrame<'_>,
+        shown: &[(&Caster, Swatch)],
+    ) -> Vec<ShownCaster> {
+        let params: Vec<_> = shown.iter().map(|(c, _)| caster_params(c, frame)).collect();
+        if params.is_empty() {
+            return Vec::new();
+        }
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(&self.label),
+            contents: &spread(&params, device),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let step = window::<CasterParams>(&device.limits()) as u32;
+        let places = (0u32..).map(|place| place * step);
+        let uniforms = (&buffer, size_of::<CasterParams>());
+        let show = |(&(caster, swatch), offset): (&(&Caster, Swatch), u32)| {
+            let mesh = &caster.mesh;
+            let (feed, group) = match &self.pulled {
+                Some(pulled) => {
+                    // No side is read; any buffer will do.
+                    let edges = mesh.edges()?;
+                    let buffers = [mesh.positions(), edges, edges];
+                    let group = bind(device, &self.label, &pulled.layout, uniforms, &buffers);
+                    (Feed::Pulled, group)
+                }
+                None => {
+                    let group = bind(device, &self.label, &self.fed.layout, uniforms, &[]);
+                    (Feed::Records, group)
+                }
+            };
+            Some(ShownCaster {
+                mesh: mesh.clone(),
+                feed,
+                group,
+                offset,
+                swatch,
+            })
+        };
+        shown.iter().zip(places).filter_map(show).collect()
+    }
+
+    /// Draws the faces of all volumes that the renderer counts, transparent, where they are before
+    /// the visible surfaces: sides by method, light caps, dark caps. Dark caps at infinity are
+    /// before nothing, and are seen where the host's depth is behind infinity, so nowhere.
+    ///
+    /// Goes where [`ShadowVolumeRenderer::render`] goes: after `encode`, in the same submission or a
+    /// later one.
+    pub fn draw_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, renderer: &ShadowVolumeRenderer) {
+        let drawn = renderer.drawn();
+        for draw in drawn.plan.draws.iter().filter(|draw| !draw.is_repeat()) {
+            let style = draw.style;
+            let swatch = match (style.faces, style.count) {
+                (Faces::LightCap, _) => Swatch::LightCaps,
+                (Faces::DarkCap | Faces::Fan, _) => Swatch::DarkCaps,
+                (Faces::Sides, Count::Pass) => Swatch::SidesZPass,
+                (Faces::Sides, Count::Fail) => Swatch::SidesZFail,
+            };
+            let pipeline = |feed: &FeedPipelines| feed.faces(style.faces).cloned();
+            if let Some(slot) = self.bind(pass, renderer, &drawn, draw, (pipeline, swatch)) {
+                record(pass, draw, slot, &drawn);
+            }
+        }
+    }
+
+    /// Draws the silhouette edges of all volumes as lines one pixel wide, those behind other
+    /// surfaces included: the edges from which sides are extruded.
+    pub fn draw_edges(&self, pass: &mut wgpu::RenderPass<'_>, renderer: &ShadowVolumeRenderer) {
+        let drawn = renderer.drawn();
+        let sides = |draw: &&Draw| draw.style.faces == Faces::Sides && !draw.is_repeat();
+        for draw in drawn.plan.draws.iter().filter(sides) {
+            let pipeline = |feed: &FeedPipelines| Some(feed.edges.clone());
+            let pipeline = (pipeline, Swatch::Edges);
+            if let Some(slot) = self.bind(pass, renderer, &drawn, draw, pipeline) {
+                record_edges(pass, draw, slot, &drawn);
+            }
+        }
+    }
+
+    /// Colours every sample by the stencil's count, so by the number of volumes that it is in;
+    /// a count of 0 is left as it is. To be drawn after [`ShadowVolumeRenderer::render`] and before
+    /// a light pass changes the count.
+    ///
+    /// Nine triangles that cover the target, each with its own stencil test.
+    pub fn draw_counts(&self, pass: &mut wgpu::RenderPass<'_>) {
+        let counts = &self.counts;
+        let mut draw = |pipeline, reference: u32, swatch: u32| {
+            pass.set_pipeline(pipeline);
+            pass.set_stencil_reference(reference);
+            pass.set_bind_group(1, &self.colors, &[swatch * self.color_step]);
+            pass.draw(0..3, 0..1);
+        };
+        let first = Swatch::Counts as u32;
+        draw(&counts.above, 7, first + 7);
+        draw(&counts.negative, 248, Swatch::Negative as u32);
+        for count in 1..=7 {
+            draw(&counts.equal, count, first + count - 1);
+        }
+    }
+
+    /// Draws the casters of the frame that [`prepare`](Self::prepare) was given, each in the colour
+    /// of what was decided for it, where they are visible.
+    pub fn draw_casters(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for caster in &self.casters {
+            let Some(feed) = self.feed(caster.feed) else {
+                continue;
+            };
+            pass.set_pipeline(&feed.casters);
+            pass.set_bind_group(0, &caster.group, &[caster.offset]);
+            self.set_color(pass, caster.swatch);
+            let mesh = &caster.mesh;
+            match caster.feed {
+                Feed::Pulled => {
+                    let triangles = mesh.triangles().slice(..);
+                    pass.set_index_buffer(triangles, wgpu::IndexFormat::Uint32);
+                    pass.draw_indexed(0..3 * mesh.triangle_count(), 0, 0..1);
+                }
+                Feed::Records => {
+                    let Some(records) = mesh.records() else {
+                        continue;
+                    };
+                    pass.set_vertex_buffer(0, records.triangles.slice(..));
+                    pass.draw(0..3, 0..mesh.triangle_count());
+                }
+            }
+        }
+    }
+
+    fn feed(&self, feed: Feed) -> Option<&FeedPipelines> {
+        match feed {
+            Feed::Pulled => self.pulled.as_ref(),
+            Feed::Records => Some(&self.fed),
+        }
+    }
+
+    fn set_color(&self, pass: &mut wgpu::RenderPass<'_>, swatch: Swatch) {
+        pass.set_bind_group(1, &self.colors, &[swatch as u32 * self.color_step]);
+    }
+
+    /// Sets pipeline, colour and the volume's own bind group, if all of them are there.
+    fn bind<'a>(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        renderer: &ShadowVolumeRenderer,
+        drawn: &Drawn<'a>,
+        draw: &Draw,
+        (pipeline, swatch): (
+            impl Fn(&FeedPipelines) -> Option<wgpu::RenderPipeline>,
+            Swatch,
+        ),
+    ) -> Option<&'a Slot> {
+        let slot = drawn.kept.get(draw.slot)?;
+        let feed = match slot.way {
+            Way::Vertex => Feed::Records,
+            Way::Compute | Way::Cpu => Feed::Pulled,
+        };
+        pass.set_pipeline(&self.feed(feed).and_then(pipeline)?);
+        self.set_color(pass, swatch);
+        renderer.bind_volume(pass, draw).then_some(slot)
+    }
+}
+
+/// Records the lines of one volume, pipeline and bind groups being set.
+fn record_edges(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, drawn: &Drawn<'_>) {
+    match slot.way {
+        Way::Cpu => pass.draw(0..6 * slot.counts.sides, 0..1),
+        Way::Compute => {
+            if let Some(bound) = drawn.buffers.bound() {
+                let own = u64::from(draw.slot) * size_of::<Arguments>() as u64;
+                pass.draw_indirect(bound.arguments, own + Arguments::QUADS);
+            }
+        }
+        Way::Vertex => {
+            if let Some(records) = slot.mesh.records() {
+                pass.set_vertex_buffer(0, records.edges.slice(..));
+                pass.draw(0..2, 0..records.edge_count);
+            }
+        }
+    }
+}
+
+fn caster_params(caster: &Caster, frame: &ShadowVolumeFrame<'_>) -> CasterParams {
+    let (stride, offset) = caster.mesh.layout();
+    CasterParams {
+        clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
+        world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
+        position_stride: (stride / 4) as u32,
+        position_offset: (offset / 4) as u32,
+        ..bytemuck::Zeroable::zeroed()
+    }
+}
+
+fn validate(
+    device: &wgpu::Device,
+    descriptor: &VolumeDebugDescriptor<'_>,
+) -> Result<(), VolumeDebugError> {
+    check_target(
+        device,
+        descriptor.depth_stencil_format,
+        descriptor.sample_count,
+    )?;
+    check_color(device, descriptor.color_format, descriptor.sample_count)?;
+    check_depth(device, descriptor.depth)?;
+    // The volume's own parameters, and the colour.
+    limits::check_one(
+        "max_dynamic_uniform_buffers_per_pipeline_layout",
+        2,
+        u64::from(
+            device
+                .limits()
+                .max_dynamic_uniform_buffers_per_pipeline_layout,
+        ),
+    )?;
+    Ok(())
+}

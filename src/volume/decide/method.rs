@@ -1,0 +1,317 @@
+//! How a caster's volume is counted and closed, and whether it is drawn at all.
+//!
+//! **z-pass** (Heidmann, "Real Shadows, Real Time", 1991) counts the faces in front of the visible
+//! point P: +1 front, -1 back. **z-fail** counts those behind it: +1 back, -1 front. Along a ray
+//! from a point N of the near rectangle through P to infinity the winding number of a closed volume
+//! changes by +1 at a front face and by -1 at a back face, and is 0 at infinity. So z-fail counts
+//! winding(P), and z-pass winding(P) - winding(N). Hence
+//! - z-pass is right exactly where winding(N) = 0, so where no part of the caster lies between the
+//!   near rectangle and the light: in the pyramid between the two, a prism for a directional light.
+//! - Both may share one buffer, caster by caster: each adds the same winding(P), modulo 256.
+//! - z-pass needs no cap that cannot lie between N and P: no light cap, for P is the first surface
+//!   that the host draws and the light cap is such a surface, and no dark cap at infinity.
+//!
+//! Where far faces are kept by `unclipped_depth`, near ones are, too, unless the vertex shaders cut them
+//! (see `near_plane.rs`): rays then start at the eye (from infinity behind it in an orthographic view),
+//! and the pyramid is that much larger.
+//!
+//! **The dark cap** closes the sides, so its boundary must be theirs, projected to infinity. The
+//! light cap projected there is one such chain; a fan from one point over the silhouette is another.
+//! Their difference is a chain on the sphere of directions without boundary: a whole number of times
+//! the whole sphere. With the light outside the caster's box all directions from it to the box, and
+//! so both chains, lie in one open hemisphere, and that number is 0. With the light inside it may
+//! not be, and the full cap is drawn.
+//!
+//! In a plane, where finite volumes end, any two caps with one boundary are the same chain, and the
+//! fan serves.
+
+use glam::{DVec3, DVec4, Vec4Swizzles as _};
+
+use crate::volume::decide::far_end::{Ends, FarEnd};
+use crate::volume::decide::hull::Hull;
+use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::decide::scissor::{self, Rect};
+use crate::volume::decide::world_box::WorldBox;
+use crate::volume::descriptor::ShadowVolumeDescriptor;
+use crate::volume::{ShadowVolumeFrame, StartFrom};
+use crate::{HomogeneousLight, View};
+
+/// Which of a volume's faces are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// z-pass for each caster for which it is proven right in this frame, z-fail for the others.
+    #[default]
+    Auto,
+    /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
+    /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    ZPass,
+    /// z-fail for all casters: always right, and more to fill.
+    ZFail,
+}
+
+/// How z-fail closes a volume at its far end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Caps {
+    /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the
+    /// silhouette for a point light outside the caster's bounds; the full cap inside.
+    #[default]
+    AsNeeded,
+    /// The light cap once more at infinity, triangle by triangle.
+    Full,
+}
+
+/// How far volumes reach.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Extrusion {
+    /// To infinity.
+    Infinite,
+    /// Past the frame's `range` or its `receivers`, for less to fill: every shadow is complete
+    /// within the range and on the receivers, and beyond them, where the light must have no effect
+    /// or nothing is, there may be none. Casters around the light, and lights without a range where
+    /// the receivers are not known, have infinite volumes all the same.
+    #[default]
+    ToRange,
+}
+
+/// Which of the renderer's savings are on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Options {
+    pub method: Method,
+    pub caps: Caps,
+    pub extrusion: Extrusion,
+    pub culling: bool,
+    pub start_from: StartFrom,
+    pub near: NearPlane,
+}
+
+impl Options {
+    pub fn of(device: &wgpu::Device, descriptor: &ShadowVolumeDescriptor<'_>) -> Self {
+        Self {
+            method: descriptor.method,
+            caps: descriptor.caps,
+            extrusion: descriptor.extrusion,
+            culling: descriptor.culling,
+            start_from: descriptor.start_from,
+            near: NearPlane::of(device.features(), descriptor.depth),
+        }
+    }
+
+    /// What of the target is drawn to, and the target's size; `None` for all of it.
+    pub fn scissor(&self, frame: &ShadowVolumeFrame<'_>) -> Option<(Rect, [u32; 2])> {
+        let target = frame.target_size.filter(|_| self.culling)?;
+        let range = frame.range.filter(|_| !frame.light.is_directional())?;
+        let centre = frame.light.0.xyz().as_dvec3();
+        let rect = scissor::of_sphere(frame.view, centre, range.into(), target);
+        Some((rect.unwrap_or_default(), target))
+    }
+}
+
+/// Which side of the visible point counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Count {
+    Pass,
+    Fail,
+}
+
+/// The far end of a volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum DarkCap {
+    None,
+    Fan,
+    Full,
+}
+
+/// Why a caster is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Skip {
+    Empty,
+    EdgeOn,
+    OutOfRange,
+    OutOfView,
+}
+
+/// What is drawn of a caster.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Form {
+    pub count: Count,
+    pub dark_cap: DarkCap,
+    /// Whether the light cap is clipped, as the host's surfaces are.
+    pub light_cap_clipped: bool,
+    /// Vertices of a side: 6 for a quad, 3 where its far edge is one point at infinity.
+    pub side_vertices: u32,
+    pub far: FarEnd,
+}
+
+/// What the choices of one frame depend on.
+#[derive(Debug)]
+pub(crate) struct Rules {
+    options: Options,
+    light: HomogeneousLight,
+    /// Where rays start.
+    origins: Vec<DVec4>,
+    ends: Ends,
+    /// From there to the light: what misses it casts no shadow on the near rectangle.
+    near: Hull,
+    /// From all that is visible to the light: what misses it casts no visible shadow.
+    visible: Hull,
+    /// From the receivers to the light: what misses it shadows none of them.
+    receiving: Option<Hull>,
+    /// Of a view that clips both; positive between them.
+    near_and_far: Option<[DVec4; 2]>,
+    light_reaches_view: bool,
+}
+
+impl Rules {
+    pub fn new(frame: &ShadowVolumeFrame<'_>, options: Options) -> Self {
+        let light = frame.light.0.as_dvec4();
+        let view = frame.view;
+        let origins = origins(view, options.near);
+        let ends = Ends::new(frame, origins.clone());
+        let range = ends.range;
+        let receiving = ends
+            .receivers()
+            .map(|box_| Hull::new(&with(&box_, unit(light))));
+        let mut frustum: Vec<DVec4> = view.near_corners().map(|c| c.extend(1.0)).to_vec();
+        // Endless: a far plane hides little, and its corners are badly known in f32 matrices.
+        frustum.extend(view.sight_lines().map(|d| d.normalize().extend(0.0)));
+        let seen = Hull::new(&frustum);
+        let light_reaches_view = range.is_none_or(|range| !seen.misses_sphere(light.xyz(), range));
+        frustum.push(unit(light));
+        Self {
+            options,
+            light: frame.light,
+            near: Hull::new(&with(&origins, unit(light))),
+            visible: Hull::new(&frustum),
+            receiving,
+            near_and_far: view.near_and_far_planes(),
+            light_reaches_view,
+            origins,
+            ends,
+        }
+    }
+
+    /// Why the caster need not be drawn, if it need not.
+    pub fn skips(&self, world: &WorldBox) -> Option<Skip> {
+        if !self.options.culling {
+            return None;
+        }
+        let beyond = |range| world.distance(self.light.0.xyz().as_dvec3()) > range;
+        if self.ends.range.is_some_and(beyond) {
+            return Some(Skip::OutOfRange);
+        }
+        let nowhere = self
+            .receiving
+            .as_ref()
+            .is_some_and(|hull| hull.misses(world));
+        if !self.light_reaches_view || self.visible.misses(world) || nowhere {
+            return Some(Skip::OutOfView);
+        }
+        None
+    }
+
+    /// What is drawn of a caster that is not skipped.
+    pub fn form(&self, world: &WorldBox) -> Form {
+        let count = match self.options.method {
+            Method::ZFail => Count::Fail,
+            Method::ZPass => Count::Pass,
+            Method::Auto if self.near.misses(world) => Count::Pass,
+            Method::Auto => Count::Fail,
+        };
+        let far = self.far_end(world, count);
+        let full = self.options.caps == Caps::Full;
+        let directional = self.light.is_directional();
+        let dark_cap = match count {
+            Count::Pass if self.starts_beyond(&far) => DarkCap::Fan,
+            Count::Pass => DarkCap::None,
+            Count::Fail if full || !world.excludes(self.light) => DarkCap::Full,
+            Count::Fail if directional && far.is_infinite() => DarkCap::None,
+            Count::Fail => DarkCap::Fan,
+        };
+        Form {
+            count,
+            dark_cap,
+            light_cap_clipped: count == Count::Fail && self.is_cut_by_near_alone(world),
+            side_vertices: if directional && !full && far.is_infinite() {
+                3
+            } else {
+                6
+            },
+            far,
+        }
+    }
+
+    /// Whether the near plane may cut the caster, and the far plane, which the view has, certainly does not.
+    ///
+    /// Its light cap is then clipped in z-fail, which loses nothing by that. Cut where the host's surfaces
+    /// are, by the same arithmetic, it has their corners. From any other the rasteriser finds other depths:
+    /// a corner is moved by up to half of 1/256 of a pixel, and steep depth by more than any bias.
+    fn is_cut_by_near_alone(&self, world: &WorldBox) -> bool {
+        let within = |plane: DVec4| {
+            let normal = plane.xyz();
+            let size = normal.length() * world.reach(DVec3::ZERO) + plane.w.abs();
+            world.nearest(normal) + plane.w > 1e-5 * size
+        };
+        self.near_and_far
+            .is_some_and(|[near, far]| within(far) && !within(near))
+    }
+
+    /// The nearest end that leaves every shadow whole.
+    fn far_end(&self, world: &WorldBox, count: Count) -> FarEnd {
+        let infinite = self.ends.infinite(world);
+        if self.options.extrusion == Extrusion::Infinite {
+            return infinite;
+        }
+        let end = self.ends.at_range(world).unwrap_or(infinite);
+        let end = self.ends.behind_receivers(world, end);
+        // Dark caps that z-fail counts are pushed away from the viewer: none may be before a receiver.
+        match count {
+            Count::Fail if self.starts_beyond(&end) => infinite,
+            _ => end,
+        }
+    }
+
+    /// Whether a ray may start beyond the plane that ends the volume, and so pass its dark cap on
+    /// the way to a point within the range.
+    fn starts_beyond(&self, far: &FarEnd) -> bool {
+        // Ends behind receivers are only chosen where none does.
+        if far.is_infinite() || self.light.is_directional() {
+            return false;
+        }
+        let plane = far.plane.xyz();
+        let light = self.light.0.xyz().as_dvec3();
+        // Well before the plane, so that rounding cannot matter.
+        let before = |p: &DVec4| plane.dot(p.xyz() - light * p.w) < 0.999 * p.w;
+        !self.origins.iter().all(before)
+    }
+}
+
+/// The points from which rays start, such that all others are between them.
+fn origins(view: &View, near_plane: NearPlane) -> Vec<DVec4> {
+    let near = view.near_corners().map(|corner| corner.extend(1.0));
+    if near_plane.ends_faces() {
+        return near.to_vec();
+    }
+    let eye = view.eye();
+    let eye = if eye.w == 0.0 {
+        (-view.sight_lines()[0].normalize()).extend(0.0)
+    } else {
+        eye / eye.w
+    };
+    with(&near, eye)
+}
+
+fn with(points: &[DVec4], last: DVec4) -> Vec<DVec4> {
+    points.iter().copied().chain([last]).collect()
+}
+
+/// A direction of length 1; points as they are.
+fn unit(light: DVec4) -> DVec4 {
+    if light.w == 0.0 {
+        light.xyz().normalize().extend(0.0)
+    } else {
+        light
+    }
+}

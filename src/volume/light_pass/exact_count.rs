@@ -1,0 +1,238 @@
+//! A count of volumes that never wraps: its target, its pass, and what light passes read of it.
+
+use crate::error::ScreenPassError;
+use crate::volume::gpu::counter::{FEATURE, FORMAT};
+use crate::volume::light_pass::join::{bind, layout};
+use crate::volume::light_pass::mask::{
+    check_buffer, check_readable_samples, check_size, check_target,
+};
+use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
+use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::wgsl::{EXACT, EXACT_SAMPLES};
+
+const MARK: &str = include_str!("../../../shaders/volume_mark.wgsl");
+const MARK_SAMPLES: &str = include_str!("../../../shaders/volume_mark_samples.wgsl");
+
+/// What an [`ExactCount`] is like.
+#[derive(Clone, Copy, Debug)]
+pub struct ExactCountDescriptor<'a> {
+    /// Names the GPU objects, after "shadows count". Default `None`.
+    pub label: Option<&'a str>,
+    /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
+    /// the device's `max_texture_dimension_2d`. Default 1 x 1.
+    pub size: [u32; 2],
+    /// Format of the host's depth-stencil buffer. Default `Depth32FloatStencil8`.
+    pub depth_stencil_format: wgpu::TextureFormat,
+    /// Its samples per pixel, 1 (default) or 4; on wgpu's GL back end, whose shaders read no
+    /// multisampled texture, 1. Each sample is counted by itself.
+    pub sample_count: u32,
+}
+
+impl Default for ExactCountDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            size: [1, 1],
+            depth_stencil_format: DEPTH_STENCIL,
+            sample_count: 1,
+        }
+    }
+}
+
+/// How many volumes each visible point is in, as 32-bit floats: for renderers with
+/// [`Counter::Exact`](crate::Counter::Exact).
+///
+/// For each light:
+/// 1. [`begin`](Self::begin) a pass and draw
+///    [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render) into it;
+/// 2. either [`encode`](Self::encode), which marks in the stencil what is in shadow: every form of
+///    light pass then goes on as after counting in the stencil
+///    ([`light_pass_stencil`](crate::ShadowVolumeRenderer::light_pass_stencil) with its guard,
+///    [`LightJoin`](crate::LightJoin), [`ShadowMask`](crate::ShadowMask));
+/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample a pixel as
+///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as
+///    `texture_multisampled_2d<f32>`, by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES).
+///    (Both are bound as floats that cannot be filtered.)
+///
+/// GPU memory: four bytes a sample.
+#[derive(Debug)]
+pub struct ExactCount {
+    label: String,
+    pipeline: wgpu::RenderPipeline,
+    group: wgpu::BindGroup,
+    view: wgpu::TextureView,
+    depth_stencil_format: wgpu::TextureFormat,
+}
+
+impl ExactCount {
+    /// Makes the target and the pipeline.
+    ///
+    /// # Errors
+    /// [`ScreenPassError`] if the device lacks
+    /// [`FLOAT32_BLENDABLE`](wgpu::Features::FLOAT32_BLENDABLE), or the size, the format or the
+    /// sample count is out of range.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &ExactCountDescriptor<'_>,
+    ) -> Result<Self, ScreenPassError> {
+        if !device.features().contains(FEATURE) {
+            return Err(ScreenPassError::MissingFeature {
+                feature: FEATURE,
+                needed_by: "ExactCount",
+            });
+        }
+        check_size(descriptor.size, &device.limits())?;
+        let format = descriptor.depth_stencil_format;
+        check_target(device, format, descriptor.sample_count)?;
+        check_readable_samples(device, descriptor.sample_count, "ExactCount")?;
+        let label = match descriptor.label {
+            Some(name) => format!("shadows count {name}"),
+            None => "shadows count".to_owned(),
+        };
+        let view = target(device, &label, descriptor);
+        let multisampled = descriptor.sample_count > 1;
+        let layout = layout(device, &label, multisampled);
+        let pipeline = ScreenPipeline {
+            label: &label,
+            source: source(multisampled),
+            fragment: "shadowed",
+            layout: &[Some(&layout)],
+            target: None,
+            depth_stencil_format: format,
+            sample_count: descriptor.sample_count,
+            on: On::Marked,
+        };
+        Ok(Self {
+            pipeline: pipeline.make(device),
+            group: bind(device, &label, &layout, &view),
+            view,
+            depth_stencil_format: format,
+            label,
+        })
+    }
+
+    /// Begins the pass that [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render)
+    /// draws into: all counts are 0, and the depth-stencil buffer is only read.
+    ///
+    /// # Errors
+    /// [`ScreenPassError::Buffer`] if the buffer is not as the descriptor said. Nothing is then
+    /// recorded.
+    pub fn begin<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        depth_stencil: &wgpu::TextureView,
+    ) -> Result<wgpu::RenderPass<'e>, ScreenPassError> {
+        self.check(depth_stencil)?;
+        Ok(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(attachment(depth_stencil, None)),
+            ..Default::default()
+        }))
+    }
+
+    /// Records a pass that sets the stencil to 1 where the count is not 0, and to 0 elsewhere. The
+    /// depth is only read.
+    ///
+    /// # Errors
+    /// [`ScreenPassError::Buffer`] if the buffer is not as the descriptor said. Nothing is then
+    /// recorded.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        depth_stencil: &wgpu::TextureView,
+    ) -> Result<(), ScreenPassError> {
+        self.check(depth_stencil)?;
+        let cleared = wgpu::Operations {
+            load: wgpu::LoadOp::Clear(0),
+            store: wgpu::StoreOp::Store,
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.label),
+            depth_stencil_attachment: Some(attachment(depth_stencil, Some(cleared))),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
+        pass.set_stencil_reference(1);
+        pass.draw(0..3, 0..1);
+        Ok(())
+    }
+
+    /// The counts, `R32Float`: to bind, or to be the last colour attachment of a pass that the host
+    /// begins itself and clears to 0.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.view
+    }
+
+    /// The texture itself, which may also be copied from where it has one sample a pixel.
+    pub fn texture(&self) -> &wgpu::Texture {
+        self.view.texture()
+    }
+
+    fn check(&self, depth_stencil: &wgpu::TextureView) -> Result<(), ScreenPassError> {
+        let own = self.view.texture();
+        let needed = [own.width(), own.height(), own.sample_count()];
+        check_buffer(depth_stencil, needed, self.depth_stencil_format)
+    }
+}
+
+/// The shader that marks the stencil.
+pub(crate) fn source(multisampled: bool) -> String {
+    match multisampled {
+        false => [SCREEN, EXACT, MARK].join("\n"),
+        true => [SCREEN, EXACT_SAMPLES, MARK_SAMPLES].join("\n"),
+    }
+}
+
+fn target(
+    device: &wgpu::Device,
+    label: &str,
+    descriptor: &ExactCountDescriptor<'_>,
+) -> wgpu::TextureView {
+    use wgpu::TextureUsages as U;
+    let [width, height] = descriptor.size;
+    // Nothing with several samples can be copied into a buffer.
+    let copied = match descriptor.sample_count {
+        1 => U::COPY_SRC,
+        _ => U::empty(),
+    };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: descriptor.sample_count,
+        dimension: wgpu::TextureDimension::D2,
+        format: FORMAT,
+        usage: U::RENDER_ATTACHMENT | U::TEXTURE_BINDING | copied,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some(label),
+        ..Default::default()
+    })
+}
+
+/// With a read-only depth.
+fn attachment(
+    view: &wgpu::TextureView,
+    stencil_ops: Option<wgpu::Operations<u32>>,
+) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: None,
+        stencil_ops,
+    }
+}

@@ -1,0 +1,303 @@
+//! A mask of what each light reaches, for any later pass to sample.
+
+use crate::error::ScreenPassError;
+use crate::gl;
+use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
+use crate::volume::light_pass::targets::DEPTH_STENCIL;
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// What a [`ShadowMask`] is like.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowMaskDescriptor<'a> {
+    /// Names the GPU objects, after "shadows mask". Default `None`.
+    pub label: Option<&'a str>,
+    /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
+    /// the device's `max_texture_dimension_2d`. Default 1 x 1.
+    pub size: [u32; 2],
+    /// Lights that are kept apart, one layer each: 1 (default) to the device's
+    /// `max_texture_array_layers`.
+    pub lights: u32,
+    /// Format of the depth-stencil buffer that the volumes were counted in. Default
+    /// `Depth32FloatStencil8`.
+    pub depth_stencil_format: wgpu::TextureFormat,
+    /// Its samples per pixel, 1 (default) or 4. With 4, the mask holds the share that is lit.
+    pub sample_count: u32,
+}
+
+impl Default for ShadowMaskDescriptor<'_> {
+    fn default() -> Self {
+        Self {
+            label: None,
+            size: [1, 1],
+            lights: 1,
+            depth_stencil_format: DEPTH_STENCIL,
+            sample_count: 1,
+        }
+    }
+}
+
+/// The shadows of up to as many lights as a texture has layers, one byte a pixel and light.
+///
+/// Volumes are counted in the stencil buffer one light after another; each answer is copied into
+/// the light's layer, and one lighting pass reads them all:
+///
+/// 1. for each light: a pass that clears the stencil and draws
+///    [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render), then
+///    [`encode`](Self::encode) with the light's layer;
+/// 2. the host's lighting pass, with [`view`](Self::view) bound as `texture_2d_array<f32>` and
+///    [`wgsl::MASK`](crate::wgsl::MASK) in its shader. It needs no stencil, and may blend as it
+///    likes.
+///
+/// GPU memory: a byte for each pixel and light, and with four samples five more for each pixel. On
+/// wgpu's GL back end, which takes some textures for no arrays, one more for each pixel if there is one
+/// light or a multiple of six.
+#[derive(Debug)]
+pub struct ShadowMask {
+    label: String,
+    pipeline: wgpu::RenderPipeline,
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+    layers: Vec<wgpu::TextureView>,
+    /// Between stencil and layer, if there are several samples.
+    samples: Option<Samples>,
+    depth_stencil_format: wgpu::TextureFormat,
+}
+
+/// Where samples are drawn and resolved. Not into the layer itself: resolved into layers, the mask of
+/// one light came out wrong on Mesa's lavapipe (22.3).
+#[derive(Debug)]
+struct Samples {
+    drawn: wgpu::TextureView,
+    resolved: wgpu::TextureView,
+}
+
+impl ShadowMask {
+    /// Makes the texture and the pipeline.
+    ///
+    /// # Errors
+    /// [`ScreenPassError`] if the size, the number of lights, the format or the sample count is out
+    /// of range.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &ShadowMaskDescriptor<'_>,
+    ) -> Result<Self, ScreenPassError> {
+        let limits = device.limits();
+        let [width, height] = descriptor.size;
+        check_size(descriptor.size, &limits)?;
+        let most = most_lights(device, &limits);
+        check_range("number of lights", descriptor.lights, most)?;
+        check_target(
+            device,
+            descriptor.depth_stencil_format,
+            descriptor.sample_count,
+        )?;
+        let label = match descriptor.label {
+            Some(name) => format!("shadows mask {name}"),
+            None => "shadows mask".to_owned(),
+        };
+        let texture = |layers, samples, usage| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(&label),
+                size: wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: layers,
+                },
+                mip_level_count: 1,
+                sample_count: samples,
+                dimension: wgpu::TextureDimension::D2,
+                format: FORMAT,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        use wgpu::TextureUsages as U;
+        let readable = U::TEXTURE_BINDING | U::COPY_SRC | U::COPY_DST;
+        let mask = texture(gl::array_layers(device, descriptor.lights), 1, readable);
+        let samples = (descriptor.sample_count > 1).then(|| Samples {
+            drawn: layer_of(&texture(1, descriptor.sample_count, U::empty()), &label, 0),
+            resolved: layer_of(&texture(1, 1, U::COPY_SRC), &label, 0),
+        });
+        Ok(Self {
+            pipeline: ScreenPipeline {
+                label: &label,
+                source: SCREEN.to_owned(),
+                fragment: "one",
+                layout: &[],
+                target: Some(FORMAT.into()),
+                depth_stencil_format: descriptor.depth_stencil_format,
+                sample_count: descriptor.sample_count,
+                on: On::Lit,
+            }
+            .make(device),
+            view: mask.create_view(&wgpu::TextureViewDescriptor {
+                label: Some(&label),
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                array_layer_count: Some(descriptor.lights),
+                ..Default::default()
+            }),
+            layers: (0..descriptor.lights)
+                .map(|layer| layer_of(&mask, &label, layer))
+                .collect(),
+            samples,
+            texture: mask,
+            depth_stencil_format: descriptor.depth_stencil_format,
+            label,
+        })
+    }
+
+    /// Records a pass that copies what the stencil says of one light into the light's layer: 1
+    /// where the count is 0, else 0. The depth-stencil buffer is only read.
+    ///
+    /// # Errors
+    /// [`ScreenPassError`] if there is no such layer, or the buffer is not as the descriptor said.
+    /// Nothing is then recorded.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        light: u32,
+        depth_stencil: &wgpu::TextureView,
+    ) -> Result<(), ScreenPassError> {
+        let lights = self.layers.len() as u32;
+        let no_layer = ScreenPassError::Layer { light, lights };
+        let layer = self.layers.get(light as usize).ok_or(no_layer)?;
+        let samples = self.samples.as_ref();
+        let samples = samples.map_or(1, |s| s.drawn.texture().sample_count());
+        let needed = [self.texture.width(), self.texture.height(), samples];
+        check_buffer(depth_stencil, needed, self.depth_stencil_format)?;
+        let (view, resolve_target) = match &self.samples {
+            Some(samples) => (&samples.drawn, Some(&samples.resolved)),
+            None => (layer, None),
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: depth_stencil,
+                depth_ops: None,
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_stencil_reference(0);
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        if let Some(resolved) = resolve_target {
+            self.copy(encoder, resolved.texture(), light);
+        }
+        Ok(())
+    }
+
+    fn copy(&self, encoder: &mut wgpu::CommandEncoder, resolved: &wgpu::Texture, light: u32) {
+        let mut to = self.texture.as_image_copy();
+        to.origin.z = light;
+        encoder.copy_texture_to_texture(resolved.as_image_copy(), to, resolved.size());
+    }
+
+    /// The layers of all lights, `R8Unorm`, to bind as `texture_2d_array<f32>`.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.view
+    }
+
+    /// The texture itself, which may also be copied from. On wgpu's GL back end it may have a layer
+    /// more than there are lights, which nothing is drawn into.
+    pub fn texture(&self) -> &wgpu::Texture {
+        &self.texture
+    }
+}
+
+/// As many as an array has layers.
+fn most_lights(device: &wgpu::Device, limits: &wgpu::Limits) -> u32 {
+    let layers = limits.max_texture_array_layers;
+    match gl::array_layers(device, layers) > layers {
+        true => layers - 1,
+        false => layers,
+    }
+}
+
+/// Whether a depth-stencil buffer has the width, height, samples and format that were announced.
+pub(crate) fn check_buffer(
+    buffer: &wgpu::TextureView,
+    needed: [u32; 3],
+    needed_format: wgpu::TextureFormat,
+) -> Result<(), ScreenPassError> {
+    let buffer = buffer.texture();
+    let found = [buffer.width(), buffer.height(), buffer.sample_count()];
+    if found == needed && buffer.format() == needed_format {
+        return Ok(());
+    }
+    Err(ScreenPassError::Buffer {
+        found,
+        found_format: buffer.format(),
+        needed,
+        needed_format,
+    })
+}
+
+fn layer_of(texture: &wgpu::Texture, label: &str, layer: u32) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some(label),
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
+}
+
+/// A target's width and height.
+pub(crate) fn check_size(
+    [width, height]: [u32; 2],
+    limits: &wgpu::Limits,
+) -> Result<(), ScreenPassError> {
+    check_range("width", width, limits.max_texture_dimension_2d)?;
+    check_range("height", height, limits.max_texture_dimension_2d)
+}
+
+fn check_range(what: &'static str, value: u32, limit: u32) -> Result<(), ScreenPassError> {
+    if (1..=limit).contains(&value) {
+        return Ok(());
+    }
+    Err(ScreenPassError::Range { what, value, limit })
+}
+
+/// Whether shaders can read targets of so many samples.
+pub(crate) fn check_readable_samples(
+    device: &wgpu::Device,
+    samples: u32,
+    what: &'static str,
+) -> Result<(), ScreenPassError> {
+    match samples > 1 && gl::is_gl(device) {
+        true => Err(ScreenPassError::SamplesOnGl { samples, what }),
+        false => Ok(()),
+    }
+}
+
+/// The pass's depth-stencil format and sample count.
+pub(crate) fn check_target(
+    device: &wgpu::Device,
+    format: wgpu::TextureFormat,
+    samples: u32,
+) -> Result<(), ScreenPassError> {
+    let has_stencil = matches!(
+        format,
+        wgpu::TextureFormat::Depth24PlusStencil8 | wgpu::TextureFormat::Depth32FloatStencil8
+    );
+    let usable = device.features().contains(format.required_features());
+    if !has_stencil || !usable {
+        return Err(ScreenPassError::Format(format));
+    }
+    match samples {
+        1 | 4 => Ok(()),
+        _ => Err(ScreenPassError::SampleCount(samples)),
+    }
+}

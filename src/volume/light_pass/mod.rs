@@ -1,0 +1,7 @@
+//! What a host's light passes need: masks, exact counts, pictures joined.
+
+pub(crate) mod exact_count;
+pub(crate) mod join;
+pub(crate) mod mask;
+pub(crate) mod screen;
+pub(crate) mod targets;

@@ -1,0 +1,37 @@
+//! What formats a pass can have.
+
+/// Of depth-stencil buffers, where a descriptor names no other.
+pub(crate) const DEPTH_STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
+
+/// Whether pictures of this format can be drawn into with so many samples a pixel, and are `also` what
+/// is asked for. A device that goes by its adapter's own formats does not say which they are; there,
+/// every uncompressed colour format is believed to be one.
+pub(crate) fn is_drawable(
+    device: &wgpu::Device,
+    format: wgpu::TextureFormat,
+    sample_count: u32,
+    also: wgpu::TextureFormatFeatureFlags,
+) -> bool {
+    let features = device.features();
+    let is_color = format.has_color_aspect() && !format.is_compressed();
+    if !(is_color && features.contains(format.required_features())) {
+        return false;
+    }
+    let by_adapter = wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+    let known = format.guaranteed_format_features(features);
+    let target = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    features.contains(by_adapter)
+        || known.allowed_usages.contains(target)
+            && known.flags.sample_count_supported(sample_count)
+            && known.flags.contains(also)
+}
+
+/// Bytes of one sample of all targets together, as the device's
+/// `max_color_attachment_bytes_per_sample` counts them: each target begins at a multiple of its
+/// components' size.
+pub(crate) fn bytes_a_sample(formats: impl Iterator<Item = wgpu::TextureFormat>) -> u32 {
+    formats.fold(0, |before, format| {
+        let alignment = format.target_component_alignment().unwrap_or(1);
+        before.next_multiple_of(alignment) + format.target_pixel_byte_cost().unwrap_or(0)
+    })
+}

@@ -1,0 +1,73 @@
+//! What a device must be able to do.
+
+use crate::error::ShadowVolumeError;
+use crate::support::STORAGE_BUFFERS;
+use crate::support::has_vertex_storage;
+
+/// Invocations in a workgroup of the extraction passes.
+pub(crate) const WORKGROUP: u32 = 256;
+
+/// A limit's name, what is needed, and where it is found.
+type Need = (&'static str, u32, fn(&wgpu::Limits) -> u32);
+
+/// For volumes whose silhouettes compute shaders find: the storage buffers of the largest pass,
+/// and dispatches of which two dimensions hold one invocation for each `u32`.
+pub(crate) const COMPUTE: &[Need] = &[
+    (
+        "max_storage_buffers_per_shader_stage",
+        STORAGE_BUFFERS,
+        |l| l.max_storage_buffers_per_shader_stage,
+    ),
+    ("max_compute_workgroup_size_x", WORKGROUP, |l| {
+        l.max_compute_workgroup_size_x
+    }),
+    ("max_compute_invocations_per_workgroup", WORKGROUP, |l| {
+        l.max_compute_invocations_per_workgroup
+    }),
+    ("max_compute_workgroups_per_dimension", 4096, |l| {
+        l.max_compute_workgroups_per_dimension
+    }),
+];
+
+/// For vertex shaders that pull positions, edges and sides.
+const PULL: &[Need] = &[("max_storage_buffers_per_shader_stage", 3, |l| {
+    l.max_storage_buffers_per_shader_stage
+})];
+
+/// For all volumes.
+pub(crate) const EVERY_WAY: &[Need] =
+    &[("max_dynamic_uniform_buffers_per_pipeline_layout", 1, |l| {
+        l.max_dynamic_uniform_buffers_per_pipeline_layout
+    })];
+
+/// The first limit that is too low.
+pub(crate) fn check(needs: &[Need], limits: &wgpu::Limits) -> Result<(), ShadowVolumeError> {
+    needs.iter().try_for_each(|&(name, needed, available)| {
+        check_one(name, needed.into(), available(limits).into())
+    })
+}
+
+/// Whether vertex shaders can pull positions, edges and sides.
+pub(crate) fn check_pulling(device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
+    check(PULL, &device.limits())?;
+    match has_vertex_storage(device) {
+        true => Ok(()),
+        false => Err(ShadowVolumeError::VertexStorage),
+    }
+}
+
+/// One limit.
+pub(crate) fn check_one(
+    name: &'static str,
+    needed: u64,
+    available: u64,
+) -> Result<(), ShadowVolumeError> {
+    if needed <= available {
+        return Ok(());
+    }
+    Err(ShadowVolumeError::Limit {
+        name,
+        needed,
+        available,
+    })
+}
