@@ -1,7 +1,6 @@
 //! Every configuration of a `PcfSampler`, and hosts that ask it.
 #![allow(dead_code)] // each test uses its own part
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shadows::{
     DepthEncoding, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu,
 };
@@ -70,8 +69,14 @@ const SUN: Way = Way {
     ..FLAT
 };
 
+const ATLAS: Way = Way {
+    name: "atlas",
+    map: MapKind::Atlas,
+    ..CUBE
+};
+
 /// All of them.
-pub const WAYS: [Way; 16] = [
+pub const WAYS: [Way; 18] = [
     CUBE,
     LINEAR,
     Way {
@@ -137,6 +142,12 @@ pub const WAYS: [Way; 16] = [
         gather: Gather::Never,
         border: true,
         ..FLAT
+    },
+    ATLAS,
+    Way {
+        name: "atlas-fetches",
+        gather: Gather::Never,
+        ..ATLAS
     },
 ];
 
@@ -215,6 +226,11 @@ pub fn textbooks() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     vec![of(false), of(true)]
 }
 
+/// Whether shaders name a light.
+pub fn takes_light(descriptor: &PcfDescriptor<'_>) -> bool {
+    descriptor.many_lights || descriptor.map == MapKind::Atlas
+}
+
 /// A fragment shader that asks for the visibility at its position; `module` is what stands before
 /// the function's name.
 pub fn host_of(descriptor: &PcfDescriptor<'_>, module: &str) -> String {
@@ -222,7 +238,7 @@ pub fn host_of(descriptor: &PcfDescriptor<'_>, module: &str) -> String {
         true => ", pixel.xy",
         false => "",
     };
-    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let light = if takes_light(descriptor) { "3u, " } else { "" };
     let name = visibility_name(descriptor.map);
     format!(
         "
@@ -245,7 +261,7 @@ pub fn given_host(descriptor: &PcfDescriptor<'_>) -> String {
         true => ", pixel.xy",
         false => "",
     };
-    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let light = if takes_light(descriptor) { "3u, " } else { "" };
     let name = visibility_name(descriptor.map);
     format!(
         "
@@ -269,13 +285,4 @@ pub fn visibility_name(map: MapKind) -> &'static str {
         MapKind::Flat => "shadows_flat_visibility",
         _ => "shadows_visibility",
     }
-}
-
-/// Parses and validates WGSL as a device with cube arrays would.
-pub fn validate_arrays(wgsl: &str) -> Result<naga::Module, String> {
-    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
-        .validate(&module)
-        .map_err(|e| e.emit_to_string(wgsl))?;
-    Ok(module)
 }

@@ -7,6 +7,7 @@ pub mod gpu;
 pub mod image;
 pub mod interior;
 pub mod masked_casters;
+pub mod one_light;
 pub mod peer_light;
 pub mod peer_map;
 pub mod peers;
