@@ -6,6 +6,7 @@ pub mod cost;
 pub mod date;
 pub mod growth;
 pub mod hard;
+pub mod lamps;
 pub mod measure;
 pub mod output;
 pub mod plot;

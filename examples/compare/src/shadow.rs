@@ -45,7 +45,8 @@ impl ShadowInputs {
         (!self.light.is_directional()).then_some(self.range)
     }
 
-    fn point_light(&self) -> PointLight {
+    /// As a point light, whatever a cone leaves of it.
+    pub fn point_light(&self) -> PointLight {
         PointLight {
             near: self.near,
             ..PointLight::new(self.light.0.truncate(), self.range)
@@ -287,13 +288,24 @@ impl Shadow {
 
     /// Records the lit pass.
     pub fn shade(&self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
+        self.shade_by(host, scene, 0, encoder);
+    }
+
+    /// Records the lit pass of one of the scene's lights, which it was prepared for.
+    pub fn shade_by(
+        &self,
+        host: &Renderer,
+        scene: &SceneGpu,
+        light: usize,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
         let group = match &self.means {
             Means::Cube { group, .. } => Some(&group.1),
             Means::Flat { group, .. } => Some(group),
             Means::Volume { .. } => None,
             Means::Peer(map) => Some(map.bind_group()),
         };
-        host.draw_lit(encoder, scene, &self.lit, group);
+        host.draw_lit_by(encoder, scene, light, &self.lit, group);
     }
 
     /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
