@@ -25,6 +25,8 @@ enum Means {
     Each(Vec<Shadow>),
     /// All in one cube array and one bind group.
     Cubes(Box<Cubes>),
+    /// All in one atlas.
+    Atlas(Box<Shadow>),
 }
 
 struct Cubes {
@@ -45,17 +47,14 @@ impl Lamps {
         let applies = |at: &usize| technique.config.applies_to(stage.scene.lights[*at].kind());
         let lights: Vec<usize> = all.filter(applies).collect();
         let means = match &technique.config {
-            Config::Cube { map, sampler }
-                if lights.len() > 1 && !sampler.textbook && gpu.support.cube_arrays =>
-            {
-                Means::Cubes(Box::new(Cubes::new(
-                    gpu,
-                    stage,
-                    lights.len(),
-                    map,
-                    sampler,
-                )?))
-            }
+            Config::Cube { map, sampler } if lights.len() > 1 && !sampler.textbook => Means::Cubes(
+                Box::new(Cubes::new(gpu, stage, lights.len(), map, sampler)?),
+            ),
+            Config::Atlas { .. } => Means::Atlas(Box::new(Shadow::new(
+                gpu,
+                &stage.renderer,
+                technique.clone(),
+            )?)),
             _ => {
                 let each = lights.iter();
                 let new = |_| Shadow::new(gpu, &stage.renderer, technique.clone());
@@ -90,6 +89,10 @@ impl Lamps {
                 .iter_mut()
                 .zip(inputs)
                 .try_for_each(|(shadow, inputs)| shadow.prepare(gpu, &inputs)),
+            Means::Atlas(shadow) => {
+                let inputs: Vec<_> = inputs.collect();
+                shadow.prepare_all(gpu, &inputs)
+            }
             Means::Cubes(cubes) => {
                 let lights: Vec<_> = inputs.map(|inputs| inputs.point_light()).collect();
                 let frame = CubeFrame {
@@ -110,7 +113,10 @@ impl Lamps {
                 shadows[light].generate(&stage.renderer, &stage.scene_gpu, encoder);
             }
             Means::Cubes(cubes) if light == 0 => cubes.map.encode(encoder),
-            Means::Cubes(_) => {}
+            Means::Atlas(shadow) if light == 0 => {
+                shadow.generate(&stage.renderer, &stage.scene_gpu, encoder);
+            }
+            Means::Cubes(_) | Means::Atlas(_) => {}
         }
     }
 
@@ -120,6 +126,7 @@ impl Lamps {
         let place = self.lights[light];
         match &self.means {
             Means::Each(shadows) => shadows[light].shade_by(renderer, scene, place, encoder),
+            Means::Atlas(shadow) => shadow.shade_by(renderer, scene, place, encoder),
             Means::Cubes(cubes) => {
                 renderer.draw_lit_by(encoder, scene, place, &cubes.lit, Some(&cubes.group.1));
             }
@@ -160,6 +167,7 @@ impl Lamps {
                 }
                 sum
             }
+            Means::Atlas(shadow) => shadow.cost(),
             Means::Cubes(cubes) => {
                 let taken = cubes.map.statistics();
                 Cost {
@@ -175,6 +183,7 @@ impl Lamps {
     pub fn interior(&self, light: usize) -> Interior {
         match &self.means {
             Means::Each(shadows) => shadows[light].interior(),
+            Means::Atlas(shadow) => shadow.interior_of(light),
             Means::Cubes(cubes) => interior::of_cube(&cubes.map, cubes.sampler.kernel()),
         }
     }

@@ -2,6 +2,7 @@
 
 pub mod args;
 pub mod arithmetic;
+pub mod atlas;
 pub mod cost;
 pub mod date;
 pub mod growth;

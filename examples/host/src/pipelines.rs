@@ -67,7 +67,7 @@ pub struct ShadowAccess<'a> {
 
 /// A sampler's module for group 1, called as the host calls it whatever the kernel.
 pub fn visibility_module(sampler: &PcfSampler) -> String {
-    module(sampler, "", "", "")
+    module(sampler, "", light(sampler), "")
 }
 
 /// The same, of a sampler made for many lights.
@@ -77,7 +77,15 @@ pub fn visibility_module_of_many(sampler: &PcfSampler) -> String {
 
 /// The same, with the triangles' normals given by the host.
 pub fn visibility_module_with_normals(sampler: &PcfSampler) -> String {
-    module(sampler, "_flat", "", ", at.flat_normal")
+    module(sampler, "_flat", light(sampler), ", at.flat_normal")
+}
+
+/// By what a shader names the light, where it does.
+fn light(sampler: &PcfSampler) -> &'static str {
+    match sampler.map() {
+        MapKind::Atlas => "at.light, ",
+        _ => "",
+    }
 }
 
 fn module(sampler: &PcfSampler, suffix: &str, light: &str, normal: &str) -> String {

@@ -125,6 +125,7 @@ fn kind(technique: &Technique) -> u32 {
         Config::Flat { .. } => 1,
         Config::Volume(_) => 2,
         Config::Peer { .. } => 3,
+        Config::Atlas { .. } => 4,
     }
 }
 

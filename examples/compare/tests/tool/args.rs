@@ -355,6 +355,7 @@ fn every_name_stands_for_another_technique() {
             Config::Cube { .. } => "cube",
             Config::Flat { .. } => "flat",
             Config::Volume(_) => "volume",
+            Config::Atlas { .. } => "atlas",
             Config::Peer { .. } => "peer",
         };
         assert!(row.name.starts_with(kind), "{}", row.name);
