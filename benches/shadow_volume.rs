@@ -21,7 +21,10 @@
 //! `shadow_volume/extraction.rs` says.
 //!
 //! Then four thousand casters: `ratio distinct_meshes_4000_vs_one_mesh` and what else
-//! `shadow_volume/distinct.rs` says. `--extraction` and `--distinct` measure nothing but these.
+//! `shadow_volume/distinct.rs` says.
+//!
+//! Then frames in which little changed: `ratio kept_vs_moving_prepare` and what else
+//! `shadow_volume/kept.rs` says. `--extraction`, `--distinct` and `--kept` measure nothing but these.
 //!
 //! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
@@ -31,20 +34,22 @@
 mod distinct;
 #[path = "shadow_volume/extraction.rs"]
 mod extraction;
+#[path = "shadow_volume/kept.rs"]
+mod kept;
 #[path = "shared/mod.rs"]
 mod shared;
 
 use std::time::Instant;
 
 use host::gpu::Gpu;
+use host::one_light::{OneLight, PrepareOne as _};
 use host::renderer::{self, Renderer};
 use host::scene_gpu::SceneGpu;
 use host::timer::Timer;
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Bounds;
 use shadows::{
-    Caster, Extrusion, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
-    ShadowVolumeRenderer, View,
+    Caster, Extrusion, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeRenderer, View,
 };
 use shared::{median, paired};
 
@@ -97,25 +102,25 @@ impl Studio {
         Ok(ShadowVolumeRenderer::new(&self.gpu.device, &descriptor)?)
     }
 
-    fn told<'a>(&self, view: &'a View, casters: &'a [Caster]) -> ShadowVolumeFrame<'a> {
-        ShadowVolumeFrame {
+    fn told<'a>(&self, view: &'a View, casters: &'a [Caster]) -> OneLight<'a> {
+        OneLight {
             range: self.range,
             target_size: Some(SIZE),
             receivers: Some(self.receivers),
-            ..ShadowVolumeFrame::new(view, self.light, casters)
+            ..OneLight::new(view, self.light, casters)
         }
     }
 
-    fn prepare(&self, volumes: &mut ShadowVolumeRenderer, frame: &ShadowVolumeFrame<'_>) -> f64 {
+    fn prepare(&self, volumes: &mut ShadowVolumeRenderer, frame: &OneLight<'_>) -> f64 {
         let start = Instant::now();
         volumes
-            .prepare(&self.gpu.device, &self.gpu.queue, frame)
+            .prepare_one(&self.gpu.device, &self.gpu.queue, frame)
             .expect("a sound frame");
         start.elapsed().as_secs_f64() * 1e3
     }
 
     /// Milliseconds of one frame's shadows.
-    fn frame(&self, volumes: &mut ShadowVolumeRenderer, frame: &ShadowVolumeFrame<'_>) -> f64 {
+    fn frame(&self, volumes: &mut ShadowVolumeRenderer, frame: &OneLight<'_>) -> f64 {
         self.gpu
             .run(|encoder| self.host.draw_ambient(encoder, &self.scene));
         let prepare = self.prepare(volumes, frame);
@@ -123,7 +128,7 @@ impl Studio {
             + self.timer.time(&self.gpu, |encoder| {
                 volumes.encode(encoder);
                 volumes
-                    .render(&mut self.host.begin_stencil_pass(encoder))
+                    .render(&mut self.host.begin_stencil_pass(encoder), 0, 0)
                     .expect("it is encoded");
             })
     }
@@ -184,11 +189,12 @@ fn skipped_and_drawn(studio: &Studio, rounds: usize) -> anyhow::Result<[Vec<f64>
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..=rounds {
         for (place, crowd) in crowds.iter().enumerate() {
-            // Without a range, or the range would skip them before the view can.
-            let view = &studio.view;
-            let frame = ShadowVolumeFrame::new(view, studio.light, crowd);
+            // Another view each time, or nothing would have to be decided; without a range, or the range
+            // would skip them before the view can.
+            let view = &studio.walk[round % 2];
+            let frame = OneLight::new(view, studio.light, crowd);
             let start = Instant::now();
-            renderers[place].prepare(&studio.gpu.device, &studio.gpu.queue, &frame)?;
+            renderers[place].prepare_one(&studio.gpu.device, &studio.gpu.queue, &frame)?;
             let time = start.elapsed().as_secs_f64() * 1e6 / SKIPPED as f64;
             studio.gpu.run(|encoder| renderers[place].encode(encoder));
             if round > 0 {
@@ -210,13 +216,17 @@ fn main() -> anyhow::Result<()> {
     };
     let asked = |name: &str| std::env::args().any(|argument| argument == name);
     let (only_distinct, only_extraction) = (asked("--distinct"), asked("--extraction"));
+    let only_kept = asked("--kept");
     if only_distinct {
         distinct::run(&gpu, rounds.min(7));
     }
     if only_extraction {
         extraction::run(&gpu, rounds);
     }
-    if only_distinct || only_extraction {
+    if only_kept {
+        kept::run(&gpu, rounds);
+    }
+    if only_distinct || only_extraction || only_kept {
         return Ok(());
     }
     let studio = Studio::new(gpu)?;
@@ -259,11 +269,11 @@ fn main() -> anyhow::Result<()> {
         for ((name, volumes), times) in contestants.iter_mut().zip(&mut times) {
             let told = studio.told(&studio.view, &studio.scene.casters);
             let frame = match *name {
-                "nothing" => ShadowVolumeFrame {
+                "nothing" => OneLight {
                     casters: &[],
                     ..told
                 },
-                "unbounded" => ShadowVolumeFrame {
+                "unbounded" => OneLight {
                     receivers: None,
                     ..told
                 },
@@ -289,6 +299,7 @@ fn main() -> anyhow::Result<()> {
     println!("extracted {extracted} while the camera moves, drawn {moved}");
     extraction::run(&studio.gpu, rounds);
     distinct::run(&studio.gpu, rounds.min(7));
+    kept::run(&studio.gpu, rounds);
     let [auto, zfail, infinite, textbook, unbounded, nothing] = &times;
     for (name, ours) in [
         ("auto", auto),

@@ -7,5 +7,5 @@
 override depth_steps: f32 = 0.0;
 
 fn set_back(clip: vec4f) -> vec4f {
-    return vec4f(clip.xy, clip.z + depth_steps * caster.depth_step * clip.w, clip.w);
+    return vec4f(clip.xy, clip.z + depth_steps * camera.depth_step * clip.w, clip.w);
 }

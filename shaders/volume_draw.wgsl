@@ -1,9 +1,9 @@
 // The four kinds of faces of a shadow volume, from the lists that an extraction left. Every vertex
 // is pulled by its index.
 
-@group(0) @binding(1) var<storage, read> positions: array<f32>;
-@group(0) @binding(2) var<storage, read> edges: array<vec4u>;
-@group(0) @binding(3) var<storage, read> sides: array<u32>;
+@group(0) @binding(3) var<storage, read> positions: array<f32>;
+@group(0) @binding(4) var<storage, read> edges: array<vec4u>;
+@group(0) @binding(5) var<storage, read> sides: array<u32>;
 
 fn position(vertex: u32) -> vec3f {
     let word = caster.position_offset + vertex * caster.position_stride;

@@ -2,10 +2,7 @@
 // numbers, however they came by them.
 
 struct Caster {
-    clip_from_world: mat4x4f,
     world_from_object: mat4x4f,
-    // World space, homogeneous.
-    light: vec4f,
     // The plane of far points; xyz 0: at infinity. Point light: its product xyz with what lies
     // between the light and a point is 1. Directional light: xyz . p = w.
     far_plane: vec4f,
@@ -26,14 +23,26 @@ struct Caster {
     // See `settled` in volume_light_side.wgsl.
     zero: u32,
     anchor_from_light: vec3f,
+    padding: u32,
+}
+
+struct Camera {
+    clip_from_world: mat4x4f,
     // See volume_depth_steps.wgsl.
     depth_step: f32,
 }
 
+struct Light {
+    // World space, homogeneous.
+    homogeneous: vec4f,
+}
+
 @group(0) @binding(0) var<uniform> caster: Caster;
+@group(0) @binding(1) var<uniform> camera: Camera;
+@group(0) @binding(2) var<uniform> light: Light;
 
 fn near_point(position: vec3f) -> vec4f {
-    let clip = shadows_clip_position(caster.clip_from_world, caster.world_from_object, position);
+    let clip = shadows_clip_position(camera.clip_from_world, caster.world_from_object, position);
     return set_back(clip);
 }
 
@@ -46,7 +55,7 @@ fn from_light(position: vec3f) -> vec3f {
     let from_point = across_mesh.xyz + caster.anchor_from_light;
     // Not a branch: Mesa's lavapipe compiles a shader anew at each draw for what a uniform buffer says,
     // if that decides a branch.
-    return select(from_point, -caster.light.xyz, caster.light.w == 0.0);
+    return select(from_point, -light.homogeneous.xyz, light.homogeneous.w == 0.0);
 }
 
 // The point behind a vertex, seen from the light, in the far plane or at infinity. A vertex at the
@@ -61,8 +70,8 @@ fn far_point(position: vec3f) -> vec4f {
     let world = (caster.world_from_object * vec4f(position, 1.0)).xyz;
     let to_plane = caster.far_plane.w - dot(caster.far_plane.xyz, world);
     let along_rays = to_plane * direction + w * world;
-    let at_infinity = direction + w * caster.light.xyz;
-    let parallel = (caster.light.w == 0.0) & (w != 0.0);
+    let at_infinity = direction + w * light.homogeneous.xyz;
+    let parallel = (light.homogeneous.w == 0.0) & (w != 0.0);
     return far_clip_position(vec4f(select(at_infinity, along_rays, parallel), w));
 }
 
@@ -70,7 +79,7 @@ fn far_point(position: vec3f) -> vec4f {
 // NVIDIA's GPUs draw too little: up to 90 % of a picture was wrong. So far away a corner may as well be
 // somewhere: 2^30 widths of the picture, where f32 tells no line to it from a parallel one.
 fn far_clip_position(point: vec4f) -> vec4f {
-    let clip = set_back(caster.clip_from_world * point);
+    let clip = set_back(camera.clip_from_world * point);
     let size = max(abs(clip.x), max(abs(clip.y), abs(clip.z)));
     return vec4f(clip.xyz, select(clip.w, size * 0x1p-30f, clip.w == 0.0));
 }

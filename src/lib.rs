@@ -109,14 +109,13 @@
 //! let frame = CubeFrame { lights: &[light], casters: &casters, ..Default::default() };
 //! map.prepare(&device, &queue, &frame)?;
 //! let group = sampler.bind_group(&device, &map)?; // again when `map.texture_revision()` changes
-//! volumes.prepare(
-//!     &device,
-//!     &queue,
-//!     &ShadowVolumeFrame {
-//!         range: Some(light.range),
-//!         ..ShadowVolumeFrame::new(&view, light.homogeneous(), &casters)
-//!     },
-//! )?;
+//! let frame = ShadowVolumeFrame {
+//!     lights: &[light.into()],
+//!     views: &[view.into()],
+//!     casters: &casters,
+//!     ..Default::default()
+//! };
+//! volumes.prepare(&device, &queue, &frame)?;
 //! let mut encoder = device.create_command_encoder(&Default::default());
 //! map.encode(&mut encoder);
 //! volumes.encode(&mut encoder);
@@ -133,7 +132,7 @@
 //!     }),
 //!     ..Default::default()
 //! });
-//! volumes.render(&mut pass)?;
+//! volumes.render(&mut pass, 0, 0)?; // the first light in the first view
 //! drop(pass);
 //! // ... and adds this light where the stencil is 0, with `light_pass_stencil` in its pipeline,
 //! // or everywhere, times `shadows_visibility`, with `group` bound as group 1 ...
@@ -228,8 +227,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{
-    AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler,
-    Radius, RandomDisk, VogelDisk,
+    AnyMap, ContactHardening, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace,
+    PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};
@@ -237,5 +236,6 @@ pub use volume::{
     Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
     LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
     ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
-    VolumeDebug, VolumeDebugDescriptor, VolumePipelines, VolumeStatistics, VolumeSurvey,
+    VolumeDebug, VolumeDebugDescriptor, VolumeLight, VolumePipelines, VolumeStatistics,
+    VolumeSurvey, VolumeView,
 };

@@ -55,6 +55,11 @@ impl Uploads {
         self.copies.iter().map(|copy| copy.size).sum()
     }
 
+    /// Whether the next [`record`](Self::record) copies anything.
+    pub fn is_waiting(&self) -> bool {
+        !(self.moved.is_empty() && self.copies.is_empty())
+    }
+
     /// Forgets what was written and never recorded; what buffers held before they grew is not
     /// forgotten.
     pub fn clear(&mut self) {
@@ -160,7 +165,7 @@ impl Uploads {
 
     /// Records the copies, once. False if there are none.
     pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder) -> bool {
-        if self.moved.is_empty() && self.copies.is_empty() {
+        if !self.is_waiting() {
             return false;
         }
         // Unmapped now, as what is submitted must not be mapped; if the encoder is dropped, so are they.

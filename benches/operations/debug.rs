@@ -27,15 +27,21 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     );
     stage.gpu.run(|encoder| state.1.count(encoder));
     let prepare = |(debug, volumes): &mut (VolumeDebug, Volumes<'_>)| {
-        debug.prepare(device, &volumes.frame(), &volumes.renderer)
+        volumes
+            .frame()
+            .with(|frame| debug.prepare(device, frame, &volumes.renderer, 0, 0))
     };
     bench.cpu("debug/prepare", &mut state, |_| {}, prepare);
     let views: [(&str, View); 4] = [
         ("draw_surfaces", |debug, pass, volumes| {
-            debug.draw_surfaces(pass, &volumes.renderer);
+            debug
+                .draw_surfaces(pass, &volumes.renderer, 0, 0)
+                .expect("it is prepared");
         }),
         ("draw_edges", |debug, pass, volumes| {
-            debug.draw_edges(pass, &volumes.renderer);
+            debug
+                .draw_edges(pass, &volumes.renderer, 0, 0)
+                .expect("it is prepared");
         }),
         ("draw_counts", |debug, pass, _| debug.draw_counts(pass)),
         ("draw_casters", |debug, pass, _| debug.draw_casters(pass)),

@@ -2,13 +2,13 @@
 //! nor volume may keep anything. What the host writes there is its own affair and not timed.
 
 use anyhow::{Context as _, Result};
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::Affine3A;
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::wgpu::util::DeviceExt as _;
 use shadows::{
     Caster, CasterMesh, CubeFrame, CubeShadowMap, FlatLight, HostPositions, ShadowFrame, ShadowMap,
-    ShadowMapDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
-    Silhouettes, wgpu,
+    ShadowMapDescriptor, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes, wgpu,
 };
 
 use crate::clock::Bench;
@@ -83,13 +83,13 @@ impl Shown for ShadowMap {
 
 impl Shown for ShadowVolumeRenderer {
     fn prepare(&mut self, stage: &Stage<'_>, casters: &[Caster]) {
-        let frame = ShadowVolumeFrame {
+        let frame = OneLight {
             range: Some(stage.scene.range),
             target_size: Some(SIZE),
             receivers: Some(stage.receivers),
-            ..ShadowVolumeFrame::new(&stage.view, stage.light(), casters)
+            ..OneLight::new(&stage.view, stage.light(), casters)
         };
-        self.prepare(&stage.gpu.device, &stage.gpu.queue, &frame)
+        self.prepare_one(&stage.gpu.device, &stage.gpu.queue, &frame)
             .expect("the frame is in range");
     }
 

@@ -39,7 +39,10 @@ fn exact(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let depth_stencil = stage.host.depth_stencil();
     let count = |volumes: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {
         let mut pass = counts.begin(encoder, depth_stencil).expect("it fits");
-        volumes.renderer.render(&mut pass).expect("it is encoded");
+        volumes
+            .renderer
+            .render(&mut pass, 0, 0)
+            .expect("it is encoded");
     };
     bench.gpu("exact count/begin and render", &mut volumes, |_| {}, count);
     let mark = |_: &mut Volumes<'_>, encoder: &mut wgpu::CommandEncoder| {

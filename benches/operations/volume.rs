@@ -1,9 +1,10 @@
 //! Shadow volumes of the 64 spheres by each way to find silhouettes.
 
 use anyhow::Result;
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::{
-    Caster, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, wgpu,
+    Caster, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes,
+    wgpu,
 };
 
 use crate::clock::Bench;
@@ -34,7 +35,7 @@ impl<'a> Volumes<'a> {
         Ok(volumes)
     }
 
-    pub fn frame(&self) -> ShadowVolumeFrame<'_> {
+    pub fn frame(&self) -> OneLight<'_> {
         told(self.stage, self.light, &self.casters)
     }
 
@@ -42,7 +43,7 @@ impl<'a> Volumes<'a> {
         let gpu = self.stage.gpu;
         let frame = told(self.stage, self.light, &self.casters);
         self.renderer
-            .prepare(&gpu.device, &gpu.queue, &frame)
+            .prepare_one(&gpu.device, &gpu.queue, &frame)
             .expect("the frame is in range");
     }
 
@@ -53,7 +54,9 @@ impl<'a> Volumes<'a> {
     /// Counts in the host's stencil.
     pub fn count(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = self.stage.host.begin_stencil_pass(encoder);
-        self.renderer.render(&mut pass).expect("it is encoded");
+        self.renderer
+            .render(&mut pass, 0, 0)
+            .expect("it is encoded");
     }
 
     /// The light, so that all silhouettes are searched.
@@ -73,16 +76,12 @@ fn with_formats<'a>(
     }
 }
 
-fn told<'a>(
-    stage: &'a Stage<'_>,
-    light: HomogeneousLight,
-    casters: &'a [Caster],
-) -> ShadowVolumeFrame<'a> {
-    ShadowVolumeFrame {
+fn told<'a>(stage: &'a Stage<'_>, light: HomogeneousLight, casters: &'a [Caster]) -> OneLight<'a> {
+    OneLight {
         range: Some(stage.scene.range),
         target_size: Some(SIZE),
         receivers: Some(stage.receivers),
-        ..ShadowVolumeFrame::new(&stage.view, light, casters)
+        ..OneLight::new(&stage.view, light, casters)
     }
 }
 
@@ -176,15 +175,15 @@ fn render(bench: &mut Bench<'_>, volumes: &mut Volumes<'_>, name: &str) {
 
 /// What a renderer can be asked about its frame.
 fn questions(bench: &mut Bench<'_>, volumes: &mut Volumes<'_>) {
-    let survey = |volumes: &mut Volumes<'_>| volumes.renderer.survey(SIZE);
+    let survey = |volumes: &mut Volumes<'_>| volumes.renderer.survey(0, 0, SIZE);
     bench.cpu("volumes/survey", volumes, |_| {}, survey);
     let before = |volumes: &mut Volumes<'_>| {
         volumes.move_light();
         volumes.prepare();
         volumes.encode();
     };
-    let bound = |volumes: &mut Volumes<'_>| volumes.renderer.count_bound();
+    let bound = |volumes: &mut Volumes<'_>| volumes.renderer.count_bound(0, 0);
     bench.cpu("volumes/count_bound, light moving", volumes, before, bound);
-    let wrap = |volumes: &mut Volumes<'_>| volumes.renderer.may_wrap();
+    let wrap = |volumes: &mut Volumes<'_>| volumes.renderer.may_wrap(0, 0);
     bench.cpu("volumes/may_wrap, still", volumes, |_| {}, wrap);
 }

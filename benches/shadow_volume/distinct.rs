@@ -11,12 +11,13 @@
 
 use std::time::Instant;
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, View, wgpu,
+    ShadowVolumeRenderer, View, wgpu,
 };
 
 use crate::shared::{median, paired};
@@ -66,10 +67,10 @@ impl<'a> Crowd<'a> {
     /// Seconds of `prepare`, and of all of a frame.
     fn frame(&mut self) -> [f64; 2] {
         let light = HomogeneousLight::point(Vec3::new(-2.0, 6.0, 2.5));
-        let frame = ShadowVolumeFrame::new(&self.view, light, &self.casters);
+        let frame = OneLight::new(&self.view, light, &self.casters);
         let start = Instant::now();
         self.renderer
-            .prepare(&self.gpu.device, &self.gpu.queue, &frame)
+            .prepare_one(&self.gpu.device, &self.gpu.queue, &frame)
             .expect("a frame");
         let prepare = start.elapsed();
         self.gpu.run(|encoder| {
@@ -88,7 +89,9 @@ impl<'a> Crowd<'a> {
                 }),
                 ..Default::default()
             });
-            self.renderer.render(&mut pass).expect("it is encoded");
+            self.renderer
+                .render(&mut pass, 0, 0)
+                .expect("it is encoded");
         });
         [prepare, start.elapsed()].map(|time| time.as_secs_f64())
     }

@@ -17,12 +17,13 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::{
     Caster, CasterMesh, DepthConvention, HomogeneousLight, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
 use crate::shared::torus::torus;
@@ -103,10 +104,10 @@ impl<'a> Extraction<'a> {
 
     fn run(&mut self, light: Vec3) {
         let light = HomogeneousLight::point(light);
-        let frame = ShadowVolumeFrame::new(&self.view, light, &self.casters);
+        let frame = OneLight::new(&self.view, light, &self.casters);
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         self.renderer
-            .prepare(device, queue, &frame)
+            .prepare_one(device, queue, &frame)
             .expect("a frame");
         assert_eq!(self.renderer.statistics().casters_extracted, 1);
         self.gpu.run(|encoder| self.renderer.encode(encoder));

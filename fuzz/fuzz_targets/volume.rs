@@ -6,7 +6,8 @@ use libfuzzer_sys::fuzz_target;
 use shadows::glam::Vec3;
 use shadows::{
     Caps, Counter, ExactCount, ExactCountDescriptor, Extrusion, HomogeneousLight, Method,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom, wgpu,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
+    VolumeLight, VolumeView, wgpu,
 };
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
@@ -100,10 +101,16 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
             device,
             queue,
             &ShadowVolumeFrame {
-                range: frame.range.map(|range| range.0),
-                target_size: frame.target_size.map(|size| size.map(u32::from)),
+                lights: &[VolumeLight {
+                    light,
+                    range: frame.range.map(|range| range.0),
+                }],
+                views: &[VolumeView {
+                    view,
+                    target_size: frame.target_size.map(|size| size.map(u32::from)),
+                }],
                 receivers: frame.receivers.map(|corners| corners.0),
-                ..ShadowVolumeFrame::new(&view, light, casters)
+                casters,
             },
         );
         let s = renderer.statistics();
@@ -130,7 +137,7 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
             draw(&mut renderer, target, settings.exact);
         }
         if frame.asked {
-            let _ = renderer.may_wrap();
+            let _ = renderer.may_wrap(0, 0);
             let fill = renderer.survey(target).fill();
             assert!(fill.is_finite() && fill >= 0.0, "{fill}");
         }

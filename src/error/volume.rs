@@ -117,7 +117,18 @@ pub enum ShadowVolumeError {
         /// Place in the slice of casters.
         index: usize,
     },
-    /// More casters than the device's buffers can describe.
+    /// More lights or views than the device's buffers can describe.
+    #[error("{count} {what} are too many for one frame; this device's buffer limits allow {limit}")]
+    TooMany {
+        /// `"lights"` or `"views"`.
+        what: &'static str,
+        /// Their number.
+        count: usize,
+        /// The largest number that works.
+        limit: usize,
+    },
+    /// More casters than the device's buffers can describe, those that two lights shine on counted twice,
+    /// as are those in two views.
     #[error(
         "{count} casters are too many for one frame; this device's buffer limits allow {limit}"
     )]
@@ -143,6 +154,20 @@ pub enum VolumeRenderError {
         "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
     )]
     Dropped,
+    /// The frame that was prepared last has no such light, or no such view.
+    #[error(
+        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views; pass places in its lists"
+    )]
+    NoSuch {
+        /// The light asked for.
+        light: usize,
+        /// The view asked for.
+        view: usize,
+        /// Lights of the frame.
+        lights: usize,
+        /// Views of the frame.
+        views: usize,
+    },
 }
 
 /// What can be wrong with a [`ShadowMask`](crate::ShadowMask), a

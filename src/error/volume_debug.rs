@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{ScreenPassError, ShadowVolumeError};
+use super::{ScreenPassError, ShadowVolumeError, VolumeRenderError};
 
 /// What can be wrong when a [`VolumeDebug`](crate::VolumeDebug) is made or prepared.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -14,6 +14,9 @@ pub enum VolumeDebugError {
     /// The device lacks a feature or a limit, or a caster is not sound.
     #[error(transparent)]
     Volume(#[from] ShadowVolumeError),
+    /// The renderer has no such light or view.
+    #[error(transparent)]
+    Render(#[from] VolumeRenderError),
     /// The renderer has another depth convention.
     #[error(
         "the renderer's depth is {renderer:?}, these debug views were made for {debug:?}; pass its convention in VolumeDebugDescriptor::depth"

@@ -152,6 +152,11 @@ impl Casters {
         Ok(())
     }
 
+    /// The places of those that the last [`compare`](Self::compare) found to be new, or others.
+    pub fn different(&self) -> &[u32] {
+        &self.different
+    }
+
     /// Whether the last [`compare`](Self::compare) found the casters as they were.
     pub fn are_unchanged(&self, casters: &[Caster]) -> bool {
         self.different.is_empty() && casters.len() == self.compared.len()

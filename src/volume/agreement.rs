@@ -28,8 +28,14 @@ struct Volume {
     sides: Vec<u32>,
 }
 
-fn frame<'a>(view: &'a View, light: Vec3, casters: &'a [Caster]) -> ShadowVolumeFrame<'a> {
-    ShadowVolumeFrame::new(view, HomogeneousLight::point(light), casters)
+fn prepare(renderer: &mut ShadowVolumeRenderer, gpu: &Gpu, light: Vec3, casters: &[Caster]) {
+    let frame = ShadowVolumeFrame {
+        lights: &[HomogeneousLight::point(light).into()],
+        views: &[camera().into()],
+        casters,
+        ..Default::default()
+    };
+    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
 }
 
 fn camera() -> View {
@@ -65,12 +71,14 @@ fn renderer(gpu: &Gpu, silhouettes: Silhouettes, start_from: StartFrom) -> Shado
     ShadowVolumeRenderer::new(&gpu.device, &descriptor).unwrap()
 }
 
-/// The slot of each caster drawn.
-fn slots(
-    renderer: &ShadowVolumeRenderer,
-) -> impl Iterator<Item = (u32, &crate::volume::plan::cache::Slot)> {
-    let numbers = renderer.plan.slot_of.iter();
-    numbers.map(|&number| (number, renderer.kept.get(number).unwrap()))
+/// Each caster's volume, and what its draws read, in the casters' order.
+fn slots(renderer: &ShadowVolumeRenderer) -> impl Iterator<Item = (&Slot, &CasterParams)> {
+    let mut windows: Vec<u32> = renderer.volumes.pair(0, 0).unwrap().windows().collect();
+    windows.sort_unstable();
+    windows.into_iter().map(|number| {
+        let window = renderer.volumes.windows.get(number).unwrap();
+        (renderer.cache.get(window.slot).unwrap(), &window.params)
+    })
 }
 
 /// What lies in the buffers after an extraction.
@@ -81,16 +89,14 @@ fn extracted(
     casters: &[Caster],
 ) -> Vec<Volume> {
     let mut renderer = renderer(gpu, way, start_from);
-    let view = camera();
-    let frame = frame(&view, light, casters);
-    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    prepare(&mut renderer, gpu, light, casters);
     gpu.run(|encoder| renderer.encode(encoder));
     let words = |buffer| bytemuck::pod_collect_to_vec::<u8, u32>(&gpu.read_buffer(buffer));
     let bound = renderer.buffers.bound();
     let arguments = bound.map(|bound| {
         bytemuck::pod_collect_to_vec::<u8, Arguments>(&gpu.read_buffer(bound.arguments))
     });
-    let volume = |(number, slot): (u32, &crate::volume::plan::cache::Slot)| {
+    let volume = |(slot, _): (&Slot, &CasterParams)| {
         let [_, caps, sides] = renderer.buffers.chunk(slot.place.chunk).unwrap();
         let (caps, sides) = (words(caps), words(sides));
         let cap_base = slot.place.cap;
@@ -101,7 +107,7 @@ fn extracted(
                 (cap_base..middle, middle..end, slot.counts.sides)
             }
             _ => {
-                let own = &arguments.as_ref().unwrap()[number as usize];
+                let own = &arguments.as_ref().unwrap()[slot.instance.arguments as usize];
                 let [front, back] = [own.front, own.back].map(|a| a[2]..a[2] + a[0]);
                 let [quads, triangles] = [own.quads[0], own.triangles[0]];
                 assert_eq!((quads % 6, triangles), (0, quads / 2));
@@ -156,12 +162,9 @@ fn found_by_vertices(
     casters: &[Caster],
 ) -> Vec<Vec<u32>> {
     let mut renderer = renderer(gpu, Silhouettes::Vertex, start_from);
-    let view = camera();
-    let frame = frame(&view, light, casters);
-    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-    let casters = slots(&renderer).zip(&renderer.plan.casters);
-    casters
-        .map(|((_, slot), params)| {
+    prepare(&mut renderer, gpu, light, casters);
+    slots(&renderer)
+        .map(|(slot, params)| {
             let data = slot.mesh.data().unwrap();
             let records = edge_records(data, slot.mesh.kind());
             let counts = counted(gpu, bytemuck::bytes_of(params), &records);

@@ -1,13 +1,12 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
+use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
-use crate::mesh::Bounds;
 use crate::volume::decide::method::{Caps, Extrusion, Method};
 use crate::volume::gpu::counter;
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
 use crate::volume::plan::limits;
 use crate::volume::{Counter, Silhouettes, StartFrom};
-use crate::{Caster, DepthConvention, HomogeneousLight, View};
 
 /// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
 #[derive(Clone, Copy, Debug)]
@@ -187,89 +186,4 @@ fn check_feature(
         feature: missing,
         needed_by: needed_by(),
     })
-}
-
-/// One frame, as [`prepare`](crate::ShadowVolumeRenderer::prepare) needs it.
-#[derive(Clone, Copy, Debug)]
-pub struct ShadowVolumeFrame<'a> {
-    /// The camera whose depth the pass holds.
-    pub view: &'a View,
-    /// The light, in world space: `w = 1` a point, `w = 0` a direction.
-    pub light: HomogeneousLight,
-    /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
-    /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
-    pub range: Option<f32>,
-    /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
-    /// of it: the draws are then clipped to what `range` covers on screen. `None`: they are not.
-    pub target_size: Option<[u32; 2]>,
-    /// Bounds in world space of everything that is to be shadowed: all surfaces in the pass's depth
-    /// buffer, those of casters included. Volumes then end just behind these bounds, and casters that
-    /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
-    /// default: anywhere.
-    ///
-    /// Worth giving, as it saves much of the fill (`unbounded_vs_textbook` against `auto_vs_textbook` in
-    /// `docs/benches.md`). The closer the bounds, the better.
-    pub receivers: Option<Bounds>,
-    /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
-    /// [`Method::ZFail`] a caster that it does not draw still casts, if its triangles are wound
-    /// outward; z-pass relies on their being drawn.)
-    pub casters: &'a [Caster],
-}
-
-impl<'a> ShadowVolumeFrame<'a> {
-    /// A frame with a light of no range, no target size and receivers anywhere.
-    pub fn new(view: &'a View, light: HomogeneousLight, casters: &'a [Caster]) -> Self {
-        Self {
-            view,
-            light,
-            range: None,
-            target_size: None,
-            receivers: None,
-            casters,
-        }
-    }
-}
-
-/// What the last [`prepare`](crate::ShadowVolumeRenderer::prepare) came to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct VolumeStatistics {
-    /// Casters whose volumes are drawn.
-    pub casters_drawn: u32,
-    /// Those of them that are counted in front of the visible surfaces.
-    pub casters_z_pass: u32,
-    /// Those of them that are counted behind the visible surfaces.
-    pub casters_z_fail: u32,
-    /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
-    /// as [`StartFrom::AwayFacing`] asks; 0 where it is not asked for.
-    pub casters_away_facing: u32,
-    /// Casters left out, for any of the next four reasons.
-    pub casters_skipped: u32,
-    /// Casters left out because their meshes have no triangles.
-    pub skipped_empty: u32,
-    /// Casters left out because their transforms leave no area of them that the light sees: those of
-    /// scale 0 on two axes or all, and those flattened to a plane that holds the light. (Flattened to
-    /// any other plane, a caster casts what is left of it.)
-    pub skipped_edge_on: u32,
-    /// Casters left out because they are beyond the light's range.
-    pub skipped_out_of_range: u32,
-    /// Casters left out because nothing they could shadow is in view, or among the receivers.
-    pub skipped_out_of_view: u32,
-    /// Draw calls that `render` records.
-    pub draws: u32,
-    /// Silhouettes that were searched for this frame; those of the other casters drawn were kept from
-    /// the frame before, or found for another caster: casters of one mesh that the light meets alike
-    /// (the sun, all that are turned alike) share theirs.
-    pub casters_extracted: u32,
-    /// Dispatches that `encode` records.
-    pub dispatches: u32,
-    /// Bytes of GPU memory that the renderer holds (the meshes' own not counted).
-    pub gpu_bytes: u64,
-    /// Triangles of all casters drawn.
-    pub triangles: u64,
-    /// Whether the frame before was never encoded, so that it was prepared in vain.
-    pub not_encoded: bool,
-    /// Whether an encoder was dropped that a frame before was encoded into, so that everything had to
-    /// be found anew.
-    pub encoder_dropped: bool,
 }

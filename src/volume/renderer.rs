@@ -6,35 +6,45 @@ use crate::submissions::Submissions;
 use crate::uploads::Uploads;
 use crate::volume::decide::decision::words;
 use crate::volume::decide::method::Options;
-use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::gpu::bind_groups::{Groups, Parts};
-use crate::volume::gpu::buffers::Buffers;
+use crate::volume::gpu::buffers::{Buffers, Needs};
 use crate::volume::gpu::draw_calls::record;
 use crate::volume::gpu::draw_pipelines;
 use crate::volume::gpu::pipelines::{OwnPipelines, VolumePipelines};
-use crate::volume::gpu::staged::Found;
-use crate::volume::plan::cache::Kept;
+use crate::volume::gpu::staged::StagedVolumes;
+use crate::volume::plan::batches::{Batch, Batches};
+use crate::volume::plan::cache::{Slot, VolumeCache};
 use crate::volume::plan::count_bound;
-use crate::volume::plan::faces::{Batch, Draw, Means, Outline, Plan, PlanLimits};
+use crate::volume::plan::faces::Draw;
+use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::pair::Pair;
+use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
+use crate::volume::plan::scene::Requirements;
+use crate::volume::plan::volumes::{Volumes, check_counts, light_params, view_params};
 use crate::volume::silhouette::{CpuVolume, Way, Ways, workgroups};
-use crate::volume::statistics::CasterState;
-use crate::volume::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
+use crate::volume::{
+    CasterState, Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics,
+};
 
-/// Stencil shadow volumes of one light for any number of casters.
+/// Stencil shadow volumes of all lights of a frame, in all its views, for any number of casters.
 ///
-/// A host with several lights keeps one renderer for each light that shines in a frame. One renderer
-/// may also serve several views or lights, in one submission or in several, one after another:
-/// `prepare`, `encode` and `render` for the first, then all three for the second. Everything is
-/// recorded in that order and read in that order, so what goes into several encoders must be
-/// submitted in the order in which it was recorded. Views of one light share what was found; lights
-/// that take turns search all their casters anew each time.
+/// The host's frame:
+/// 1. for each view, a depth prepass: all surfaces into the depth-stencil buffer;
+/// 2. [`prepare`](Self::prepare) with lights, views and casters, then [`encode`](Self::encode)
+///    outside of any pass, once each;
+/// 3. for each view and light, a pass with the view's depth-stencil buffer, its stencil cleared to 0
+///    and its depth loaded: [`render`](Self::render) with the places of light and view, then the
+///    host's own light pass with [`light_pass_stencil`](Self::light_pass_stencil).
 ///
-/// The host's frame, for each light:
-/// 1. depth prepass: all surfaces into the depth-stencil buffer;
-/// 2. [`prepare`](Self::prepare), then [`encode`](Self::encode) outside of any pass;
-/// 3. a pass with that depth-stencil buffer, its stencil cleared to 0 and its depth loaded:
-///    [`render`](Self::render), then the host's own light pass with
-///    [`light_pass_stencil`](Self::light_pass_stencil).
+/// What is found of a volume depends on the light, and is found once for all views. What did not
+/// change costs nothing: a frame in which lights, views and casters are as they were takes one
+/// comparison of the casters; one in which a caster moved, besides, what that caster takes; one in
+/// which a view moved, a new choice for each caster and light in that view.
+///
+/// One renderer may also serve several frames of one submission, one after another: `prepare`,
+/// `encode` and `render` for the first, then all three for the second. Everything is recorded in that
+/// order and read in that order, so what goes into several encoders must be submitted in the order in
+/// which it was recorded.
 ///
 /// A call that was forgotten is told: `render` returns an error where `encode` was left out, or where
 /// the encoder was dropped. What was recorded in vain is recorded again at the next frame. What the
@@ -63,8 +73,12 @@ pub struct ShadowVolumeRenderer {
     buffers: Buffers,
     groups: Groups,
     limits: PlanLimits,
-    plan: Plan,
-    kept: Kept,
+    volumes: Volumes,
+    cache: VolumeCache,
+    batches: Batches,
+    views: Vec<ViewParams>,
+    lights: Vec<LightParams>,
+    statistics: VolumeStatistics,
     uploads: Uploads,
     submissions: Submissions,
     keep: bool,
@@ -73,15 +87,28 @@ pub struct ShadowVolumeRenderer {
     /// Whether there was a `prepare`, and whether `encode` was called since the last.
     prepared: bool,
     encoded: bool,
+    /// Whether the last `prepare` left something for `encode` to record.
+    waits: bool,
+    /// Whether nothing that was written before can be counted on.
+    renewed: bool,
 }
 
-/// What the last frame draws, and where it lies.
+/// What the last frame draws under one light in one view, and where it lies.
 pub(crate) struct Drawn<'a> {
-    pub plan: &'a Plan,
-    pub kept: &'a Kept,
+    pub pair: &'a Pair,
+    pub volumes: &'a Volumes,
+    pub cache: &'a VolumeCache,
     pub buffers: &'a Buffers,
-    pub depth: DepthConvention,
-    pub near: NearPlane,
+    pub view: &'a ViewParams,
+    pub light: &'a LightParams,
+}
+
+impl Drawn<'_> {
+    /// A draw's volume, and what its draws read.
+    pub fn of(&self, draw: &Draw) -> Option<(&Slot, &CasterParams)> {
+        let window = self.volumes.windows.get(draw.window)?;
+        Some((self.cache.get(window.slot)?, &window.params))
+    }
 }
 
 impl ShadowVolumeRenderer {
@@ -118,7 +145,7 @@ impl ShadowVolumeRenderer {
         Ok(Self {
             device: device.clone(),
             depth: descriptor.depth,
-            kept: Kept::new(limits.storage_bytes),
+            cache: VolumeCache::new(limits.storage_bytes),
             limits,
             uploads: Uploads::new(device),
             submissions: Submissions::default(),
@@ -127,38 +154,44 @@ impl ShadowVolumeRenderer {
             on_cpu: CpuVolume::default(),
             buffers: Buffers::new(&label),
             groups: Groups::default(),
-            plan: Plan::default(),
+            volumes: Volumes::default(),
+            batches: Batches::default(),
+            views: Vec::new(),
+            lights: Vec::new(),
+            statistics: VolumeStatistics::default(),
             options: Options::of(device, descriptor),
             counter: descriptor.counter,
             keep: descriptor.keep_between_frames,
             prepared: false,
             encoded: false,
+            waits: false,
+            renewed: false,
             label,
         })
     }
 
-    /// Decides what one frame draws and finds the silhouettes that the CPU finds. What of it goes to
-    /// the GPU, a few hundred bytes a caster, waits for [`encode`](Self::encode). A caster that is
-    /// skipped because it is out of view takes about 0.12 microseconds of CPU time (10,000 of them,
-    /// 2.6 GHz; `cargo bench --bench shadow_volume`).
+    /// Decides what a frame draws, under each light in each view, and finds the silhouettes that the
+    /// CPU finds. What of it goes to the GPU waits for [`encode`](Self::encode): what changed, and
+    /// nothing else.
     ///
     /// A volume is kept as long as a caster has it: its mesh and that mesh's revision, the light as
     /// seen from the mesh, and what of it counts. It does not matter where in the list the caster
-    /// stands, nor what comes and goes around it. Casters out of view keep their volumes, as long as
-    /// all casters together fit one storage buffer for each list, so that what comes back into view
-    /// need not be searched again; casters out of the light's range do not.
+    /// stands, nor what comes and goes around it; nor which view it is drawn in, or whether in two.
+    /// Casters out of view keep their volumes, as long as all volumes together fit one storage buffer
+    /// for each list, so that what comes back into view need not be searched again; casters out of
+    /// the light's range do not.
     ///
     /// GPU memory, kept between frames and grown as needed, what it held being copied: where compute
     /// shaders find the silhouettes about 28 bytes a triangle and volume, where the CPU does what
-    /// they come to, about 6 bytes a triangle; and 720 a caster. Up to twice that, because buffers
-    /// grow to powers of two. Besides, what `encode` uploads waits in staging buffers. These are kept, of
-    /// powers of two from 64 KB on: about twice the most that was uploaded, for each frame that the GPU
-    /// has not finished.
+    /// they come to, about 6 bytes a triangle; 120 a volume; and 256 a caster, light and view. Up to
+    /// twice that, because buffers grow to powers of two. Besides, what `encode` uploads waits in
+    /// staging buffers. These are kept, of powers of two from 64 KB on: about twice the most that was
+    /// uploaded, for each frame that the GPU has not finished.
     ///
     /// `queue` is not written to: what is uploaded is recorded.
     ///
     /// # Errors
-    /// [`ShadowVolumeError`], before any GPU work, if the view's depth convention is not the
+    /// [`ShadowVolumeError`], before any GPU work, if a view's depth convention is not the
     /// renderer's, a light, range or caster is not sound, or a caster's volume is larger than the
     /// device's limits allow. The renderer then still draws what the last call prepared.
     pub fn prepare(
@@ -167,44 +200,34 @@ impl ShadowVolumeRenderer {
         _queue: &wgpu::Queue,
         frame: &ShadowVolumeFrame<'_>,
     ) -> Result<(), ShadowVolumeError> {
-        if frame.view.depth() != self.depth {
-            return Err(ShadowVolumeError::Depth {
-                renderer: self.depth,
-                view: frame.view.depth(),
-            });
-        }
-        let means = Means {
-            options: self.options,
+        frame.validate(self.depth)?;
+        let required = Requirements {
+            device,
             ways: &self.ways,
-            regions: self.kept.regions(),
-            keep: self.keep,
+            limits: &self.limits,
+            regions: self.cache.regions(),
         };
-        let outline = Outline::new(frame, device, &self.limits, &means)?;
+        self.volumes.casters.compare(frame.casters, &required)?;
+        check_counts(frame, self.options, &self.limits)?;
         let [not_encoded, encoder_dropped] = self.forget();
-        self.kept.update(&outline.subjects, frame.casters);
-        let found = self.find();
-        let mut plan = Plan::new(outline, frame, &self.options, &self.limits, &self.kept);
-        if !plan.draws.is_empty() {
-            let planned = (&plan, &self.kept);
-            self.buffers
-                .reserve(device, &mut self.uploads, planned, &self.limits);
-            self.buffers.write(device, &mut self.uploads, &plan);
-            found.write(&mut self.uploads, &self.buffers);
-        }
-        plan.statistics = VolumeStatistics {
-            gpu_bytes: self.buffers.bytes(),
+        let choices = (self.options, self.keep);
+        self.volumes
+            .decide(frame, choices, &self.ways, &mut self.cache);
+        (self.views, self.lights) = (view_params(frame), light_params(frame));
+        let staged = self.find();
+        self.volumes.fill(&mut self.cache);
+        self.upload(device, staged);
+        self.statistics = VolumeStatistics {
             not_encoded,
             encoder_dropped,
-            ..plan.statistics
+            ..self.count()
         };
-        self.plan = plan;
         (self.prepared, self.encoded) = (true, false);
-        self.bind();
         Ok(())
     }
 
     /// Records the uploads of the last [`prepare`](Self::prepare), and the compute passes that find
-    /// the volumes which were not kept from the frame before: none where neither the light nor a
+    /// the volumes which were not kept from the frame before: none where neither the lights nor a
     /// caster has moved. Once: a second call before the next `prepare` records nothing.
     ///
     /// What is recorded must be submitted, for the next frame counts on it; if the encoder is dropped
@@ -214,17 +237,15 @@ impl ShadowVolumeRenderer {
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let first = self.prepared && !self.encoded;
         self.encoded = self.prepared;
-        if !first || self.plan.draws.is_empty() {
+        if !first || !self.waits {
             return;
         }
         self.submissions.watch(encoder);
         self.uploads.record(encoder);
-        let Some(extraction) = self.pipelines.extraction.as_ref() else {
+        let extraction = self.pipelines.extraction.as_ref();
+        let Some(extraction) = extraction.filter(|_| !self.batches.list.is_empty()) else {
             return;
         };
-        if self.plan.batches.is_empty() {
-            return;
-        }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(&self.label),
             timestamp_writes: None,
@@ -241,11 +262,13 @@ impl ShadowVolumeRenderer {
     /// was recorded in a way that the renderer cannot see, or has written into a mesh's buffer
     /// without a new revision.
     pub fn invalidate(&mut self) {
-        self.kept.clear();
+        self.cache.forget_all();
+        self.renew();
     }
 
-    /// Records the stencil draws into the host's pass, which must have the formats and the sample
-    /// count of the descriptor, a stencil of 0 and the scene's depth (which may be read-only). With
+    /// Records the stencil draws of one light in one view, by their places in the frame, into the
+    /// host's pass, which must have the formats and the sample count of the descriptor, a stencil of
+    /// 0 and the scene's depth in that view (which may be read-only). With
     /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
@@ -254,40 +277,46 @@ impl ShadowVolumeRenderer {
     ///
     /// # Errors
     /// [`VolumeRenderError`] if [`encode`](Self::encode) was not called since the last
-    /// [`prepare`](Self::prepare), or its encoder was dropped. Nothing is then drawn, and no shadow
-    /// is in the picture.
-    pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), VolumeRenderError> {
+    /// [`prepare`](Self::prepare), its encoder was dropped, or the frame had no such light or view.
+    /// Nothing is then drawn, and no shadow is in the picture.
+    pub fn render(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        light: usize,
+        view: usize,
+    ) -> Result<(), VolumeRenderError> {
         if !self.encoded {
             return Err(VolumeRenderError::NotEncoded);
         }
         if self.submissions.is_dropped() {
             return Err(VolumeRenderError::Dropped);
         }
-        if self.plan.draws.is_empty() {
+        let drawn = self.drawn(light, view)?;
+        if drawn.pair.draws.is_empty() {
             return Ok(());
         }
-        if let Some(([x, y, width, height], _)) = self.plan.scissor {
+        let scissor = drawn.pair.scissor;
+        if let Some(([x, y, width, height], _)) = scissor {
             pass.set_scissor_rect(x, y, width, height);
         }
-        self.draw(pass);
-        if let Some((_, [width, height])) = self.plan.scissor {
+        self.draw(pass, &drawn, [light, view]);
+        if let Some((_, [width, height])) = scissor {
             pass.set_scissor_rect(0, 0, width, height);
         }
         Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let drawn = self.drawn();
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, drawn: &Drawn<'_>, place: [usize; 2]) {
         let mut current = None;
-        for draw in &self.plan.draws {
-            let Some(slot) = self.kept.get(draw.slot) else {
+        for draw in &drawn.pair.draws {
+            let Some((slot, params)) = drawn.of(draw) else {
                 continue;
             };
             let pipelines = match slot.way {
                 Way::Vertex => self.pipelines.fed.as_ref(),
                 Way::Compute | Way::Cpu => self.pipelines.pulled.as_ref(),
             };
-            let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw)) else {
+            let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw, place)) else {
                 continue;
             };
             let state = (draw.style, slot.way == Way::Vertex);
@@ -298,7 +327,7 @@ impl ShadowVolumeRenderer {
                 pass.set_pipeline(pipeline);
                 current = Some(state);
             }
-            record(pass, draw, slot, &drawn);
+            record(pass, draw, (slot, params), drawn.buffers);
         }
     }
 
@@ -317,39 +346,70 @@ impl ShadowVolumeRenderer {
         draw_pipelines::light_pass()
     }
 
-    /// What the last [`prepare`](Self::prepare) came to.
+    /// What the last [`prepare`](Self::prepare) came to, of all lights and views together.
     pub fn statistics(&self) -> VolumeStatistics {
-        self.plan.statistics
+        self.statistics
     }
 
-    /// What was decided for each caster of the last frame that was prepared, in the frame's order.
-    pub fn caster_states(&self) -> &[CasterState] {
-        &self.plan.states
+    /// What was decided under one light in one view for each caster of the last frame that was
+    /// prepared, in the frame's order. Empty if the frame had no such light or view.
+    pub fn caster_states(&self, light: usize, view: usize) -> Vec<CasterState> {
+        let Some(pair) = self.volumes.pair(light, view) else {
+            return Vec::new();
+        };
+        let numbers = self.volumes.casters.numbers().iter();
+        numbers.filter_map(|&number| pair.state(number)).collect()
     }
 
     /// What the debug views draw from.
-    pub(crate) fn drawn(&self) -> Drawn<'_> {
-        Drawn {
-            plan: &self.plan,
-            kept: &self.kept,
+    pub(crate) fn drawn(&self, light: usize, view: usize) -> Result<Drawn<'_>, VolumeRenderError> {
+        let [lights, views] = self.volumes.counts();
+        let no_such = VolumeRenderError::NoSuch {
+            light,
+            view,
+            lights,
+            views,
+        };
+        Ok(Drawn {
+            pair: self.volumes.pair(light, view).ok_or(no_such)?,
+            volumes: &self.volumes,
+            cache: &self.cache,
             buffers: &self.buffers,
-            depth: self.depth,
-            near: self.options.near,
-        }
+            view: self.views.get(view).ok_or(no_such)?,
+            light: self.lights.get(light).ok_or(no_such)?,
+        })
     }
 
-    /// Sets the bind group that a draw reads, if it is there.
-    pub(crate) fn bind_volume(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
-        let Some(group) = self.groups.of_caster(draw.caster as usize) else {
+    pub(crate) fn depth(&self) -> DepthConvention {
+        self.depth
+    }
+
+    pub(crate) fn options(&self) -> Options {
+        self.options
+    }
+
+    /// Sets the bind group that a draw reads, under the light and in the view of this place, if it is
+    /// there.
+    pub(crate) fn bind_volume(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        draw: &Draw,
+        [light, view]: [usize; 2],
+    ) -> bool {
+        let Some(group) = self.groups.of_window(draw.window) else {
             return false;
         };
-        let step = self.limits.caster_window;
-        pass.set_bind_group(0, group, &[draw.caster * step]);
+        let offsets = [
+            draw.window * self.limits.caster_window,
+            view as u32 * self.limits.view_window,
+            light as u32 * self.limits.light_window,
+        ];
+        pass.set_bind_group(0, group, &offsets);
         true
     }
 
-    /// No visible point is in more volumes than this, of those that the last
-    /// [`prepare`](Self::prepare) draws.
+    /// No point visible in a view is in more volumes of a light than this, of those that the last
+    /// [`prepare`](Self::prepare) draws; 0 if the frame had no such light or view.
     ///
     /// The bound is 1 for a convex caster and grows with the number of silhouette edges that one
     /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
@@ -359,54 +419,128 @@ impl ShadowVolumeRenderer {
     /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)). Each caster's bound is kept with its volume, so where
     /// nothing moved only the casters are sorted. On the scenes of the example `compare` the bound is 3
     /// for `spheres`, 17 for `teapot` and 62 for `courtyard`.
-    pub fn count_bound(&mut self) -> u64 {
-        count_bound::bound(&self.plan, &mut self.kept, &mut self.on_cpu)
+    pub fn count_bound(&mut self, light: usize, view: usize) -> u64 {
+        let pair = self.volumes.pair(light, view);
+        let (Some(pair), Some(light)) = (pair, self.lights.get(light)) else {
+            return 0;
+        };
+        let windows = pair.windows();
+        let windows = windows.filter_map(|number| self.volumes.windows.get(number));
+        let windows: Vec<_> = windows.collect();
+        count_bound::bound(&windows, light, &mut self.cache, &mut self.on_cpu)
     }
 
-    /// Whether the counter could wrap in the frame prepared last, so that a point in shadow would
-    /// be lit: [`count_bound`](Self::count_bound) is at least 256, or with
+    /// Whether the counter could wrap under a light in a view of the frame prepared last, so that a
+    /// point in shadow would be lit: [`count_bound`](Self::count_bound) is at least 256, or with
     /// [`Counter::Exact`](crate::Counter::Exact) 2^24.
     ///
     /// `false` is certain. `true` may be a false alarm, for the bound is not the count.
-    pub fn may_wrap(&mut self) -> bool {
-        self.count_bound() >= self.counter.end()
+    pub fn may_wrap(&mut self, light: usize, view: usize) -> bool {
+        self.count_bound(light, view) >= self.counter.end()
     }
 
     /// Lets go what of the last frame cannot be counted on. Whether it was not encoded, and whether
     /// an encoder was dropped.
     fn forget(&mut self) -> [bool; 2] {
-        self.uploads.clear();
         let dropped = self.submissions.take_dropped();
-        let not_encoded = !(self.encoded || self.plan.draws.is_empty());
+        let not_encoded = self.prepared && !self.encoded;
         if dropped || !self.keep {
-            self.kept.clear();
-        } else if not_encoded {
-            self.kept.forget_wanted();
+            self.cache.forget_all();
+            self.renew();
+        } else if not_encoded && self.waits {
+            self.cache.forget_last();
+            self.renew();
         }
-        [not_encoded, dropped]
+        self.uploads.clear();
+        [not_encoded && self.statistics.draws > 0, dropped]
+    }
+
+    /// Has everything written again.
+    fn renew(&mut self) {
+        self.renewed = true;
     }
 
     /// Finds a place for everything that is new, and on the CPU what is found there.
-    fn find(&mut self) -> Found {
-        let mut found = Found::default();
-        for number in self.kept.wanted().to_vec() {
-            let Some(slot) = self.kept.get(number) else {
+    fn find(&mut self) -> StagedVolumes {
+        let mut staged = StagedVolumes::default();
+        self.batches = Batches::default();
+        for number in self.cache.take_wanted(&self.limits) {
+            let Some(slot) = self.cache.get(number) else {
                 continue;
             };
             let mesh = slot.mesh.clone();
             match (slot.way, mesh.data()) {
-                (Way::Compute, _) => self.kept.place(number, words(&mesh, Way::Compute)),
                 (Way::Cpu, Some(data)) => {
                     let counts = self.on_cpu.extract(data, mesh.kind(), &slot.instance);
-                    self.kept.place_found(number, counts);
-                    if let Some(slot) = self.kept.get(number) {
-                        found.add(&mut self.uploads, &self.on_cpu, data, slot);
+                    self.cache.place_found(number, counts);
+                    if let Some(slot) = self.cache.get(number) {
+                        staged.add(&mut self.uploads, &self.on_cpu, data, slot);
                     }
                 }
-                _ => {}
+                (way, _) => self.cache.place(number, words(&mesh, way)),
+            }
+            if self
+                .cache
+                .get(number)
+                .is_some_and(|slot| slot.way == Way::Compute)
+            {
+                self.batches
+                    .add(number, &self.cache, self.limits.workgroups);
             }
         }
-        found
+        staged
+    }
+
+    /// Has written what changed, and brings the bind groups up to date.
+    fn upload(&mut self, device: &wgpu::Device, staged: StagedVolumes) {
+        self.waits = false;
+        if self.volumes.pairs().all(|pair| pair.draws.is_empty()) {
+            return;
+        }
+        if std::mem::take(&mut self.renewed) {
+            self.volumes.windows.renew(&self.cache);
+            self.buffers.renew();
+        }
+        let changed = self.volumes.windows.take_changed();
+        let needs = Needs {
+            windows: &self.volumes.windows,
+            views: &self.views,
+            lights: &self.lights,
+            batches: &self.batches,
+            cache: &self.cache,
+        };
+        let (uploads, limits) = (&mut self.uploads, &self.limits);
+        self.buffers.reserve(device, uploads, &needs, limits);
+        self.buffers.write(uploads, &needs, &changed, limits);
+        staged.write(uploads, &self.buffers);
+        self.waits = uploads.is_waiting() || !self.batches.list.is_empty();
+        let parts = Parts {
+            device: &self.device,
+            label: &self.label,
+            buffers: &self.buffers,
+            pipelines: &self.pipelines,
+        };
+        let windows = (&self.volumes.windows, &changed[..]);
+        self.groups
+            .update(windows, &self.batches, &self.cache, &parts);
+    }
+
+    fn count(&self) -> VolumeStatistics {
+        let found = self.cache.last_found().iter();
+        let searched = found.filter_map(|&number| self.cache.get(number));
+        let searched = searched.filter(|slot| slot.way != Way::Vertex);
+        let mut statistics = VolumeStatistics {
+            casters_extracted: searched.count() as u32,
+            dispatches: 2 * self.batches.list.len() as u32,
+            uploaded: self.uploads.bytes(),
+            gpu_bytes: self.buffers.bytes(),
+            ..Default::default()
+        };
+        for pair in self.volumes.pairs() {
+            statistics.draws += pair.draws.len() as u32;
+            pair.tally.sum_into(&mut statistics);
+        }
+        statistics
     }
 
     fn dispatch<'a>(
@@ -418,7 +552,7 @@ impl ShadowVolumeRenderer {
         let most = self.limits.workgroups;
         let step = self.limits.batch_window;
         pass.set_pipeline(pipeline);
-        for (index, batch) in (0..).zip(&self.plan.batches) {
+        for (index, batch) in (0..).zip(&self.batches.list) {
             let Some(groups) = self.groups.of_batch(batch) else {
                 continue;
             };
@@ -427,19 +561,6 @@ impl ShadowVolumeRenderer {
             pass.set_bind_group(0, group, &[index * step]);
             pass.dispatch_workgroups(x, y, z);
         }
-    }
-
-    /// Brings the bind groups up to date with plan and buffers.
-    fn bind(&mut self) {
-        let parts = Parts {
-            device: &self.device,
-            label: &self.label,
-            buffers: &self.buffers,
-            extraction: self.pipelines.extraction.as_ref(),
-            pulled: self.pipelines.pulled.as_ref(),
-            fed: self.pipelines.fed.as_ref(),
-        };
-        self.groups.update(&self.plan, &self.kept, &parts);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Shadow maps as they are drawn: every texel, what is cached and what is left out, each against an exact answer.
 
 mod atlas;
+mod atlas_cascades;
 mod atlas_casters;
 #[path = "../common/mod.rs"]
 mod common;

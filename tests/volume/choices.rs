@@ -1,8 +1,9 @@
 //! What is drawn of a volume is the renderer's choice; what it shadows is not.
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
-    Caps, Caster, Counter, DepthConvention, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
+    Caps, Caster, Counter, DepthConvention, Extrusion, HomogeneousLight, Method,
     ShadowVolumeRenderer, Silhouettes, StartFrom, VolumeStatistics, wgpu,
 };
 
@@ -394,11 +395,13 @@ fn casters_are_sorted_by_what_becomes_of_them() {
     casters.extend(extra);
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
     let view = stage.view();
-    let frame = ShadowVolumeFrame {
+    let frame = OneLight {
         range: Some(400.0),
-        ..ShadowVolumeFrame::new(&view, stage.light, &casters)
+        ..OneLight::new(&view, stage.light, &casters)
     };
-    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    renderer
+        .prepare_one(&gpu.device, &gpu.queue, &frame)
+        .unwrap();
     let s = renderer.statistics();
     assert_eq!((s.casters_drawn, s.casters_skipped), (2, 2));
     assert_eq!((s.casters_z_pass, s.casters_z_fail), (1, 1));

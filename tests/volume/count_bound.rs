@@ -30,9 +30,9 @@ fn a_count_that_could_wrap_is_announced() {
         (boxes(128), 256),
     ] {
         let mut stencil = prepared(&gpu, &stage);
-        assert_eq!(stencil.count_bound(), count);
-        assert_eq!(stencil.may_wrap(), count > 255);
-        assert!(!prepared(&gpu, &with(&stage, exact())).may_wrap());
+        assert_eq!(stencil.count_bound(0, 0), count);
+        assert_eq!(stencil.may_wrap(0, 0), count > 255);
+        assert!(!prepared(&gpu, &with(&stage, exact())).may_wrap(0, 0));
     }
 }
 
@@ -54,7 +54,7 @@ fn no_pixel_counts_more_than_the_bound() {
             silhouettes: WAYS[seed as usize % 3],
             ..Default::default()
         };
-        let bound = prepared(&gpu, &with(&stage, savings)).count_bound();
+        let bound = prepared(&gpu, &with(&stage, savings)).count_bound(0, 0);
         assert!(deepest <= bound as f32, "seed {seed}: {deepest}, {bound}");
         overlaps += i32::from(deepest > 1.0);
         // The broken twin: one for each caster.
@@ -70,13 +70,13 @@ fn the_bound_is_near_where_casters_are_simple() {
     let Some(gpu) = gpu() else { return };
     let sphere = |x: f32| Body::caster(shapes::sphere(24), at(x, 1.2, 0.0));
     let mut apart = prepared(&gpu, &Stage::new(lamp(), vec![sphere(-2.0), sphere(2.0)]));
-    assert_eq!(apart.count_bound(), 1);
+    assert_eq!(apart.count_bound(0, 0), 1);
     let mut together = prepared(&gpu, &Stage::new(lamp(), vec![sphere(0.0), sphere(0.2)]));
-    assert_eq!(together.count_bound(), 2);
+    assert_eq!(together.count_bound(0, 0), 2);
     // Inside, every way out leads through the wall: no silhouette says so.
     let inside = HomogeneousLight::point(Vec3::new(0.1, 1.3, 0.2));
     let mut around = prepared(&gpu, &Stage::new(inside, vec![sphere(0.0)]));
-    assert_eq!(around.count_bound(), 1);
+    assert_eq!(around.count_bound(0, 0), 1);
 }
 
 #[test]
@@ -84,13 +84,13 @@ fn the_bound_follows_what_moves() {
     let Some(gpu) = gpu() else { return };
     let stage = sheets(2);
     let mut renderer = prepared(&gpu, &stage);
-    assert_eq!(renderer.count_bound(), 2);
+    assert_eq!(renderer.count_bound(0, 0), 2);
     let mut casters = stage.casters(&gpu);
     stage.prepare(&gpu, &mut renderer, &casters);
-    assert_eq!(renderer.count_bound(), 2);
+    assert_eq!(renderer.count_bound(0, 0), 2);
     casters[1].world_from_object = at(0.0, 1.0, 5.0);
     stage.prepare(&gpu, &mut renderer, &casters);
-    assert_eq!(renderer.count_bound(), 1);
+    assert_eq!(renderer.count_bound(0, 0), 1);
     stage.prepare(&gpu, &mut renderer, &[]);
-    assert_eq!(renderer.count_bound(), 0);
+    assert_eq!(renderer.count_bound(0, 0), 0);
 }

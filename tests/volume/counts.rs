@@ -70,7 +70,7 @@ pub fn exact_counts(gpu: &Gpu, stage: &Stage) -> Vec<f32> {
             renderer.encode(encoder);
             stage.prepass(encoder, &depth, &host, &surfaces);
             renderer
-                .render(&mut counts.begin(encoder, &depth).unwrap())
+                .render(&mut counts.begin(encoder, &depth).unwrap(), 0, 0)
                 .unwrap();
         });
     });
@@ -216,7 +216,7 @@ fn a_mask_is_filled_from_exact_counts() {
                 renderer.encode(encoder);
                 stage.prepass(encoder, &depth, &host, &surfaces);
                 renderer
-                    .render(&mut counts.begin(encoder, &depth).unwrap())
+                    .render(&mut counts.begin(encoder, &depth).unwrap(), 0, 0)
                     .unwrap();
                 if marked {
                     counts.encode(encoder, &depth).unwrap();
@@ -327,7 +327,7 @@ fn lit_by_shader(gpu: &Gpu, stage: &Stage) -> Vec<u8> {
         renderer.encode(encoder);
         stage.prepass(encoder, &depth, &host, &surfaces);
         renderer
-            .render(&mut counts.begin(encoder, &depth).unwrap())
+            .render(&mut counts.begin(encoder, &depth).unwrap(), 0, 0)
             .unwrap();
         let target = match multisampled {
             false => clear(&resolved, wgpu::Color::BLACK, None),
@@ -401,7 +401,7 @@ fn counts_come_after_the_hosts_own_targets() {
                 stencil_ops: None,
             };
             renderer
-                .render(&mut begin(encoder, "counts", &colors, attachment))
+                .render(&mut begin(encoder, "counts", &colors, attachment), 0, 0)
                 .unwrap();
         });
     });

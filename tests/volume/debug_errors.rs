@@ -1,9 +1,12 @@
 //! Every error of the debug views is reached, and leaves them usable. No driver needed.
 
-use shadows::error::{CasterError, ScreenPassError, ShadowVolumeError, VolumeDebugError as Error};
+use host::one_light::{OneLight, PrepareOne as _};
+use shadows::error::{
+    CasterError, ScreenPassError, ShadowVolumeError, VolumeDebugError as Error, VolumeRenderError,
+};
 use shadows::{
-    CasterState, DepthConvention, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer,
-    VolumeDebug, VolumeDebugDescriptor, wgpu,
+    CasterState, DepthConvention, ShadowVolumeDescriptor, ShadowVolumeRenderer, VolumeDebug,
+    VolumeDebugDescriptor, wgpu,
 };
 
 use crate::errors::{FLOAT, LIGHT, bare, cubes, noop, two_devices, view};
@@ -55,7 +58,7 @@ fn features_and_limits_are_asked_for() {
     let (device, _) = noop(FLOAT, limits);
     let low = ShadowVolumeError::Limit {
         name: "max_dynamic_uniform_buffers_per_pipeline_layout",
-        needed: 2,
+        needed: 4,
         available: 1,
     };
     assert_eq!(new(&device, Default::default()), Err(low.into()));
@@ -67,27 +70,55 @@ fn a_frame_that_is_not_the_renderers_is_refused() {
     let mut debug = VolumeDebug::new(&device, &Default::default()).unwrap();
     let descriptor = ShadowVolumeDescriptor::default();
     let mut renderer = ShadowVolumeRenderer::new(&device, &descriptor).unwrap();
-    assert_eq!(renderer.caster_states(), []);
+    assert_eq!(renderer.caster_states(0, 0), []);
     let view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 3);
-    let frame = ShadowVolumeFrame::new(&view, LIGHT, &casters);
-    let unprepared = Error::Casters {
-        frame: 3,
-        renderer: 0,
+    let frame = OneLight::new(&view, LIGHT, &casters);
+    let no_such = |[light, view]: [usize; 2], [lights, views]: [usize; 2]| {
+        Error::Render(VolumeRenderError::NoSuch {
+            light,
+            view,
+            lights,
+            views,
+        })
     };
-    assert_eq!(debug.prepare(&device, &frame, &renderer), Err(unprepared));
-    renderer.prepare(&device, &queue, &frame).unwrap();
-    assert_eq!(debug.prepare(&device, &frame, &renderer), Ok(()));
-    assert!(renderer.caster_states().len() == 3);
-    assert!(!renderer.caster_states().contains(&CasterState::Empty));
+    assert_eq!(
+        frame.with(|frame| debug.prepare(&device, frame, &renderer, 0, 0)),
+        Err(no_such([0, 0], [0, 0]))
+    );
+    renderer.prepare_one(&device, &queue, &frame).unwrap();
+    for [light, view] in [[1, 0], [0, 1]] {
+        assert_eq!(
+            frame.with(|frame| debug.prepare(&device, frame, &renderer, light, view)),
+            Err(no_such([light, view], [1, 1]))
+        );
+    }
+    let fewer = OneLight {
+        casters: &casters[..2],
+        ..frame
+    };
+    let other = Error::Casters {
+        frame: 2,
+        renderer: 3,
+    };
+    assert_eq!(
+        fewer.with(|frame| debug.prepare(&device, frame, &renderer, 0, 0)),
+        Err(other)
+    );
+    assert_eq!(
+        frame.with(|frame| debug.prepare(&device, frame, &renderer, 0, 0)),
+        Ok(())
+    );
+    assert!(renderer.caster_states(0, 0).len() == 3);
+    assert!(!renderer.caster_states(0, 0).contains(&CasterState::Empty));
     let strange = cubes(&stranger, 3);
-    let frame = ShadowVolumeFrame {
+    let frame = OneLight {
         casters: &strange,
         ..frame
     };
     let refused = ShadowVolumeError::from(CasterError::Device { index: 0 });
     assert_eq!(
-        debug.prepare(&device, &frame, &renderer),
+        frame.with(|frame| debug.prepare(&device, frame, &renderer, 0, 0)),
         Err(refused.into())
     );
 }
@@ -104,10 +135,13 @@ fn another_depth_convention_is_refused() {
     };
     let renderer = ShadowVolumeRenderer::new(&device, &descriptor).unwrap();
     let view = view(depth);
-    let frame = ShadowVolumeFrame::new(&view, LIGHT, &[]);
+    let frame = OneLight::new(&view, LIGHT, &[]);
     let refused = Error::Depth {
         debug: DepthConvention::InfiniteReverse,
         renderer: depth,
     };
-    assert_eq!(debug.prepare(&device, &frame, &renderer), Err(refused));
+    assert_eq!(
+        frame.with(|frame| debug.prepare(&device, frame, &renderer, 0, 0)),
+        Err(refused)
+    );
 }

@@ -1,9 +1,10 @@
 //! The debug views show what the volumes are.
 
+use host::one_light::OneLight;
 use shadows::glam::{Affine3A, DVec2, Vec3, Vec4};
 use shadows::{
-    Caster, CasterState, DebugColors, Extrusion, HomogeneousLight, Method, ShadowVolumeFrame,
-    ShadowVolumeRenderer, VolumeDebug, VolumeDebugDescriptor, wgpu,
+    Caster, CasterState, DebugColors, Extrusion, HomogeneousLight, Method, ShadowVolumeRenderer,
+    VolumeDebug, VolumeDebugDescriptor, wgpu,
 };
 
 use crate::passes::{HostPipelines, attach, begin, clear, view_of};
@@ -54,7 +55,11 @@ impl<'a> Shown<'a> {
             renderer.encode(encoder);
             stage.prepass(encoder, &depth, &host, &drawn);
             renderer
-                .render(&mut begin(encoder, "stencil", &[], attach(&depth, None)))
+                .render(
+                    &mut begin(encoder, "stencil", &[], attach(&depth, None)),
+                    0,
+                    0,
+                )
                 .unwrap();
         });
         Self {
@@ -263,7 +268,8 @@ fn lines_lie_on_the_silhouette_and_cover_it() {
         let mut stage = Stage::new(light, vec![body.clone()]);
         stage.savings.silhouettes = silhouettes;
         let shown = Shown::new(&gpu, &stage);
-        let picture = shown.view(|debug, pass| debug.draw_edges(pass, &shown.renderer));
+        let picture =
+            shown.view(|debug, pass| debug.draw_edges(pass, &shown.renderer, 0, 0).unwrap());
         assert_eq!(misfits(&stage, &picture, &edges), (0, 0), "{silhouettes:?}");
         let (off, bare) = misfits(&stage, &picture, &elsewhere);
         assert!(off > 50 && bare > 20, "{silhouettes:?}: {off}, {bare}");
@@ -282,7 +288,8 @@ pub fn layers(gpu: &Gpu, stage: &Stage) -> Vec<u32> {
         ..Default::default()
     };
     let shown = Shown::with(gpu, stage, colors, false);
-    let picture = shown.view(|debug, pass| debug.draw_surfaces(pass, &shown.renderer));
+    let picture =
+        shown.view(|debug, pass| debug.draw_surfaces(pass, &shown.renderer, 0, 0).unwrap());
     let layers = |color: &[u8; 4]| {
         let left = 1.0 - f32::from(color[3]) / 255.0;
         (left.ln() / (1.0 - OPACITY).ln()).round() as u32
@@ -322,7 +329,7 @@ fn surfaces_have_the_colours_of_their_methods_and_hide_behind_the_scene() {
     let mut stage = mixed(sun());
     let of = |stage: &Stage, colors: DebugColors| {
         let shown = Shown::with(&gpu, stage, colors, true);
-        shown.view(|debug, pass| debug.draw_surfaces(pass, &shown.renderer))
+        shown.view(|debug, pass| debug.draw_surfaces(pass, &shown.renderer, 0, 0).unwrap())
     };
     let (red, green) = ([1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]);
     let colors = DebugColors {
@@ -345,7 +352,8 @@ fn surfaces_have_the_colours_of_their_methods_and_hide_behind_the_scene() {
         assert_eq!(number(&picture, other), 0, "{method:?}");
         // The ground hides what is below it: there is more of the same volumes without.
         let shown = Shown::with(&gpu, &stage, colors, false);
-        let all = shown.view(|debug, pass| debug.draw_surfaces(pass, &shown.renderer));
+        let all =
+            shown.view(|debug, pass| debug.draw_surfaces(pass, &shown.renderer, 0, 0).unwrap());
         let [seen, all] = [&picture, &all].map(|p| number(p, own));
         assert!(all > seen + 500, "{method:?}: {seen} of {all}");
     }
@@ -387,15 +395,15 @@ fn casters_have_the_colours_of_what_was_decided_for_them() {
         let stage = stage(silhouettes);
         let mut shown = Shown::with(&gpu, &stage, colors, true);
         let view = stage.view();
-        let frame = ShadowVolumeFrame {
+        let frame = OneLight {
             range: stage.range,
-            ..ShadowVolumeFrame::new(&view, stage.light, &shown.casters)
+            ..OneLight::new(&view, stage.light, &shown.casters)
         };
-        let states = shown.renderer.caster_states().to_vec();
+        let states = shown.renderer.caster_states(0, 0);
         assert_eq!(states, places.map(|(_, _, state)| state), "{silhouettes:?}");
-        shown
-            .debug
-            .prepare(&gpu.device, &frame, &shown.renderer)
+        let (debug, renderer) = (&mut shown.debug, &shown.renderer);
+        frame
+            .with(|frame| debug.prepare(&gpu.device, frame, renderer, 0, 0))
             .unwrap();
         let picture = shown.view(|debug, pass| debug.draw_casters(pass));
         let at = |point| {
@@ -424,15 +432,15 @@ fn every_convention_and_way_draws_without_complaint() {
             stage.savings.silhouettes = silhouettes;
             let mut shown = Shown::new(&gpu, &stage);
             let view = stage.view();
-            let frame = ShadowVolumeFrame::new(&view, stage.light, &shown.casters);
-            shown
-                .debug
-                .prepare(&gpu.device, &frame, &shown.renderer)
+            let frame = OneLight::new(&view, stage.light, &shown.casters);
+            let (debug, renderer) = (&mut shown.debug, &shown.renderer);
+            frame
+                .with(|frame| debug.prepare(&gpu.device, frame, renderer, 0, 0))
                 .unwrap();
             let picture = shown.view(|debug, pass| {
                 debug.draw_casters(pass);
-                debug.draw_surfaces(pass, &shown.renderer);
-                debug.draw_edges(pass, &shown.renderer);
+                debug.draw_surfaces(pass, &shown.renderer, 0, 0).unwrap();
+                debug.draw_edges(pass, &shown.renderer, 0, 0).unwrap();
             });
             let drawn = picture.iter().filter(|c| **c != [0; 4]).count();
             assert!(drawn > 5000, "{depth:?}, {silhouettes:?}: {drawn}");

@@ -1,12 +1,13 @@
 //! Every error is reached, before any GPU work, and leaves the renderer usable. No driver needed.
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::error::{CasterError, LightError, ShadowVolumeError as Error};
 use shadows::glam::camera::rh::proj::directx as proj;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
     Caster, CasterMesh, Counter, DepthConvention, HomogeneousLight, HostMesh, Method,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes, View, wgpu,
 };
 
 use crate::shapes;
@@ -299,9 +300,9 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
         ShadowVolumeRenderer::new(&device, &ShadowVolumeDescriptor::default()).unwrap();
     let good_view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 2);
-    let good = ShadowVolumeFrame {
+    let good = OneLight {
         range: Some(100.0),
-        ..ShadowVolumeFrame::new(&good_view, LIGHT, &casters)
+        ..OneLight::new(&good_view, LIGHT, &casters)
     };
     let standard = view(DepthConvention::Standard);
     let changed = |transform| {
@@ -322,7 +323,7 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
     let (inf, dark) = (f32::INFINITY, light(0.0, 0.0, 0.0, 0.0));
     let bad = [
         (
-            ShadowVolumeFrame {
+            OneLight {
                 view: &standard,
                 ..good
             },
@@ -332,49 +333,49 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
             },
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 light: dark,
                 ..good
             },
             LightError::Direction.into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 light: light(0.0, inf, 0.0, 1.0),
                 ..good
             },
             LightError::Position([0.0, inf, 0.0]).into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 light: light(0.0, 1.0, 0.0, 0.5),
                 ..good
             },
             LightError::Homogeneous(0.5).into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 range: Some(0.0),
                 ..good
             },
             LightError::Range(0.0).into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 range: Some(-1.0),
                 ..good
             },
             LightError::Range(-1.0).into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 range: Some(inf),
                 ..good
             },
             LightError::Range(inf).into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 receivers: Some(Bounds {
                     min: Vec3::ONE,
                     max: Vec3::ZERO,
@@ -387,28 +388,28 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
             },
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 target_size: Some([640, 0]),
                 ..good
             },
             Error::TargetSize([640, 0]),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 casters: &nan,
                 ..good
             },
             CasterError::NotFinite { index: 1 }.into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 casters: &foreign,
                 ..good
             },
             CasterError::Device { index: 1 }.into(),
         ),
         (
-            ShadowVolumeFrame {
+            OneLight {
                 casters: &of_maps,
                 ..good
             },
@@ -417,17 +418,17 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
     ];
     for (frame, error) in &bad {
         assert_eq!(
-            renderer.prepare(&device, &queue, frame).as_ref(),
+            renderer.prepare_one(&device, &queue, frame).as_ref(),
             Err(error)
         );
-        assert_eq!(renderer.prepare(&device, &queue, &good), Ok(()));
+        assert_eq!(renderer.prepare_one(&device, &queue, &good), Ok(()));
         assert_eq!(renderer.statistics().casters_drawn, 2);
     }
-    let frame = ShadowVolumeFrame {
+    let frame = OneLight {
         range: Some(f32::NAN),
         ..good
     };
-    let error = renderer.prepare(&device, &queue, &frame);
+    let error = renderer.prepare_one(&device, &queue, &frame);
     assert!(
         matches!(error, Err(Error::Light(LightError::Range(_)))),
         "{error:?}"
@@ -445,15 +446,15 @@ fn more_casters_than_fit_are_refused() {
     let mut renderer = ShadowVolumeRenderer::new(&device, &by_compute()).unwrap();
     let view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 17);
-    let frame = |count| ShadowVolumeFrame::new(&view, LIGHT, &casters[..count]);
+    let frame = |count| OneLight::new(&view, LIGHT, &casters[..count]);
     assert_eq!(
-        renderer.prepare(&device, &queue, &frame(17)),
+        renderer.prepare_one(&device, &queue, &frame(17)),
         Err(Error::TooManyCasters {
             count: 17,
             limit: 16
         })
     );
-    assert_eq!(renderer.prepare(&device, &queue, &frame(16)), Ok(()));
+    assert_eq!(renderer.prepare_one(&device, &queue, &frame(16)), Ok(()));
     // 16 instances of 12 triangles: caps need 2304 bytes, all in one chunk.
     assert_eq!(renderer.statistics().dispatches, 2);
 }
@@ -469,8 +470,8 @@ fn a_batch_is_split_where_a_buffer_would_be_too_large() {
     let mut renderer = ShadowVolumeRenderer::new(&device, &by_compute()).unwrap();
     let casters = cubes(&device, 16);
     let view = view(DepthConvention::InfiniteReverse);
-    let frame = ShadowVolumeFrame::new(&view, LIGHT, &casters);
-    renderer.prepare(&device, &queue, &frame).unwrap();
+    let frame = OneLight::new(&view, LIGHT, &casters);
+    renderer.prepare_one(&device, &queue, &frame).unwrap();
     let statistics = renderer.statistics();
     // 144 bytes of caps each: eight to a chunk of 1152 bytes, so two chunks, two passes each.
     assert_eq!(statistics.dispatches, 4);
@@ -491,11 +492,11 @@ fn casters_out_of_range_cost_nothing() {
     let mut renderer = ShadowVolumeRenderer::new(&device, &descriptor).unwrap();
     let view = view(DepthConvention::InfiniteReverse);
     let casters = cubes(&device, 3);
-    let mut frame = ShadowVolumeFrame {
+    let mut frame = OneLight {
         range: Some(3.9),
-        ..ShadowVolumeFrame::new(&view, HomogeneousLight::point(Vec3::ZERO), &casters)
+        ..OneLight::new(&view, HomogeneousLight::point(Vec3::ZERO), &casters)
     };
-    renderer.prepare(&device, &queue, &frame).unwrap();
+    renderer.prepare_one(&device, &queue, &frame).unwrap();
     let none = renderer.statistics();
     assert_eq!((none.casters_drawn, none.casters_skipped), (0, 3));
     assert_eq!(none.skipped_out_of_range, 3);
@@ -503,12 +504,12 @@ fn casters_out_of_range_cost_nothing() {
     // The nearest points of the boxes are 4, 7 and 10 away.
     for (range, drawn) in [(4.0, 1), (6.9, 1), (7.0, 2), (10.0, 3)] {
         frame.range = Some(range);
-        renderer.prepare(&device, &queue, &frame).unwrap();
+        renderer.prepare_one(&device, &queue, &frame).unwrap();
         assert_eq!(renderer.statistics().casters_drawn, drawn, "range {range}");
     }
     frame.range = Some(3.9);
     frame.light = HomogeneousLight::directional(Vec3::Y);
-    renderer.prepare(&device, &queue, &frame).unwrap();
+    renderer.prepare_one(&device, &queue, &frame).unwrap();
     assert_eq!(renderer.statistics().casters_drawn, 3);
     // Sides and light caps, no dark caps: nothing of them is left at infinity.
     assert_eq!(renderer.statistics().draws, 6);

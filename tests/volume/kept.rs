@@ -1,13 +1,14 @@
 //! What a frame's change costs, and that what is kept is what would be found anew.
 
+use host::one_light::{OneLight, PrepareOne as _};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use shadows::error::VolumeRenderError;
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::{
-    Caster, CasterMesh, HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeFrame,
-    ShadowVolumeRenderer, Silhouettes, View, VolumeStatistics, wgpu,
+    Caster, CasterMesh, HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer,
+    Silhouettes, View, VolumeStatistics, wgpu,
 };
 
 use crate::passes::{attach, begin, view_of};
@@ -17,7 +18,7 @@ use host::gpu::Gpu;
 
 const SIDE: u32 = 48;
 /// What is visible: a wall behind the casters.
-const WALL: f32 = 0.009;
+pub const WALL: f32 = 0.009;
 /// The ways that keep something.
 const KEEPING: [Silhouettes; 2] = [Silhouettes::Compute, Silhouettes::Cpu];
 const RANGE: f32 = 12.0;
@@ -75,9 +76,9 @@ impl Theatre {
         self.gpu.target([SIDE; 2], format, 1)
     }
 
-    pub fn prepare(&self, renderer: &mut ShadowVolumeRenderer, frame: &ShadowVolumeFrame<'_>) {
+    pub fn prepare(&self, renderer: &mut ShadowVolumeRenderer, frame: &OneLight<'_>) {
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
-        renderer.prepare(device, queue, frame).unwrap();
+        renderer.prepare_one(device, queue, frame).unwrap();
     }
 
     pub fn counts(&self, target: &wgpu::Texture) -> Vec<u8> {
@@ -89,7 +90,7 @@ impl Theatre {
     fn draw(
         &self,
         renderer: &mut ShadowVolumeRenderer,
-        frame: &ShadowVolumeFrame<'_>,
+        frame: &OneLight<'_>,
     ) -> (Vec<u8>, VolumeStatistics) {
         self.prepare(renderer, frame);
         let statistics = renderer.statistics();
@@ -102,7 +103,7 @@ impl Theatre {
     }
 
     /// The counts that a new renderer comes to.
-    pub fn fresh(&self, way: Silhouettes, frame: &ShadowVolumeFrame<'_>) -> Vec<u8> {
+    pub fn fresh(&self, way: Silhouettes, frame: &OneLight<'_>) -> Vec<u8> {
         self.draw(&mut self.renderer(way), frame).0
     }
 }
@@ -115,21 +116,17 @@ pub fn count(
 ) {
     let view = view_of(target);
     let mut pass = begin(encoder, "counts", &[], attach(&view, Some(WALL)));
-    renderer.render(&mut pass).unwrap();
+    renderer.render(&mut pass, 0, 0).unwrap();
 }
 
-pub fn frame<'a>(
-    view: &'a View,
-    light: HomogeneousLight,
-    casters: &'a [Caster],
-) -> ShadowVolumeFrame<'a> {
-    ShadowVolumeFrame {
+pub fn frame<'a>(view: &'a View, light: HomogeneousLight, casters: &'a [Caster]) -> OneLight<'a> {
+    OneLight {
         range: (!light.is_directional()).then_some(RANGE),
-        ..ShadowVolumeFrame::new(view, light, casters)
+        ..OneLight::new(view, light, casters)
     }
 }
 
-fn is_shown(counts: &[u8]) -> bool {
+pub fn is_shown(counts: &[u8]) -> bool {
     counts.iter().filter(|&&count| count > 0).count() > 10
 }
 
@@ -374,7 +371,7 @@ fn a_forgotten_encode_and_a_dropped_encoder_are_told_and_mended() {
             theatre.gpu.run(|encoder| {
                 let view = view_of(&target);
                 let mut pass = begin(encoder, "counts", &[], attach(&view, Some(WALL)));
-                answer = renderer.render(&mut pass);
+                answer = renderer.render(&mut pass, 0, 0);
             });
             (answer, theatre.counts(&target))
         };

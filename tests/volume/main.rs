@@ -14,6 +14,7 @@ mod flat_end;
 mod hard;
 mod kept;
 mod light_pass;
+mod many;
 mod near_light;
 mod near_plane;
 mod passes;

@@ -27,7 +27,11 @@ fn count(gpu: &Gpu, stage: &Stage, depth: &wgpu::TextureView) {
         surfaces.iter().for_each(|surface| surface.draw(&mut pass));
         drop(pass);
         renderer
-            .render(&mut begin(encoder, "stencil", &[], attach(depth, None)))
+            .render(
+                &mut begin(encoder, "stencil", &[], attach(depth, None)),
+                0,
+                0,
+            )
             .unwrap();
     });
 }

@@ -1,9 +1,9 @@
 //! Casters whose transforms flatten them: things that pop in, and all that are nearly flat.
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::{
-    Caps, CasterState, HomogeneousLight, Method, ShadowVolumeFrame, ShadowVolumeRenderer,
-    VolumeStatistics,
+    Caps, CasterState, HomogeneousLight, Method, ShadowVolumeRenderer, VolumeStatistics,
 };
 
 use crate::pictures::{at, lamp, sun};
@@ -60,7 +60,7 @@ fn gone() -> [(&'static str, Affine3A, u32); 4] {
 fn drawn(gpu: &Gpu, stage: &Stage) -> (Vec<u8>, VolumeStatistics) {
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
     let picture = stage.draw_with(gpu, &mut renderer, &stage.casters(gpu));
-    assert!(renderer.count_bound() >= 1);
+    assert!(renderer.count_bound(0, 0) >= 1);
     (picture, renderer.statistics())
 }
 
@@ -139,7 +139,7 @@ fn a_caster_flattened_to_a_plane_through_the_light_is_counted_and_left_out() {
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
     let picture = stage.draw_with(&gpu, &mut renderer, &stage.casters(&gpu));
     assert_eq!(stage.truth().errors(&picture).wrong, 0);
-    assert_eq!(renderer.caster_states()[0], CasterState::EdgeOn);
+    assert_eq!(renderer.caster_states(0, 0)[0], CasterState::EdgeOn);
     assert_eq!(renderer.statistics().skipped_edge_on, 1);
 }
 
@@ -167,10 +167,12 @@ fn beyond_the_range_it_is_out_of_range_however_flat() {
     let stage = stage(lamp(), at(500.0, 0.0, 0.0) * scale(1.0, 0.0, 1.0));
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
     let (view, casters) = (stage.view(), stage.casters(&gpu));
-    let frame = ShadowVolumeFrame {
+    let frame = OneLight {
         range: Some(50.0),
-        ..ShadowVolumeFrame::new(&view, stage.light, &casters)
+        ..OneLight::new(&view, stage.light, &casters)
     };
-    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-    assert_eq!(renderer.caster_states()[0], CasterState::OutOfRange);
+    renderer
+        .prepare_one(&gpu.device, &gpu.queue, &frame)
+        .unwrap();
+    assert_eq!(renderer.caster_states(0, 0)[0], CasterState::OutOfRange);
 }

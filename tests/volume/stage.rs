@@ -1,12 +1,13 @@
 //! A scene as a small host draws it, and the same scene for the reference.
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::camera::rh::{proj::directx as proj, view};
 use shadows::glam::{Affine3A, DAffine3, DMat4, Mat4, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
     Caps, Caster, CasterMesh, Counter, DepthConvention, ExactCount, ExactCountDescriptor,
-    Extrusion, HomogeneousLight, HostPositions, Method, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    Extrusion, HomogeneousLight, HostPositions, Method, ShadowVolumeDescriptor,
     ShadowVolumeRenderer, Silhouettes, StartFrom, View, wgpu,
 };
 use wgpu::util::DeviceExt as _;
@@ -279,13 +280,15 @@ impl Stage {
 
     pub fn prepare(&self, gpu: &Gpu, renderer: &mut ShadowVolumeRenderer, casters: &[Caster]) {
         let view = self.view();
-        let frame = ShadowVolumeFrame {
+        let frame = OneLight {
             range: self.range,
             target_size: Some([self.side; 2]),
             receivers: self.receivers,
-            ..ShadowVolumeFrame::new(&view, self.light, casters)
+            ..OneLight::new(&view, self.light, casters)
         };
-        renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+        renderer
+            .prepare_one(&gpu.device, &gpu.queue, &frame)
+            .unwrap();
     }
 
     /// The casters, with their meshes on the GPU; equal shapes share one.
@@ -357,14 +360,14 @@ impl Stage {
             self.prepass(encoder, &depth_view, &host, &surfaces);
             if let (Some(renderer), Some(counts)) = (&renderer, &counts) {
                 renderer
-                    .render(&mut counts.begin(encoder, &depth_view).unwrap())
+                    .render(&mut counts.begin(encoder, &depth_view).unwrap(), 0, 0)
                     .unwrap();
                 counts.encode(encoder, &depth_view).unwrap();
             } else if let Some(renderer) = &renderer {
                 let colors = extra.map(|view| vec![Some(clear(view, wgpu::Color::RED, None))]);
                 let colors = colors.unwrap_or_default();
                 let mut pass = begin(encoder, "stencil", &colors, attach(&depth_view, None));
-                renderer.render(&mut pass).unwrap();
+                renderer.render(&mut pass, 0, 0).unwrap();
             }
             let target = match self.samples {
                 1 => clear(&resolved, wgpu::Color::BLACK, None),
@@ -413,7 +416,7 @@ impl Stage {
                 renderer.encode(encoder);
                 self.prepass(encoder, &depth_view, &host, &surfaces);
                 let mut pass = begin(encoder, "stencil", &[], attach(&depth_view, None));
-                renderer.render(&mut pass).unwrap();
+                renderer.render(&mut pass, 0, 0).unwrap();
             });
         });
         gpu.read_texture(&depth, 0, wgpu::TextureAspect::StencilOnly)

@@ -1,10 +1,8 @@
 //! Volumes that start from the triangles turned away from the light.
 
+use host::one_light::OneLight;
 use shadows::glam::{Affine3A, Quat, Vec3};
-use shadows::{
-    Caps, DebugColors, HomogeneousLight, Method, ShadowVolumeFrame, ShadowVolumeRenderer,
-    StartFrom, wgpu,
-};
+use shadows::{Caps, DebugColors, HomogeneousLight, Method, ShadowVolumeRenderer, StartFrom, wgpu};
 
 use crate::choices::depths;
 use crate::debug_views::Shown;
@@ -40,10 +38,10 @@ fn casters_seen(gpu: &Gpu, stage: &Stage) -> Vec<bool> {
     };
     let mut shown = Shown::with(gpu, stage, colors, true);
     let view = stage.view();
-    let frame = ShadowVolumeFrame::new(&view, stage.light, &shown.casters);
-    shown
-        .debug
-        .prepare(&gpu.device, &frame, &shown.renderer)
+    let frame = OneLight::new(&view, stage.light, &shown.casters);
+    let (debug, renderer) = (&mut shown.debug, &shown.renderer);
+    frame
+        .with(|frame| debug.prepare(&gpu.device, frame, renderer, 0, 0))
         .unwrap();
     let picture = shown.view(|debug, pass| debug.draw_casters(pass));
     picture.iter().map(|color| *color != [0; 4]).collect()

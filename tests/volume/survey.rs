@@ -12,7 +12,7 @@ use host::gpu::Gpu;
 fn survey(gpu: &Gpu, stage: &Stage) -> VolumeSurvey {
     let mut renderer = ShadowVolumeRenderer::new(&gpu.device, &stage.descriptor()).unwrap();
     stage.prepare(gpu, &mut renderer, &stage.casters(gpu));
-    renderer.survey([stage.side; 2])
+    renderer.survey(0, 0, [stage.side; 2]).unwrap()
 }
 
 fn one_box(light: HomogeneousLight, silhouettes: Silhouettes, method: Method) -> Stage {

@@ -1,10 +1,11 @@
 //! Every way to find silhouettes gives the same shadows, and none looks twice without need.
 
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::error::ShadowVolumeError;
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
-    Caster, CasterMesh, HomogeneousLight, HostPositions, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    Caster, CasterMesh, HomogeneousLight, HostPositions, ShadowVolumeDescriptor,
     ShadowVolumeRenderer, Silhouettes, wgpu,
 };
 use wgpu::util::DeviceExt as _;
@@ -142,13 +143,17 @@ fn what_was_prepared_and_not_encoded_is_searched_again() {
     let casters = stage.casters(&gpu);
     let mut renderer = renderer(&gpu, &stage, Silhouettes::Compute);
     let view = stage.view();
-    let frame = ShadowVolumeFrame::new(&view, stage.light, &casters);
+    let frame = OneLight::new(&view, stage.light, &casters);
     for _ in 0..2 {
-        renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+        renderer
+            .prepare_one(&gpu.device, &gpu.queue, &frame)
+            .unwrap();
         assert_eq!(renderer.statistics().casters_extracted, 2);
     }
     assert_eq!(wrong(&stage, &stage.redraw(&gpu, &mut renderer)), 0);
-    renderer.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    renderer
+        .prepare_one(&gpu.device, &gpu.queue, &frame)
+        .unwrap();
     assert_eq!(renderer.statistics().casters_extracted, 0);
 }
 
@@ -267,8 +272,8 @@ fn positions_of_the_host_are_refused_where_they_cannot_be_read() {
         let mut renderer = renderer(&gpu, &stage, way);
         let view = stage.view();
         let mut prepare = |casters: &[Caster]| {
-            let frame = ShadowVolumeFrame::new(&view, stage.light, casters);
-            renderer.prepare(&gpu.device, &gpu.queue, &frame)
+            let frame = OneLight::new(&view, stage.light, casters);
+            renderer.prepare_one(&gpu.device, &gpu.queue, &frame)
         };
         assert_eq!(prepare(&casters), Ok(()));
         casters.push(Caster::new(mesh, Affine3A::IDENTITY));
@@ -305,8 +310,8 @@ fn on_webgl2(silhouettes: Silhouettes) -> Result<Option<String>, ShadowVolumeErr
     let mesh = CasterMesh::new(&device, &fins.positions, &adjacency).unwrap();
     let view = mixed(lamp()).view();
     let casters = [Caster::new(mesh, at(0.0, 0.5, 0.0))];
-    let frame = ShadowVolumeFrame::new(&view, lamp(), &casters);
-    renderer.prepare(&device, &queue, &frame)?;
+    let frame = OneLight::new(&view, lamp(), &casters);
+    renderer.prepare_one(&device, &queue, &frame)?;
     assert!(renderer.statistics().draws > 0);
     let mut encoder = device.create_command_encoder(&Default::default());
     renderer.encode(&mut encoder);
@@ -335,7 +340,7 @@ fn on_webgl2(silhouettes: Silhouettes) -> Result<Option<String>, ShadowVolumeErr
         }),
         ..Default::default()
     });
-    renderer.render(&mut pass).unwrap();
+    renderer.render(&mut pass, 0, 0).unwrap();
     drop(pass);
     queue.submit([encoder.finish()]);
     Ok(pollster::block_on(scope.pop()).map(|error| error.to_string()))

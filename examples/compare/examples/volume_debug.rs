@@ -15,14 +15,15 @@ use anyhow::{Context as _, Result};
 use clap::Parser;
 use host::gpu::Gpu;
 use host::image::rgb_png;
+use host::one_light::{OneLight, PrepareOne as _};
 use host::renderer::{DEPTH, Renderer, SHADED, ShadowAccess, view};
 use host::scene::{self, Mesh, Scene};
 use host::scene_gpu::SceneGpu;
 use host::terminal::say;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::{
-    HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, StartFrom,
-    VolumeDebug, VolumeDebugDescriptor, wgpu,
+    HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, StartFrom, VolumeDebug,
+    VolumeDebugDescriptor, wgpu,
 };
 
 const SIZE: [u32; 2] = [400, 260];
@@ -52,14 +53,20 @@ fn main() -> Result<()> {
     let pictures = [
         panels.draw(|_| {}),
         panels.draw(|pass| {
-            panels.debug.draw_surfaces(pass, &panels.volumes);
-            panels.debug.draw_edges(pass, &panels.volumes);
+            panels
+                .debug
+                .draw_surfaces(pass, &panels.volumes, 0, 0)
+                .unwrap();
+            panels
+                .debug
+                .draw_edges(pass, &panels.volumes, 0, 0)
+                .unwrap();
         }),
         panels.draw(|pass| panels.debug.draw_counts(pass)),
         panels.draw(|pass| panels.debug.draw_casters(pass)),
     ];
     say(&format!("{:#?}", panels.volumes.statistics()))?;
-    say(&format!("{:#?}", panels.volumes.survey(SIZE)))?;
+    say(&format!("{:#?}", panels.volumes.survey(0, 0, SIZE)))?;
     save(&args.out, &pictures)
 }
 
@@ -153,13 +160,13 @@ impl<'a> Panels<'a> {
             },
         )?;
         let view = view(scene, SIZE)?;
-        let frame = ShadowVolumeFrame {
+        let frame = OneLight {
             range: Some(scene.range),
             target_size: Some(SIZE),
-            ..ShadowVolumeFrame::new(&view, HomogeneousLight(scene.light), &scene_gpu.casters)
+            ..OneLight::new(&view, HomogeneousLight(scene.light), &scene_gpu.casters)
         };
-        volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
-        debug.prepare(&gpu.device, &frame, &volumes)?;
+        volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
+        frame.with(|frame| debug.prepare(&gpu.device, frame, &volumes, 0, 0))?;
         gpu.run(|encoder| volumes.encode(encoder));
         Ok(Self {
             gpu,
@@ -181,7 +188,7 @@ impl<'a> Panels<'a> {
         self.gpu.run(|encoder| {
             self.renderer.draw_ambient(encoder, &self.scene);
             self.volumes
-                .render(&mut self.renderer.begin_stencil_pass(encoder))
+                .render(&mut self.renderer.begin_stencil_pass(encoder), 0, 0)
                 .expect("it is encoded");
             self.renderer.draw_lit(encoder, &self.scene, &lit, None);
             over(&mut self.renderer.begin_overlay_pass(encoder));

@@ -1,6 +1,7 @@
 //! The shadow techniques behind one interface: prepare, generate, shade.
 
 use anyhow::Result;
+use host::one_light::{OneLight, PrepareOne as _};
 use serde_json::{Value, json};
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
@@ -8,7 +9,7 @@ use shadows::{
     Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
     ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
     PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor,
-    ShadowVolumeFrame, ShadowVolumeRenderer, SpotLight, View, wgpu,
+    ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
 use crate::technique::{Config, Technique};
@@ -236,12 +237,12 @@ impl Shadow {
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
             Means::Volume { volumes, .. } => {
-                let frame = ShadowVolumeFrame {
+                let frame = OneLight {
                     range: inputs.light_range(),
                     receivers: Some(inputs.receivers),
-                    ..ShadowVolumeFrame::new(&inputs.view, inputs.light, casters)
+                    ..OneLight::new(&inputs.view, inputs.light, casters)
                 };
-                volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
+                volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
             }
             Means::Peer(map) => map.prepare(
                 gpu,
@@ -270,13 +271,13 @@ impl Shadow {
                 volumes.encode(encoder);
                 let Some(counts) = counts else {
                     return volumes
-                        .render(&mut host.begin_stencil_pass(encoder))
+                        .render(&mut host.begin_stencil_pass(encoder), 0, 0)
                         .expect("it is encoded");
                 };
                 let fits = "made for the renderer's buffer";
                 let buffer = host.depth_stencil();
                 volumes
-                    .render(&mut counts.begin(encoder, buffer).expect(fits))
+                    .render(&mut counts.begin(encoder, buffer).expect(fits), 0, 0)
                     .expect("it is encoded");
                 counts.encode(encoder, buffer).expect(fits);
             }
@@ -298,7 +299,7 @@ impl Shadow {
     /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
     pub fn may_wrap(&mut self) -> bool {
         match &mut self.means {
-            Means::Volume { volumes, .. } => volumes.may_wrap(),
+            Means::Volume { volumes, .. } => volumes.may_wrap(0, 0),
             Means::Cube { .. } | Means::Flat { .. } | Means::Peer(_) => false,
         }
     }

@@ -8,8 +8,8 @@ use shadows::{
     Bias, Caster, CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap,
     CubeShadowMapDescriptor, DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind,
     PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeDebug,
-    VolumeDebugDescriptor, VolumeSurvey,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeDebug, VolumeLight, VolumeView,
+    VolumeDebugDescriptor, VolumeLight, VolumeSurvey, VolumeView,
 };
 
 use crate::statistics::{self, Rows};
@@ -233,7 +233,7 @@ impl Shadows {
                 volumes.renderer.encode(encoder);
                 volumes
                     .renderer
-                    .render(&mut renderer.begin_stencil_pass(encoder))?;
+                    .render(&mut renderer.begin_stencil_pass(encoder), 0, 0)?;
             }
             Means::None => {}
         }
@@ -242,17 +242,22 @@ impl Shadows {
 
     /// Third verb: the lit pass, with the map bound or the stencil tested, and what is to be shown of
     /// the volumes.
-    pub fn shade(&self, renderer: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
+    pub fn shade(
+        &self,
+        renderer: &Renderer,
+        scene: &SceneGpu,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<()> {
         let group = match &self.means {
             Means::Cube(cube) => cube.groups.as_ref().map(|(_, lit, _)| lit),
             Means::Flat(_, group) => Some(group),
             Means::Volumes(_) | Means::None => None,
         };
         // The light pass changes counts, and adds nothing where there are any.
-        self.draw_over(renderer, encoder, &[DebugView::Counts]);
+        self.draw_over(renderer, encoder, &[DebugView::Counts])?;
         renderer.draw_lit(encoder, scene, &self.lit, group);
         let after = [DebugView::Surfaces, DebugView::Casters];
-        self.draw_over(renderer, encoder, &after);
+        self.draw_over(renderer, encoder, &after)
     }
 
     /// Draws the volumes' view, if it is one of these, into the host's picture: it takes the scene's
@@ -262,12 +267,13 @@ impl Shadows {
         renderer: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         views: &[DebugView],
-    ) {
+    ) -> Result<()> {
         if let Means::Volumes(volumes) = &self.means
             && let Some(view) = volumes.shown.filter(|view| views.contains(view))
         {
-            volumes.draw_debug(&mut renderer.begin_overlay_pass(encoder), view);
+            volumes.draw_debug(&mut renderer.begin_overlay_pass(encoder), view)?;
         }
+        Ok(())
     }
 
     /// Draws the cube map, unfolded, into egui's pass; false if there is none.
@@ -331,9 +337,16 @@ impl Volumes {
     fn prepare(&mut self, gpu: &Gpu, frame: &Frame<'_>) -> Result<()> {
         let (view, light, size) = (frame.view, frame.light, frame.size);
         let volumes = ShadowVolumeFrame {
-            range: (!light.is_directional()).then_some(frame.range),
-            target_size: Some(size),
-            ..ShadowVolumeFrame::new(&frame.view, light, frame.casters)
+            lights: &[VolumeLight {
+                light,
+                range: (!light.is_directional()).then_some(frame.range),
+            }],
+            views: &[VolumeView {
+                view: frame.view,
+                target_size: Some(size),
+            }],
+            casters: frame.casters,
+            ..Default::default()
         };
         self.renderer.prepare(&gpu.device, &gpu.queue, &volumes)?;
         self.shown = frame.debug;
@@ -341,26 +354,28 @@ impl Volumes {
             self.survey = None;
             return Ok(());
         }
-        self.debug.prepare(&gpu.device, &volumes, &self.renderer)?;
+        self.debug
+            .prepare(&gpu.device, &volumes, &self.renderer, 0, 0)?;
         if self
             .survey
             .is_none_or(|(v, l, s, _)| (v, l, s) != (view, light, size))
         {
-            self.survey = Some((view, light, size, self.renderer.survey(size)));
+            self.survey = Some((view, light, size, self.renderer.survey(0, 0, size)?));
         }
         Ok(())
     }
 
-    fn draw_debug(&self, pass: &mut wgpu::RenderPass<'_>, view: DebugView) {
+    fn draw_debug(&self, pass: &mut wgpu::RenderPass<'_>, view: DebugView) -> Result<()> {
         match view {
             DebugView::Surfaces => {
-                self.debug.draw_surfaces(pass, &self.renderer);
-                self.debug.draw_edges(pass, &self.renderer);
+                self.debug.draw_surfaces(pass, &self.renderer, 0, 0)?;
+                self.debug.draw_edges(pass, &self.renderer, 0, 0)?;
             }
             DebugView::Counts => self.debug.draw_counts(pass),
             DebugView::Casters => self.debug.draw_casters(pass),
             DebugView::Cross => {}
         }
+        Ok(())
     }
 }
 

@@ -201,7 +201,7 @@ impl Viewport {
         self.renderer.draw_ambient(encoder, &self.scene_gpu);
         if let Some((_, shadows)) = &mut self.shadows {
             shadows.encode(&self.renderer, encoder)?;
-            shadows.shade(&self.renderer, &self.scene_gpu, encoder);
+            shadows.shade(&self.renderer, &self.scene_gpu, encoder)?;
         }
         Ok(())
     }

@@ -6,6 +6,7 @@ pub mod exact;
 pub mod gpu;
 pub mod image;
 pub mod interior;
+pub mod one_light;
 pub mod peer_light;
 pub mod peer_map;
 pub mod peers;

@@ -123,7 +123,7 @@ impl CountPipelines {
 pub(crate) fn color_layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
-        entries: &[uniform(wgpu::ShaderStages::FRAGMENT, COLOR_BYTES)],
+        entries: &[uniform(0, wgpu::ShaderStages::FRAGMENT, COLOR_BYTES)],
     })
 }
 

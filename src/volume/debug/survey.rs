@@ -2,6 +2,7 @@
 
 use glam::{DMat4, DVec3, DVec4, Vec4Swizzles as _};
 
+use crate::error::VolumeRenderError;
 use crate::mesh::{Adjacency, Bounds, MeshData, MeshKind, mesh_edges};
 use crate::volume::ShadowVolumeRenderer;
 use crate::volume::debug::screen_area::Screen;
@@ -44,7 +45,7 @@ impl VolumeSurvey {
 }
 
 impl ShadowVolumeRenderer {
-    /// Counts the faces that the last prepared frame draws, and estimates how many pixels of a target
+    /// Counts the faces that the last prepared frame draws under one light in one view, and estimates how many pixels of a target
     /// of this size (its viewport covering all of it) they fill, whether the depth test then counts
     /// them or not.
     ///
@@ -52,7 +53,7 @@ impl ShadowVolumeRenderer {
     /// is read back and nothing waits. This takes the time of [`Silhouettes::Cpu`] for every caster
     /// drawn, and as long again for the areas: for debugging and tuning, not for every frame. The
     /// fill is the sum of the faces' areas on screen, clipped to it (and to the scissor rectangle of
-    /// [`ShadowVolumeFrame::target_size`]) as polygons: what a rasteriser covers but for rounding at
+    /// [`VolumeView::target_size`]) as polygons: what a rasteriser covers but for rounding at
     /// their edges, within a few percent where faces are larger than pixels.
     ///
     /// Where more than two triangles meet in an edge, [`Silhouettes::Vertex`] draws sides that cancel
@@ -60,13 +61,21 @@ impl ShadowVolumeRenderer {
     ///
     /// [`Silhouettes::Cpu`]: crate::Silhouettes::Cpu
     /// [`Silhouettes::Vertex`]: crate::Silhouettes::Vertex
-    /// [`ShadowVolumeFrame::target_size`]: crate::ShadowVolumeFrame::target_size
-    pub fn survey(&self, target_size: [u32; 2]) -> VolumeSurvey {
-        let drawn = self.drawn();
+    /// [`VolumeView::target_size`]: crate::VolumeView::target_size
+    ///
+    /// # Errors
+    /// [`VolumeRenderError::NoSuch`] if the frame had no such light or view.
+    pub fn survey(
+        &self,
+        light: usize,
+        view: usize,
+        target_size: [u32; 2],
+    ) -> Result<VolumeSurvey, VolumeRenderError> {
+        let drawn = self.drawn(light, view)?;
         let screen = Screen {
             size: target_size.map(f64::from),
-            rect: drawn.plan.scissor.map(|(rect, _)| rect),
-            near_is_clipped: drawn.near.ends_faces(),
+            rect: drawn.pair.scissor.map(|(rect, _)| rect),
+            near_is_clipped: self.options().near.ends_faces(),
         };
         let mut surveyor = Surveyor {
             screen,
@@ -75,12 +84,12 @@ impl ShadowVolumeRenderer {
             survey: VolumeSurvey::default(),
         };
         // Draws are sorted by pipeline; a volume's own are needed together.
-        let mut draws: Vec<&Draw> = drawn.plan.draws.iter().filter(|d| !d.is_repeat()).collect();
-        draws.sort_by_key(|draw| draw.caster);
-        for draws in draws.chunk_by(|a, b| a.caster == b.caster) {
+        let mut draws: Vec<&Draw> = drawn.pair.draws.iter().filter(|d| !d.is_repeat()).collect();
+        draws.sort_by_key(|draw| draw.window);
+        for draws in draws.chunk_by(|a, b| a.window == b.window) {
             surveyor.add(&drawn, draws);
         }
-        surveyor.survey
+        Ok(surveyor.survey)
     }
 }
 
@@ -95,7 +104,7 @@ impl Surveyor {
     /// Adds all that is drawn of one volume.
     fn add(&mut self, drawn: &Drawn<'_>, draws: &[&Draw]) {
         let Some(first) = draws.first() else { return };
-        let Some(slot) = drawn.kept.get(first.slot) else {
+        let Some((slot, params)) = drawn.of(first) else {
             return;
         };
         let boxed;
@@ -111,7 +120,7 @@ impl Surveyor {
             }
         };
         self.counts = self.volume.extract(mesh, kind, &slot.instance);
-        let corners = Corners::new(&drawn.plan.casters[first.caster as usize]);
+        let corners = Corners::new(params, drawn);
         for draw in draws {
             match draw.style.faces {
                 Faces::LightCap | Faces::DarkCap => {
@@ -203,14 +212,14 @@ struct Corners {
 }
 
 impl Corners {
-    fn new(params: &CasterParams) -> Self {
+    fn new(params: &CasterParams, drawn: &Drawn<'_>) -> Self {
         let matrix = |m: &[[f32; 4]; 4]| DMat4::from_cols_array_2d(&m.map(|c| c.map(f64::from)));
         let vector = |v: [f32; 4]| DVec4::from(v.map(f64::from));
-        let clip_from_world = matrix(&params.clip_from_world);
+        let clip_from_world = matrix(&drawn.view.clip_from_world);
         Self {
             clip_from_world,
             world_from_object: matrix(&params.world_from_object),
-            light: vector(params.light),
+            light: vector(drawn.light.homogeneous),
             far_plane: vector(params.far_plane).xyz(),
             apex: clip_from_world * vector(params.apex),
             side_vertices: params.side_vertices,

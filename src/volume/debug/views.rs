@@ -3,30 +3,30 @@
 use glam::Mat4;
 use wgpu::util::DeviceExt as _;
 
-use crate::error::VolumeDebugError;
+use crate::error::{ShadowVolumeError, VolumeDebugError, VolumeRenderError};
 use crate::mesh::CasterMesh;
 use crate::volume::debug::colors::{DebugColors, Swatch};
 use crate::volume::debug::pipelines::{
     COLOR_BYTES, CountPipelines, Factory, FeedPipelines, color_layout,
 };
-use crate::volume::decide::decision::validate_casters;
 use crate::volume::decide::method::Count;
 use crate::volume::descriptor::check_depth;
 use crate::volume::gpu::buffers::{spread, window};
 use crate::volume::gpu::draw_calls::record;
-use crate::volume::gpu::draw_pipelines::Feed;
+use crate::volume::gpu::draw_pipelines::{Feed, UNIFORM_SIZES};
 use crate::volume::gpu::layout::bind;
 use crate::volume::light_pass::join::check_color;
 use crate::volume::light_pass::mask::check_target;
 use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::volume::plan::batches::position_words;
 use crate::volume::plan::cache::Slot;
 use crate::volume::plan::faces::{Draw, Faces};
 use crate::volume::plan::limits;
-use crate::volume::plan::params::{Arguments, CasterParams};
+use crate::volume::plan::params::{Arguments, CasterParams, LightParams, ViewParams};
 use crate::volume::renderer::Drawn;
 use crate::volume::silhouette::Way;
 use crate::volume::{ShadowVolumeFrame, ShadowVolumeRenderer};
-use crate::{Caster, DepthConvention};
+use crate::{Caster, DepthConvention, View};
 
 /// The pass that a [`VolumeDebug`] draws into.
 #[derive(Clone, Copy, Debug)]
@@ -117,9 +117,10 @@ impl VolumeDebug {
             colors: &layout,
         };
         let pulls = limits::check_pulling(device).is_ok();
+        let color_step = window::<[f32; 4]>(&device.limits());
         let colors = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(&label),
-            contents: &spread(&descriptor.colors.list(), device),
+            contents: &spread(&descriptor.colors.list(), color_step),
             usage: wgpu::BufferUsages::UNIFORM,
         });
         Ok(Self {
@@ -127,8 +128,8 @@ impl VolumeDebug {
             pulled: pulls.then(|| FeedPipelines::new(&factory, Feed::Pulled)),
             fed: FeedPipelines::new(&factory, Feed::Records),
             counts: CountPipelines::new(&factory),
-            colors: bind(device, &label, &layout, (&colors, COLOR_BYTES), &[]),
-            color_step: window::<[f32; 4]>(&device.limits()) as u32,
+            colors: bind(device, &label, &layout, &[(&colors, COLOR_BYTES)], &[]),
+            color_step,
             casters: Vec::new(),
             label,
         })
@@ -148,60 +149,78 @@ impl VolumeDebug {
         device: &wgpu::Device,
         frame: &ShadowVolumeFrame<'_>,
         renderer: &ShadowVolumeRenderer,
+        light: usize,
+        view: usize,
     ) -> Result<(), VolumeDebugError> {
-        let drawn = renderer.drawn();
-        if drawn.depth != self.depth {
+        if renderer.depth() != self.depth {
             return Err(VolumeDebugError::Depth {
                 debug: self.depth,
-                renderer: drawn.depth,
+                renderer: renderer.depth(),
             });
         }
-        let states = &drawn.plan.states;
+        renderer.drawn(light, view)?;
+        let states = renderer.caster_states(light, view);
         if frame.casters.len() != states.len() {
             return Err(VolumeDebugError::Casters {
                 frame: frame.casters.len(),
                 renderer: states.len(),
             });
         }
-        validate_casters(frame.casters, device)?;
-        let shown = frame.casters.iter().zip(states);
+        for (index, caster) in frame.casters.iter().enumerate() {
+            caster
+                .validate(index, device)
+                .map_err(ShadowVolumeError::from)?;
+            if !caster.mesh.has_adjacency() {
+                return Err(ShadowVolumeError::NoAdjacency { index }.into());
+            }
+        }
+        let shown = frame.casters.iter().zip(&states);
         let shown: Vec<_> = shown
             .filter_map(|(caster, state)| Some((caster, Swatch::of_state(*state)?)))
             .collect();
-        self.casters = self.show(device, frame, &shown);
+        self.casters = self.show(device, &frame.views[view].view, &shown);
         Ok(())
     }
 
     fn show(
         &self,
         device: &wgpu::Device,
-        frame: &ShadowVolumeFrame<'_>,
+        view: &View,
         shown: &[(&Caster, Swatch)],
     ) -> Vec<ShownCaster> {
-        let params: Vec<_> = shown.iter().map(|(c, _)| caster_params(c, frame)).collect();
+        let params: Vec<_> = shown.iter().map(|(c, _)| caster_params(c)).collect();
         if params.is_empty() {
             return Vec::new();
         }
-        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(&self.label),
-            contents: &spread(&params, device),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
-        let step = window::<CasterParams>(&device.limits()) as u32;
-        let places = (0u32..).map(|place| place * step);
-        let uniforms = (&buffer, size_of::<CasterParams>());
-        let show = |(&(caster, swatch), offset): (&(&Caster, Swatch), u32)| {
+        let limits = device.limits();
+        let step = window::<CasterParams>(&limits);
+        let buffer = |contents: &[u8]| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(&self.label),
+                contents,
+                usage: wgpu::BufferUsages::UNIFORM,
+            })
+        };
+        let view = ViewParams::new(view);
+        let no_light: LightParams = bytemuck::Zeroable::zeroed();
+        let buffers = [
+            buffer(&spread(&params, step)),
+            buffer(bytemuck::bytes_of(&view)),
+            buffer(bytemuck::bytes_of(&no_light)),
+        ];
+        let uniforms: Vec<_> = buffers.iter().zip(UNIFORM_SIZES).collect();
+        let show = |(&(caster, swatch), place): (&(&Caster, Swatch), u32)| {
             let mesh = &caster.mesh;
             let (feed, group) = match &self.pulled {
                 Some(pulled) => {
                     // No side is read; any buffer will do.
                     let edges = mesh.edges()?;
                     let buffers = [mesh.positions(), edges, edges];
-                    let group = bind(device, &self.label, &pulled.layout, uniforms, &buffers);
+                    let group = bind(device, &self.label, &pulled.layout, &uniforms, &buffers);
                     (Feed::Pulled, group)
                 }
                 None => {
-                    let group = bind(device, &self.label, &self.fed.layout, uniforms, &[]);
+                    let group = bind(device, &self.label, &self.fed.layout, &uniforms, &[]);
                     (Feed::Records, group)
                 }
             };
@@ -209,11 +228,11 @@ impl VolumeDebug {
                 mesh: mesh.clone(),
                 feed,
                 group,
-                offset,
+                offset: place * step,
                 swatch,
             })
         };
-        shown.iter().zip(places).filter_map(show).collect()
+        shown.iter().zip(0..).filter_map(show).collect()
     }
 
     /// Draws the faces of all volumes that the renderer counts, transparent, where they are before
@@ -222,9 +241,18 @@ impl VolumeDebug {
     ///
     /// Goes where [`ShadowVolumeRenderer::render`] goes: after `encode`, in the same submission or a
     /// later one.
-    pub fn draw_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, renderer: &ShadowVolumeRenderer) {
-        let drawn = renderer.drawn();
-        for draw in drawn.plan.draws.iter().filter(|draw| !draw.is_repeat()) {
+    ///
+    /// # Errors
+    /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view.
+    pub fn draw_surfaces(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        renderer: &ShadowVolumeRenderer,
+        light: usize,
+        view: usize,
+    ) -> Result<(), VolumeRenderError> {
+        let drawn = renderer.drawn(light, view)?;
+        for draw in drawn.pair.draws.iter().filter(|draw| !draw.is_repeat()) {
             let style = draw.style;
             let swatch = match (style.faces, style.count) {
                 (Faces::LightCap, _) => Swatch::LightCaps,
@@ -233,24 +261,40 @@ impl VolumeDebug {
                 (Faces::Sides, Count::Fail) => Swatch::SidesZFail,
             };
             let pipeline = |feed: &FeedPipelines| feed.faces(style.faces).cloned();
-            if let Some(slot) = self.bind(pass, renderer, &drawn, draw, (pipeline, swatch)) {
-                record(pass, draw, slot, &drawn);
+            let bound = (renderer, [light, view]);
+            if self.bind(pass, bound, draw, (pipeline, swatch))
+                && let Some(volume) = drawn.of(draw)
+            {
+                record(pass, draw, volume, drawn.buffers);
             }
         }
+        Ok(())
     }
 
     /// Draws the silhouette edges of all volumes as lines one pixel wide, those behind other
     /// surfaces included: the edges from which sides are extruded.
-    pub fn draw_edges(&self, pass: &mut wgpu::RenderPass<'_>, renderer: &ShadowVolumeRenderer) {
-        let drawn = renderer.drawn();
+    ///
+    /// # Errors
+    /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view.
+    pub fn draw_edges(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        renderer: &ShadowVolumeRenderer,
+        light: usize,
+        view: usize,
+    ) -> Result<(), VolumeRenderError> {
+        let drawn = renderer.drawn(light, view)?;
         let sides = |draw: &&Draw| draw.style.faces == Faces::Sides && !draw.is_repeat();
-        for draw in drawn.plan.draws.iter().filter(sides) {
+        for draw in drawn.pair.draws.iter().filter(sides) {
             let pipeline = |feed: &FeedPipelines| Some(feed.edges.clone());
             let pipeline = (pipeline, Swatch::Edges);
-            if let Some(slot) = self.bind(pass, renderer, &drawn, draw, pipeline) {
-                record_edges(pass, draw, slot, &drawn);
+            if self.bind(pass, (renderer, [light, view]), draw, pipeline)
+                && let Some((slot, _)) = drawn.of(draw)
+            {
+                record_edges(pass, slot, &drawn);
             }
         }
+        Ok(())
     }
 
     /// Colours every sample by the stencil's count, so by the number of volumes that it is in;
@@ -282,7 +326,7 @@ impl VolumeDebug {
                 continue;
             };
             pass.set_pipeline(&feed.casters);
-            pass.set_bind_group(0, &caster.group, &[caster.offset]);
+            pass.set_bind_group(0, &caster.group, &[caster.offset, 0, 0]);
             self.set_color(pass, caster.swatch);
             let mesh = &caster.mesh;
             match caster.feed {
@@ -314,35 +358,40 @@ impl VolumeDebug {
     }
 
     /// Sets pipeline, colour and the volume's own bind group, if all of them are there.
-    fn bind<'a>(
+    fn bind(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        renderer: &ShadowVolumeRenderer,
-        drawn: &Drawn<'a>,
+        (renderer, place): (&ShadowVolumeRenderer, [usize; 2]),
         draw: &Draw,
         (pipeline, swatch): (
             impl Fn(&FeedPipelines) -> Option<wgpu::RenderPipeline>,
             Swatch,
         ),
-    ) -> Option<&'a Slot> {
-        let slot = drawn.kept.get(draw.slot)?;
-        let feed = match slot.way {
-            Way::Vertex => Feed::Records,
-            Way::Compute | Way::Cpu => Feed::Pulled,
+    ) -> bool {
+        let [light, view] = place;
+        let drawn = renderer.drawn(light, view).ok();
+        let way = drawn.and_then(|drawn| Some(drawn.of(draw)?.0.way));
+        let feed = match way {
+            Some(Way::Vertex) => self.feed(Feed::Records),
+            Some(Way::Compute | Way::Cpu) => self.feed(Feed::Pulled),
+            None => None,
         };
-        pass.set_pipeline(&self.feed(feed).and_then(pipeline)?);
+        let Some(pipeline) = feed.and_then(pipeline) else {
+            return false;
+        };
+        pass.set_pipeline(&pipeline);
         self.set_color(pass, swatch);
-        renderer.bind_volume(pass, draw).then_some(slot)
+        renderer.bind_volume(pass, draw, place)
     }
 }
 
 /// Records the lines of one volume, pipeline and bind groups being set.
-fn record_edges(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, drawn: &Drawn<'_>) {
+fn record_edges(pass: &mut wgpu::RenderPass<'_>, slot: &Slot, drawn: &Drawn<'_>) {
     match slot.way {
         Way::Cpu => pass.draw(0..6 * slot.counts.sides, 0..1),
         Way::Compute => {
             if let Some(bound) = drawn.buffers.bound() {
-                let own = u64::from(draw.slot) * size_of::<Arguments>() as u64;
+                let own = u64::from(slot.instance.arguments) * size_of::<Arguments>() as u64;
                 pass.draw_indirect(bound.arguments, own + Arguments::QUADS);
             }
         }
@@ -355,13 +404,12 @@ fn record_edges(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, drawn
     }
 }
 
-fn caster_params(caster: &Caster, frame: &ShadowVolumeFrame<'_>) -> CasterParams {
-    let (stride, offset) = caster.mesh.layout();
+fn caster_params(caster: &Caster) -> CasterParams {
+    let (position_stride, position_offset) = position_words(&caster.mesh);
     CasterParams {
-        clip_from_world: frame.view.clip_from_world().to_cols_array_2d(),
         world_from_object: Mat4::from(caster.world_from_object).to_cols_array_2d(),
-        position_stride: (stride / 4) as u32,
-        position_offset: (offset / 4) as u32,
+        position_stride,
+        position_offset,
         ..bytemuck::Zeroable::zeroed()
     }
 }
@@ -377,10 +425,10 @@ fn validate(
     )?;
     check_color(device, descriptor.color_format, descriptor.sample_count)?;
     check_depth(device, descriptor.depth)?;
-    // The volume's own parameters, and the colour.
+    // Caster, view and light, and the colour.
     limits::check_one(
         "max_dynamic_uniform_buffers_per_pipeline_layout",
-        2,
+        4,
         u64::from(
             device
                 .limits()

@@ -2,10 +2,11 @@
 
 use glam::{DAffine3, DVec3, DVec4, Vec3, Vec4Swizzles as _};
 
-use crate::mesh::{Bounds, MeshKind};
+use crate::mesh::{Bounds, CasterMesh, MeshKind};
+use crate::volume::StartFrom;
 use crate::volume::decide::world_box::WorldBox;
-use crate::volume::{ShadowVolumeFrame, StartFrom};
-use crate::{Caster, DepthConvention, HomogeneousLight, View};
+use crate::volume::frame::Situation;
+use crate::{DepthConvention, HomogeneousLight, View};
 
 /// Which triangles of a mesh count; as the shaders have it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,19 +20,12 @@ pub(crate) enum Counted {
 }
 
 impl Counted {
-    pub fn of(
-        caster: &Caster,
-        world: &WorldBox,
-        frame: &ShadowVolumeFrame<'_>,
-        start: StartFrom,
-    ) -> Self {
+    pub fn of(mesh: &CasterMesh, world: &WorldBox, of: &Situation, start: StartFrom) -> Self {
         match start {
-            _ if counts_both_sides(caster, world, frame.light, frame.view) => Self::All,
+            _ if counts_both_sides(mesh, world, of.light, &of.view) => Self::All,
             // Inside out, the triangles turned away would be those that the light reaches. Where only
             // the GPU knows the positions, the host is believed.
-            StartFrom::AwayFacing if caster.mesh.is_solid() || caster.mesh.data().is_none() => {
-                Self::AwayFacing
-            }
+            StartFrom::AwayFacing if mesh.is_solid() || mesh.data().is_none() => Self::AwayFacing,
             StartFrom::LightFacing | StartFrom::AwayFacing => Self::LightFacing,
         }
     }
@@ -49,12 +43,12 @@ impl Counted {
 /// anything is crossed at all.
 /// With L or the eye inside, f and b differ, and f = 0 may go with b > 0.
 fn counts_both_sides(
-    caster: &Caster,
+    mesh: &CasterMesh,
     world: &WorldBox,
     light: HomogeneousLight,
     view: &View,
 ) -> bool {
-    if caster.mesh.kind() == MeshKind::General {
+    if mesh.kind() == MeshKind::General {
         return true;
     }
     let (near, radius) = view.near_sphere();

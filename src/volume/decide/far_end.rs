@@ -19,8 +19,8 @@
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
 use crate::HomogeneousLight;
-use crate::volume::ShadowVolumeFrame;
 use crate::volume::decide::world_box::{WorldBox, displacement, rounding};
+use crate::volume::frame::Situation;
 
 /// Where far vertices go: see `far_point` in volume_extrude.wgsl.
 #[derive(Clone, Copy, Debug)]
@@ -56,17 +56,17 @@ pub(crate) struct Ends {
 const ROOM: f64 = 1e-3;
 
 impl Ends {
-    pub fn new(frame: &ShadowVolumeFrame<'_>, origins: Vec<DVec4>) -> Self {
-        let range = frame.range.filter(|_| !frame.light.is_directional());
-        let corners = frame.view.near_corners().into_iter();
+    pub fn new(of: &Situation, origins: Vec<DVec4>) -> Self {
+        let range = of.range.filter(|_| !of.light.is_directional());
+        let corners = of.view.near_corners().into_iter();
         let eye = corners.map(DVec3::length).fold(0.0, f64::max);
-        let receivers = frame.receivers.map(|bounds| {
+        let receivers = of.receivers.map(|bounds| {
             let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
             let slack = displacement(min.abs().max(max.abs()).length() + eye);
             [min - slack, max + slack]
         });
         Self {
-            light: frame.light,
+            light: of.light,
             range: range.map(f64::from),
             receivers,
             origins,
@@ -219,12 +219,14 @@ mod tests {
         let projection = rh::proj::directx::perspective_infinite_reverse(0.9, 1.0, 0.1);
         let view = View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap();
         let origins = view.near_corners().map(|corner| corner.extend(1.0));
-        let frame = ShadowVolumeFrame {
+        let situation = Situation {
+            light,
             range: Some(200.0),
+            view,
+            target_size: None,
             receivers: Some(BOX),
-            ..ShadowVolumeFrame::new(&view, light, &[])
         };
-        Ends::new(&frame, origins.to_vec())
+        Ends::new(&situation, origins.to_vec())
     }
 
     /// How far beyond the plane a point is: 0 on it, 1 as far as the light is before it.
@@ -300,15 +302,18 @@ mod tests {
             let projection = rh::proj::directx::perspective_infinite_reverse(0.9, 1.0, 0.1);
             let view = View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap();
             let level = Vec3::new(half, 0.0, half);
-            let frame = ShadowVolumeFrame {
+            let situation = Situation {
+                light,
+                range: None,
+                view,
+                target_size: None,
                 receivers: Some(Bounds {
                     min: -level,
                     max: level,
                 }),
-                ..ShadowVolumeFrame::new(&view, light, &[])
             };
             let origins = view.near_corners().map(|corner| corner.extend(1.0));
-            let ends = Ends::new(&frame, origins.to_vec());
+            let ends = Ends::new(&situation, origins.to_vec());
             let world = WorldBox::new(DVec3::ZERO, level.as_dvec3());
             let end = ends.behind_receivers(&world, ends.infinite(&world));
             assert_eq!(end.plane.xyz(), DVec3::NEG_Y);

@@ -27,13 +27,14 @@
 
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
+use crate::volume::StartFrom;
 use crate::volume::decide::far_end::{Ends, FarEnd};
 use crate::volume::decide::hull::Hull;
 use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::decide::scissor::{self, Rect};
 use crate::volume::decide::world_box::WorldBox;
 use crate::volume::descriptor::ShadowVolumeDescriptor;
-use crate::volume::{ShadowVolumeFrame, StartFrom};
+use crate::volume::frame::Situation;
 use crate::{HomogeneousLight, View};
 
 /// Which of a volume's faces are counted.
@@ -100,11 +101,11 @@ impl Options {
     }
 
     /// What of the target is drawn to, and the target's size; `None` for all of it.
-    pub fn scissor(&self, frame: &ShadowVolumeFrame<'_>) -> Option<(Rect, [u32; 2])> {
-        let target = frame.target_size.filter(|_| self.culling)?;
-        let range = frame.range.filter(|_| !frame.light.is_directional())?;
-        let centre = frame.light.0.xyz().as_dvec3();
-        let rect = scissor::of_sphere(frame.view, centre, range.into(), target);
+    pub fn scissor(&self, of: &Situation) -> Option<(Rect, [u32; 2])> {
+        let target = of.target_size.filter(|_| self.culling)?;
+        let range = of.range.filter(|_| !of.light.is_directional())?;
+        let centre = of.light.0.xyz().as_dvec3();
+        let rect = scissor::of_sphere(&of.view, centre, range.into(), target);
         Some((rect.unwrap_or_default(), target))
     }
 }
@@ -145,7 +146,7 @@ pub(crate) struct Form {
     pub far: FarEnd,
 }
 
-/// What the choices of one frame depend on.
+/// What the choices for one light and view depend on.
 #[derive(Debug)]
 pub(crate) struct Rules {
     options: Options,
@@ -165,11 +166,11 @@ pub(crate) struct Rules {
 }
 
 impl Rules {
-    pub fn new(frame: &ShadowVolumeFrame<'_>, options: Options) -> Self {
-        let light = frame.light.0.as_dvec4();
-        let view = frame.view;
+    pub fn new(of: &Situation, options: Options) -> Self {
+        let light = of.light.0.as_dvec4();
+        let view = &of.view;
         let origins = origins(view, options.near);
-        let ends = Ends::new(frame, origins.clone());
+        let ends = Ends::new(of, origins.clone());
         let range = ends.range;
         let receiving = ends
             .receivers()
@@ -182,7 +183,7 @@ impl Rules {
         frustum.push(unit(light));
         Self {
             options,
-            light: frame.light,
+            light: of.light,
             near: Hull::new(&with(&origins, unit(light))),
             visible: Hull::new(&frustum),
             receiving,

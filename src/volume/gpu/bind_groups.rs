@@ -4,25 +4,24 @@ use std::collections::HashMap;
 
 use crate::mesh::CasterMesh;
 use crate::volume::gpu::buffers::Buffers;
-use crate::volume::gpu::draw_pipelines::DrawPipelines;
+use crate::volume::gpu::draw_pipelines::UNIFORM_SIZES;
 use crate::volume::gpu::layout::bind;
-use crate::volume::plan::cache::{Kept, Slot};
-use crate::volume::plan::faces::{Batch, Plan};
-use crate::volume::plan::params::{BatchParams, CasterParams};
-use crate::volume::silhouette::{Extraction, Way};
-
-/// Mesh and chunk.
-type Key = (u64, usize);
+use crate::volume::gpu::pipelines::OwnPipelines;
+use crate::volume::plan::batches::{Batch, Batches};
+use crate::volume::plan::cache::{MeshChunk, Slot, VolumeCache};
+use crate::volume::plan::params::BatchParams;
+use crate::volume::plan::windows::Windows;
+use crate::volume::silhouette::Way;
 
 /// Bind groups by mesh and chunk.
 #[derive(Debug, Default)]
 pub(crate) struct Groups {
     generation: u64,
-    draw: HashMap<Key, wgpu::BindGroup>,
+    draw: HashMap<MeshChunk, wgpu::BindGroup>,
     /// The facing pass and the edge pass.
-    extraction: HashMap<Key, [wgpu::BindGroup; 2]>,
-    /// For each caster that is drawn, what its draws read.
-    of_caster: Vec<Option<wgpu::BindGroup>>,
+    extraction: HashMap<MeshChunk, [wgpu::BindGroup; 2]>,
+    /// For each window, what its draws read.
+    of_window: Vec<Option<wgpu::BindGroup>>,
 }
 
 /// What bind groups are made of.
@@ -31,15 +30,13 @@ pub(crate) struct Parts<'a> {
     pub device: &'a wgpu::Device,
     pub label: &'a str,
     pub buffers: &'a Buffers,
-    pub extraction: Option<&'a Extraction>,
-    pub pulled: Option<&'a DrawPipelines>,
-    pub fed: Option<&'a DrawPipelines>,
+    pub pipelines: &'a OwnPipelines,
 }
 
 impl Groups {
-    /// What the draws of a caster read, by its place in the plan.
-    pub fn of_caster(&self, place: usize) -> Option<&wgpu::BindGroup> {
-        self.of_caster.get(place)?.as_ref()
+    /// What the draws of a window read.
+    pub fn of_window(&self, number: u32) -> Option<&wgpu::BindGroup> {
+        self.of_window.get(number as usize)?.as_ref()
     }
 
     /// The facing pass and the edge pass of a batch.
@@ -47,60 +44,71 @@ impl Groups {
         self.extraction.get(&(batch.mesh.id(), batch.chunk))
     }
 
-    /// Brings the bind groups up to date with plan and buffers.
-    pub fn update(&mut self, plan: &Plan, kept: &Kept, parts: &Parts<'_>) {
+    /// Brings the bind groups up to date: those of windows that changed, and all if buffers were made
+    /// anew.
+    pub fn update(
+        &mut self,
+        (windows, changed): (&Windows, &[u32]),
+        batches: &Batches,
+        cache: &VolumeCache,
+        parts: &Parts<'_>,
+    ) {
         let generation = parts.buffers.generation();
-        let mut old = std::mem::take(self);
-        if old.generation != generation {
-            old.draw.clear();
-            old.extraction.clear();
+        if self.generation != generation {
+            self.generation = generation;
+            self.draw.clear();
+            self.extraction.clear();
+            self.of_window.clear();
+            self.of_window.resize(windows.len(), None);
+            for (number, window) in windows.iter() {
+                self.set(number, cache.get(window.slot), parts);
+            }
+        } else if !changed.is_empty() {
+            self.of_window.resize(windows.len(), None);
+            for &number in changed {
+                let slot = windows.get(number).and_then(|w| cache.get(w.slot));
+                self.set(number, slot, parts);
+            }
+            // A mesh that nobody draws any more is let go.
+            self.draw.retain(|key, _| cache.has(key));
+            self.extraction.retain(|key, _| cache.has(key));
         }
-        self.generation = generation;
-        for slot in plan.slot_of.iter().map(|&slot| kept.get(slot)) {
-            let group = slot.and_then(|slot| self.draw_group(slot, &mut old, parts));
-            self.of_caster.push(group);
-        }
-        for batch in &plan.batches {
+        for batch in &batches.list {
             let key = (batch.mesh.id(), batch.chunk);
-            if self.extraction.contains_key(&key) {
-                continue;
-            }
-            let group = old.extraction.remove(&key);
-            if let Some(group) = group.or_else(|| parts.extraction(&batch.mesh, batch.chunk)) {
-                self.extraction.insert(key, group);
+            if !self.extraction.contains_key(&key)
+                && let Some(groups) = parts.extraction(&batch.mesh, batch.chunk)
+            {
+                self.extraction.insert(key, groups);
             }
         }
-        // What need not be searched in this frame may move in the next.
-        let drawn = |(key, _): &(Key, _)| self.draw.contains_key(key);
-        self.extraction
-            .extend(old.extraction.into_iter().filter(drawn));
     }
 
-    fn draw_group(
-        &mut self,
-        slot: &Slot,
-        old: &mut Self,
-        parts: &Parts<'_>,
-    ) -> Option<wgpu::BindGroup> {
-        let key = (slot.mesh.id(), slot.place.chunk);
-        if let Some(group) = self.draw.get(&key) {
-            return Some(group.clone());
-        }
-        let group = old.draw.remove(&key).or_else(|| parts.draw(slot))?;
-        self.draw.insert(key, group.clone());
-        Some(group)
+    fn set(&mut self, number: u32, slot: Option<&Slot>, parts: &Parts<'_>) {
+        let group = slot.and_then(|slot| {
+            let key = (slot.mesh.id(), slot.place.chunk);
+            if let Some(group) = self.draw.get(&key) {
+                return Some(group.clone());
+            }
+            let group = parts.draw(slot)?;
+            self.draw.insert(key, group.clone());
+            Some(group)
+        });
+        self.of_window[number as usize] = group;
     }
 }
 
 impl Parts<'_> {
     fn draw(&self, slot: &Slot) -> Option<wgpu::BindGroup> {
-        let window = (self.buffers.casters()?, size_of::<CasterParams>());
+        let [casters, views, lights] = self.buffers.uniforms()?;
+        let [caster, view, light] = UNIFORM_SIZES;
+        let windows = [(casters, caster), (views, view), (lights, light)];
+        let bind = |layout, buffers: &[_]| bind(self.device, self.label, layout, &windows, buffers);
         match slot.way {
-            Way::Vertex => Some(self.bind(&self.fed?.layout, window, &[])),
+            Way::Vertex => Some(bind(&self.pipelines.fed.as_ref()?.layout, &[])),
             Way::Compute | Way::Cpu => {
                 let [_, _, sides] = self.buffers.chunk(slot.place.chunk)?;
                 let buffers = [slot.mesh.positions(), slot.mesh.edges()?, sides];
-                Some(self.bind(&self.pulled?.layout, window, &buffers))
+                Some(bind(&self.pipelines.pulled.as_ref()?.layout, &buffers))
             }
         }
     }
@@ -108,8 +116,8 @@ impl Parts<'_> {
     fn extraction(&self, mesh: &CasterMesh, chunk: usize) -> Option<[wgpu::BindGroup; 2]> {
         let bound = self.buffers.bound()?;
         let [facings, caps, sides] = self.buffers.chunk(chunk)?;
-        let extraction = self.extraction?;
-        let params = (bound.batches, size_of::<BatchParams>());
+        let extraction = self.pipelines.extraction.as_ref()?;
+        let params = [(bound.batches, size_of::<BatchParams>())];
         let (instances, arguments) = (bound.instances, bound.arguments);
         // A closed mesh has no list of uses, and its passes read none; any buffer will do there.
         let edges = mesh.edges()?;
@@ -117,18 +125,10 @@ impl Parts<'_> {
         let (positions, triangles) = (mesh.positions(), mesh.triangles());
         let facing = [instances, arguments, positions, triangles, facings, caps];
         let edges = [instances, arguments, edges, uses, facings, sides];
+        let bind = |layout, buffers: &[_]| bind(self.device, self.label, layout, &params, buffers);
         Some([
-            self.bind(&extraction.facing.layout, params, &facing),
-            self.bind(&extraction.edges.layout, params, &edges),
+            bind(&extraction.facing.layout, &facing),
+            bind(&extraction.edges.layout, &edges),
         ])
-    }
-
-    fn bind(
-        &self,
-        layout: &wgpu::BindGroupLayout,
-        window: (&wgpu::Buffer, usize),
-        buffers: &[&wgpu::Buffer],
-    ) -> wgpu::BindGroup {
-        bind(self.device, self.label, layout, window, buffers)
     }
 }

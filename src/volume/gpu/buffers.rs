@@ -1,10 +1,14 @@
 //! The GPU memory of the renderer: grown when a frame needs more, kept between frames.
 
 use crate::uploads::Uploads;
-use crate::volume::plan::cache::Kept;
-use crate::volume::plan::faces::{Plan, PlanLimits};
-use crate::volume::plan::params::{Arguments, BatchParams, CasterParams, InstanceParams};
+use crate::volume::plan::batches::Batches;
+use crate::volume::plan::cache::VolumeCache;
+use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::params::{
+    Arguments, BatchParams, CasterParams, InstanceParams, LightParams, ViewParams,
+};
 use crate::volume::plan::ranges::NAMES;
+use crate::volume::plan::windows::Windows;
 use crate::volume::silhouette::{Way, Ways};
 
 /// A buffer that grows.
@@ -15,6 +19,8 @@ struct Grown {
     buffer: Option<wgpu::Buffer>,
     /// Whether later frames read what this one writes.
     keeps: bool,
+    /// What [`write_changed`](Self::write_changed) has written.
+    written: Vec<u8>,
 }
 
 impl Grown {
@@ -24,6 +30,7 @@ impl Grown {
             usage,
             buffer: None,
             keeps: false,
+            written: Vec::new(),
         }
     }
 
@@ -34,6 +41,25 @@ impl Grown {
             keeps: true,
             ..Self::new(label, usage | U::COPY_SRC | U::COPY_DST)
         }
+    }
+
+    /// Has the items written that are not there yet, so many bytes apart.
+    fn write_changed<T: bytemuck::NoUninit>(
+        &mut self,
+        uploads: &mut Uploads,
+        items: &[T],
+        window: u32,
+    ) {
+        let Some(buffer) = &self.buffer else { return };
+        let bytes = spread(items, window);
+        let windows = bytes.chunks(window as usize);
+        for (offset, new) in (0..).step_by(window as usize).zip(windows) {
+            let old = self.written.get(offset..offset + new.len());
+            if old != Some(new) {
+                uploads.write(buffer, offset as u64, new);
+            }
+        }
+        self.written = bytes;
     }
 
     fn size(&self) -> u64 {
@@ -79,9 +105,20 @@ pub(crate) struct Buffers {
     instances: Grown,
     arguments: Grown,
     casters: Grown,
+    views: Grown,
+    lights: Grown,
     chunks: Vec<[Grown; 3]>,
     /// Grows by one whenever a buffer was made anew: bind groups of before are then stale.
     generation: u64,
+}
+
+/// What a frame has to have in its buffers.
+pub(crate) struct Needs<'a> {
+    pub windows: &'a Windows,
+    pub views: &'a [ViewParams],
+    pub lights: &'a [LightParams],
+    pub batches: &'a Batches,
+    pub cache: &'a VolumeCache,
 }
 
 /// The buffers that compute shaders read and write, besides a chunk's.
@@ -100,23 +137,24 @@ impl Buffers {
             batches: Grown::new(name("batches"), U::UNIFORM | U::COPY_DST),
             instances: Grown::new(name("instances"), U::STORAGE | U::COPY_DST),
             arguments: Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
-            casters: Grown::new(name("casters"), U::UNIFORM | U::COPY_DST),
+            casters: Grown::keeping(name("casters"), U::UNIFORM),
+            views: Grown::keeping(name("views"), U::UNIFORM),
+            lights: Grown::keeping(name("lights"), U::UNIFORM),
             chunks: Vec::new(),
             generation: 0,
         }
     }
 
-    /// Makes room for a plan. Bind groups of before are stale if the
+    /// Makes room for a frame. Bind groups of before are stale if the
     /// [`generation`](Self::generation) changes.
     pub fn reserve(
         &mut self,
         device: &wgpu::Device,
         uploads: &mut Uploads,
-        (plan, kept): (&Plan, &Kept),
+        needs: &Needs<'_>,
         limits: &PlanLimits,
     ) {
-        let device_limits = device.limits();
-        let (most, storage) = (device_limits.max_buffer_size, limits.storage_bytes);
+        let (most, storage) = (limits.buffer_bytes, limits.storage_bytes);
         let mut grower = Grower {
             device,
             uploads,
@@ -125,17 +163,27 @@ impl Buffers {
         let mut grow = |grown: &mut Grown, count: usize, each: u64, most: u64| {
             grower.grow(grown, count as u64 * each, most);
         };
-        let caster = window::<CasterParams>(&device_limits);
-        grow(&mut self.casters, plan.casters.len(), caster, most);
-        if !plan.batches.is_empty() {
-            let batch = window::<BatchParams>(&device_limits);
-            grow(&mut self.batches, plan.batches.len(), batch, most);
+        let windows = limits.caster_window.into();
+        grow(&mut self.casters, needs.windows.len(), windows, most);
+        let [views, lights] = [needs.views.len(), needs.lights.len()];
+        grow(&mut self.views, views, limits.view_window.into(), most);
+        grow(&mut self.lights, lights, limits.light_window.into(), most);
+        let batches = needs.batches;
+        if !batches.list.is_empty() {
+            let batch = limits.batch_window.into();
+            grow(&mut self.batches, batches.list.len(), batch, most);
             let instance = size_of::<InstanceParams>() as u64;
-            grow(&mut self.instances, plan.instances.len(), instance, storage);
+            let instances = batches.instances.len();
+            grow(&mut self.instances, instances, instance, storage);
             let arguments = size_of::<Arguments>() as u64;
-            grow(&mut self.arguments, kept.len(), arguments, storage);
+            grow(
+                &mut self.arguments,
+                needs.cache.arguments(),
+                arguments,
+                storage,
+            );
         }
-        for (place, words) in kept.regions().ends().enumerate() {
+        for (place, words) in needs.cache.regions().ends().enumerate() {
             if place == self.chunks.len() {
                 self.chunks.push(chunk(&self.label, place));
             }
@@ -146,20 +194,45 @@ impl Buffers {
         self.generation += u64::from(grower.made);
     }
 
-    /// Has everything written but what was extracted. There is room for it.
-    pub fn write(&self, device: &wgpu::Device, uploads: &mut Uploads, plan: &Plan) {
-        if let Some(casters) = self.casters() {
-            uploads.write(casters, 0, &spread(&plan.casters, device));
+    /// Has the windows written that changed, and what extraction needs. There is room for it.
+    pub fn write(
+        &mut self,
+        uploads: &mut Uploads,
+        needs: &Needs<'_>,
+        changed: &[u32],
+        limits: &PlanLimits,
+    ) {
+        if let Some(casters) = self.casters.buffer.as_ref() {
+            let params = |number: u32| needs.windows.get(number).map(|window| window.params);
+            for run in changed.chunk_by(|a, b| a + 1 == *b) {
+                let params: Vec<CasterParams> = run.iter().filter_map(|n| params(*n)).collect();
+                let offset = u64::from(run[0]) * u64::from(limits.caster_window);
+                uploads.write(casters, offset, &spread(&params, limits.caster_window));
+            }
         }
-        let Some(bound) = self.bound().filter(|_| !plan.batches.is_empty()) else {
+        self.views
+            .write_changed(uploads, needs.views, limits.view_window);
+        self.lights
+            .write_changed(uploads, needs.lights, limits.light_window);
+        self.write_batches(uploads, needs.batches, limits);
+    }
+
+    /// Has views and lights written again, whatever was written before.
+    pub fn renew(&mut self) {
+        self.views.written.clear();
+        self.lights.written.clear();
+    }
+
+    fn write_batches(&self, uploads: &mut Uploads, batches: &Batches, limits: &PlanLimits) {
+        let Some(bound) = self.bound().filter(|_| !batches.list.is_empty()) else {
             return;
         };
-        let batches: Vec<BatchParams> = plan.batches.iter().map(|b| b.params).collect();
-        uploads.write(bound.batches, 0, &spread(&batches, device));
-        uploads.write(bound.instances, 0, bytemuck::cast_slice(&plan.instances));
-        let mut rest = &plan.arguments[..];
+        let params: Vec<BatchParams> = batches.list.iter().map(|b| b.params).collect();
+        uploads.write(bound.batches, 0, &spread(&params, limits.batch_window));
+        uploads.write(bound.instances, 0, bytemuck::cast_slice(&batches.instances));
+        let mut rest = &batches.arguments[..];
         while let Some(&(first, _)) = rest.first() {
-            let follows = |(at, (slot, _)): (u32, &(u32, Arguments))| *slot == first + at;
+            let follows = |(at, (number, _)): (u32, &(u32, Arguments))| *number == first + at;
             let run = (0..).zip(rest).take_while(|&pair| follows(pair)).count();
             let (now, later) = rest.split_at(run);
             let arguments: Vec<Arguments> = now.iter().map(|(_, own)| *own).collect();
@@ -183,9 +256,13 @@ impl Buffers {
         })
     }
 
-    /// The parameters of the casters, once there are any.
-    pub fn casters(&self) -> Option<&wgpu::Buffer> {
-        self.casters.buffer.as_ref()
+    /// The parameters of casters, views and lights, once there are any.
+    pub fn uniforms(&self) -> Option<[&wgpu::Buffer; 3]> {
+        Some([
+            self.casters.buffer.as_ref()?,
+            self.views.buffer.as_ref()?,
+            self.lights.buffer.as_ref()?,
+        ])
     }
 
     /// Facings, caps and sides of a chunk.
@@ -205,6 +282,8 @@ impl Buffers {
             &self.instances,
             &self.arguments,
             &self.casters,
+            &self.views,
+            &self.lights,
         ]
         .into_iter()
         .chain(self.chunks.iter().flatten())
@@ -225,13 +304,13 @@ fn chunk(label: &str, place: usize) -> [Grown; 3] {
 }
 
 /// Bytes from one uniform window to the next.
-pub(crate) fn window<T>(limits: &wgpu::Limits) -> u64 {
-    (size_of::<T>() as u64).next_multiple_of(u64::from(limits.min_uniform_buffer_offset_alignment))
+pub(crate) fn window<T>(limits: &wgpu::Limits) -> u32 {
+    (size_of::<T>() as u32).next_multiple_of(limits.min_uniform_buffer_offset_alignment)
 }
 
-/// Items one window after another.
-pub(crate) fn spread<T: bytemuck::NoUninit>(items: &[T], device: &wgpu::Device) -> Vec<u8> {
-    let window = window::<T>(&device.limits()) as usize;
+/// Items one after another, so many bytes apart.
+pub(crate) fn spread<T: bytemuck::NoUninit>(items: &[T], window: u32) -> Vec<u8> {
+    let window = window as usize;
     let mut bytes = vec![0; window * items.len()];
     for (target, item) in bytes.chunks_exact_mut(window).zip(items) {
         target[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
@@ -248,21 +327,24 @@ impl PlanLimits {
         // Dynamic offsets are 32 bits wide.
         let uniform_bytes = limits.max_buffer_size.min(u64::from(u32::MAX));
         let of_compute = [
-            uniform_bytes / window::<BatchParams>(limits),
+            uniform_bytes / u64::from(window::<BatchParams>(limits)),
             storage_bytes / size_of::<InstanceParams>() as u64,
             storage_bytes / size_of::<Arguments>() as u64,
         ];
         let of_compute = of_compute
             .into_iter()
             .filter(|_| ways.contain(Way::Compute));
-        let casters = of_compute.fold(uniform_bytes / window::<CasterParams>(limits), u64::min);
+        let windows = uniform_bytes / u64::from(window::<CasterParams>(limits));
+        let casters = of_compute.fold(windows, u64::min);
         Self {
             buffer_bytes: limits.max_buffer_size,
             storage_bytes,
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,
-            caster_window: window::<CasterParams>(limits) as u32,
-            batch_window: window::<BatchParams>(limits) as u32,
+            caster_window: window::<CasterParams>(limits),
+            view_window: window::<ViewParams>(limits),
+            light_window: window::<LightParams>(limits),
+            batch_window: window::<BatchParams>(limits),
         }
     }
 }

@@ -2,16 +2,19 @@
 
 use crate::mesh::{CasterMesh, MeshKind};
 use crate::volume::decide::facing::Counted;
+use crate::volume::gpu::buffers::Buffers;
 use crate::volume::plan::cache::Slot;
 use crate::volume::plan::faces::{Draw, Faces};
 use crate::volume::plan::params::{Arguments, CasterParams};
-use crate::volume::renderer::Drawn;
 use crate::volume::silhouette::Way;
 
 /// Records one draw, its pipeline and bind group being set.
-pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, drawn: &Drawn<'_>) {
-    let buffers = drawn.buffers;
-    let caster = &drawn.plan.casters[draw.caster as usize];
+pub(crate) fn record(
+    pass: &mut wgpu::RenderPass<'_>,
+    draw: &Draw,
+    (slot, caster): (&Slot, &CasterParams),
+    buffers: &Buffers,
+) {
     match slot.way {
         Way::Vertex => record_all(pass, draw.style.faces, &slot.mesh, caster),
         Way::Cpu => {
@@ -34,7 +37,7 @@ pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, draw: &Draw, slot: &Slot, 
             let (Some(bound), Some([_, caps, _])) = (buffers.bound(), chunk) else {
                 return;
             };
-            let own = u64::from(draw.slot) * size_of::<Arguments>() as u64;
+            let own = u64::from(slot.instance.arguments) * size_of::<Arguments>() as u64;
             match vertices_a_side(draw.style.faces, caster) {
                 Some(3) => return pass.draw_indirect(bound.arguments, own + Arguments::TRIANGLES),
                 Some(_) => return pass.draw_indirect(bound.arguments, own + Arguments::QUADS),

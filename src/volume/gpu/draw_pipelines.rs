@@ -7,7 +7,7 @@ use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::gpu::counter::{self, Counter, Counting};
 use crate::volume::gpu::layout::{storage, uniform};
 use crate::volume::plan::faces::Faces;
-use crate::volume::plan::params::CasterParams;
+use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
 use crate::volume::silhouette::LIGHT_SIDE;
 use crate::volume::{ShadowVolumeDescriptor, StartFrom};
 use crate::wgsl::POSITION;
@@ -34,6 +34,13 @@ const SIDE_BIAS_ULPS: i32 = 2;
 /// They lie behind everything that is to be shadowed, but perhaps by less than the depth format can
 /// tell or the rasteriser rounds. (In z-pass they are drawn where rays start beyond them.)
 const DARK_CAP_BIAS_ULPS: i32 = 16;
+
+/// Bytes of a caster, a view and a light, bindings 0 to 2.
+pub(crate) const UNIFORM_SIZES: [usize; 3] = [
+    size_of::<CasterParams>(),
+    size_of::<ViewParams>(),
+    size_of::<LightParams>(),
+];
 
 /// What the vertex shaders work from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +71,7 @@ impl Feed {
         }
     }
 
-    /// Storage buffers at bindings 1 and on: positions, edges, sides.
+    /// Storage buffers at bindings 3 and on: positions, edges, sides.
     fn storage_buffers(self) -> u32 {
         match self {
             Self::Pulled => 3,
@@ -72,11 +79,15 @@ impl Feed {
         }
     }
 
-    /// Binds caster and, where they are pulled, positions, edges, sides.
+    /// Binds caster, view, light and, where they are pulled, positions, edges, sides.
     pub(crate) fn layout(self, device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
         let stage = wgpu::ShaderStages::VERTEX;
-        let mut entries = vec![uniform(stage, size_of::<CasterParams>())];
-        entries.extend((1..=self.storage_buffers()).map(|binding| storage(binding, stage, true)));
+        let sizes = (0..).zip(UNIFORM_SIZES);
+        let mut entries: Vec<_> = sizes
+            .map(|(binding, size)| uniform(binding, stage, size))
+            .collect();
+        let last = 3 + self.storage_buffers();
+        entries.extend((3..last).map(|binding| storage(binding, stage, true)));
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(label),
             entries: &entries,
@@ -131,7 +142,7 @@ const LABEL: &str = "shadows volume";
 #[derive(Clone, Debug)]
 pub(crate) struct DrawPipelines {
     feed: Feed,
-    /// Binds caster and, where they are pulled, positions, edges, sides.
+    /// Binds caster, view, light and, where they are pulled, positions, edges, sides.
     pub layout: wgpu::BindGroupLayout,
     pipelines: Vec<(Style, wgpu::RenderPipeline)>,
 }

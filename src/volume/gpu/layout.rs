@@ -1,9 +1,13 @@
 //! Shorthands for bind group layouts.
 
 /// A uniform buffer whose place in the buffer is given when it is bound.
-pub(crate) fn uniform(visibility: wgpu::ShaderStages, size: usize) -> wgpu::BindGroupLayoutEntry {
+pub(crate) fn uniform(
+    binding: u32,
+    visibility: wgpu::ShaderStages,
+    size: usize,
+) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
-        binding: 0,
+        binding,
         visibility,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
@@ -32,31 +36,27 @@ pub(crate) fn storage(
     }
 }
 
-/// A bind group of one uniform window of `size` bytes at binding 0 and whole buffers after it.
+/// A bind group of uniform windows, each of so many bytes, from binding 0 on, and whole buffers after
+/// them.
 pub(crate) fn bind(
     device: &wgpu::Device,
     label: &str,
     layout: &wgpu::BindGroupLayout,
-    window: (&wgpu::Buffer, usize),
+    windows: &[(&wgpu::Buffer, usize)],
     buffers: &[&wgpu::Buffer],
 ) -> wgpu::BindGroup {
-    let (uniforms, size) = window;
-    let uniform = wgpu::BindGroupEntry {
-        binding: 0,
-        resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: uniforms,
+    let uniforms = windows.iter().map(|(buffer, size)| {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer,
             offset: 0,
-            size: wgpu::BufferSize::new(size as u64),
-        }),
-    };
-    let storage = buffers
-        .iter()
-        .zip(1..)
-        .map(|(buffer, binding)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        });
-    let entries: Vec<_> = std::iter::once(uniform).chain(storage).collect();
+            size: wgpu::BufferSize::new(*size as u64),
+        })
+    });
+    let storage = buffers.iter().map(|buffer| buffer.as_entire_binding());
+    let entries: Vec<_> = (0..)
+        .zip(uniforms.chain(storage))
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some(label),
         layout,

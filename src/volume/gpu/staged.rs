@@ -17,12 +17,12 @@ struct Run {
 
 /// Caps and sides of volumes, staged in few pieces.
 #[derive(Default)]
-pub(crate) struct Found {
+pub(crate) struct StagedVolumes {
     streams: [Stream; 2],
     runs: [Vec<Run>; 2],
 }
 
-impl Found {
+impl StagedVolumes {
     /// Stages a volume that has its place.
     pub fn add(&mut self, uploads: &mut Uploads, volume: &CpuVolume, mesh: &MeshData, slot: &Slot) {
         let at = |word: u32| u64::from(word) * 4;

@@ -1,24 +1,22 @@
-//! The volumes that the buffers hold, from frame to frame.
+//! The volumes that the buffers hold, from frame to frame, for all lights and views.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
 
-use crate::Caster;
 use crate::mesh::CasterMesh;
-use crate::volume::decide::decision::Subject;
-use crate::volume::decide::facing::{Counted, ObjectLight};
+use crate::volume::decide::decision::{KnownCaster, Volume, words};
+use crate::volume::decide::facing::Counted;
+use crate::volume::plan::limits::PlanLimits;
 use crate::volume::plan::params::InstanceParams;
 use crate::volume::plan::ranges::{Place, Regions, Words};
 use crate::volume::silhouette::{Counts, Way};
 
-/// What a volume follows from: equal keys, equal volumes. This is a caster's identity, wherever it
-/// stands in the host's list.
+/// What a volume follows from: equal keys, equal volumes.
 ///
 /// The light is the one in the mesh's own space: a caster and a light that stand still keep their
 /// volume, whatever the camera does, and casters of one mesh that the light meets alike (as the sun
-/// meets all that are turned alike) share one.
+/// meets all that are turned alike) share one, as do several views of one light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Key {
+struct Key {
     mesh: u64,
     revision: u64,
     light: [u32; 4],
@@ -27,64 +25,85 @@ pub(crate) struct Key {
     way: Way,
 }
 
-impl Key {
-    pub fn new(mesh: &CasterMesh, light: &ObjectLight, counted: Counted, way: Way) -> Self {
-        Self {
-            mesh: mesh.id(),
-            revision: mesh.revision(),
-            light: light.light.map(f32::to_bits),
-            light_rest: light.rest.map(f32::to_bits),
-            counted,
-            way,
-        }
-    }
-}
+/// A mesh, and the chunk of buffers that volumes of it are in.
+pub(crate) type MeshChunk = (u64, usize);
 
-/// A volume that has a place in the buffers.
+/// A volume that somebody draws, or keeps.
 #[derive(Clone, Debug)]
 pub(crate) struct Slot {
     pub mesh: CasterMesh,
     pub way: Way,
+    /// Where it lies, if it was found.
     pub place: Place,
-    /// The size of its place.
-    words: Words,
     pub instance: InstanceParams,
     /// The size of a volume that was found on the CPU.
     pub counts: Counts,
     /// No point is in it more often than this; `None` until somebody asks.
     pub layers: Option<u64>,
     key: Key,
-    /// The last frame that had a caster of it.
-    seen: u64,
+    /// Whether it has its place, which is of this size.
+    found: bool,
+    words: Words,
+    /// Casters (under lights, in views) that have it, and those of them that are drawn.
+    users: u32,
+    drawn: u32,
 }
 
-/// All slots, by numbers that stay theirs while they are kept.
+/// All slots, by numbers that stay theirs as long as they have users.
 #[derive(Debug)]
-pub(crate) struct Kept {
+pub(crate) struct VolumeCache {
     slots: Vec<Option<Slot>>,
-    /// Numbers without a slot, the least last.
+    /// Numbers without a slot.
     free: Vec<u32>,
     by_key: HashMap<Key, u32>,
-    /// For each subject of the last frame, its slot.
-    order: Vec<Option<u32>>,
-    /// Those whose volumes this frame has to find.
-    wanted: Vec<u32>,
+    /// Drawn and not found, some of them more than once, some no longer.
+    unfound: Vec<u32>,
+    /// Without users, some of them no longer.
+    unused: Vec<u32>,
     regions: Regions,
-    /// Counts the frames.
-    frame: u64,
+    /// Words of all that was found.
+    held: Words,
+    arguments: Numbers,
+    /// How many volumes of a mesh lie in a chunk.
+    users_of: HashMap<MeshChunk, u32>,
+    /// The volumes found for the last frame.
+    last_found: Vec<u32>,
 }
 
-impl Kept {
+/// Numbers of indirect arguments.
+#[derive(Debug, Default)]
+struct Numbers {
+    end: u32,
+    free: BTreeSet<u32>,
+}
+
+impl Numbers {
+    fn take(&mut self) -> u32 {
+        self.free.pop_first().unwrap_or_else(|| {
+            self.end += 1;
+            self.end - 1
+        })
+    }
+
+    fn in_use(&self) -> usize {
+        self.end as usize - self.free.len()
+    }
+}
+
+impl VolumeCache {
     /// `bytes`: the largest storage buffer that can be made and bound.
     pub fn new(bytes: u64) -> Self {
         Self {
             slots: Vec::new(),
             free: Vec::new(),
             by_key: HashMap::new(),
-            order: Vec::new(),
-            wanted: Vec::new(),
+            unfound: Vec::new(),
+            unused: Vec::new(),
             regions: Regions::new(bytes),
-            frame: 0,
+            held: [0; 3],
+            arguments: Numbers::default(),
+            users_of: HashMap::new(),
+            last_found: Vec::new(),
         }
     }
 
@@ -92,9 +111,9 @@ impl Kept {
         &self.regions
     }
 
-    /// How many numbers there are.
-    pub fn len(&self) -> usize {
-        self.slots.len()
+    /// How many indirect arguments there are.
+    pub fn arguments(&self) -> usize {
+        self.arguments.end as usize
     }
 
     pub fn get(&self, slot: u32) -> Option<&Slot> {
@@ -105,77 +124,128 @@ impl Kept {
         self.slots.get_mut(slot as usize)?.as_mut()
     }
 
-    /// The slots whose volumes this frame has to find, those of one mesh together.
-    pub fn wanted(&self) -> &[u32] {
-        &self.wanted
+    /// Whether a volume of a mesh lies in a chunk.
+    pub fn has(&self, key: &MeshChunk) -> bool {
+        self.users_of.contains_key(key)
     }
 
-    /// For each subject that [`update`](Self::update) was given, its slot; those out of view need
-    /// not have one.
-    pub fn order(&self) -> &[Option<u32>] {
-        &self.order
+    /// The volumes found for the last frame.
+    pub fn last_found(&self) -> &[u32] {
+        &self.last_found
     }
 
-    /// Lets everything go.
-    pub fn clear(&mut self) {
-        for slot in 0..self.slots.len() as u32 {
-            self.remove(slot);
+    /// One user more of a volume, which is drawn or only kept.
+    pub fn acquire(&mut self, volume: &Volume, known: &KnownCaster, drawn: bool) -> u32 {
+        let key = Key {
+            mesh: known.mesh().id(),
+            revision: known.mesh().revision(),
+            light: volume.light.light.map(f32::to_bits),
+            light_rest: volume.light.rest.map(f32::to_bits),
+            counted: volume.counted,
+            way: known.way,
+        };
+        let number = match self.by_key.get(&key) {
+            Some(number) => *number,
+            None => self.insert(key, volume, known.mesh()),
+        };
+        if let Some(slot) = self.get_mut(number) {
+            slot.users += 1;
+            slot.drawn += u32::from(drawn);
+            if drawn && !slot.found {
+                self.unfound.push(number);
+            }
         }
-        self.wanted.clear();
-        self.order.clear();
-        self.sort_free();
+        number
     }
 
-    /// Lets go what was wanted and never found.
-    pub fn forget_wanted(&mut self) {
-        for slot in std::mem::take(&mut self.wanted) {
-            self.remove(slot);
+    /// One user less, which had it drawn or only kept. The volume stays until the next
+    /// [`sweep`](Self::sweep).
+    pub fn release(&mut self, number: u32, drawn: bool) {
+        let Some(slot) = self.get_mut(number) else {
+            return;
+        };
+        slot.users = slot.users.saturating_sub(1);
+        slot.drawn = slot.drawn.saturating_sub(u32::from(drawn));
+        if slot.users == 0 {
+            self.unused.push(number);
         }
     }
 
-    /// Finds the subjects' slots by what they are, lets go of what no subject has any more, and makes
-    /// slots for what is drawn and has none.
-    pub fn update(&mut self, subjects: &[Subject], casters: &[Caster]) {
-        self.frame += 1;
-        self.wanted.clear();
-        let last = std::mem::take(&mut self.order);
-        self.order.reserve(subjects.len());
-        for (at, subject) in subjects.iter().enumerate() {
-            // Most stand where they stood in the last frame's list.
-            let here = last.get(at).copied().flatten();
-            let here = here.filter(|&slot| self.get(slot).is_some_and(|s| s.key == subject.key));
-            let found = here.or_else(|| self.by_key.get(&subject.key).copied());
-            if let Some(slot) = found {
-                let frame = self.frame;
-                if let Some(slot) = self.get_mut(slot) {
-                    slot.seen = frame;
+    /// Lets go of what has no users.
+    pub fn sweep(&mut self) {
+        for number in std::mem::take(&mut self.unused) {
+            if self.get(number).is_none_or(|slot| slot.users > 0) {
+                continue;
+            }
+            self.forget(number);
+            if let Some(slot) = self.slots[number as usize].take() {
+                self.by_key.remove(&slot.key);
+                self.free.push(number);
+            }
+        }
+    }
+
+    /// Has everything found anew.
+    pub fn forget_all(&mut self) {
+        for number in 0..self.slots.len() as u32 {
+            self.forget(number);
+        }
+    }
+
+    /// Has what was found for the last frame found anew.
+    pub fn forget_last(&mut self) {
+        for number in std::mem::take(&mut self.last_found) {
+            self.forget(number);
+        }
+    }
+
+    /// What is drawn and has to be found now, the volumes of one mesh together. If it does not fit
+    /// beside what is kept for casters out of view, that is let go.
+    pub fn take_wanted(&mut self, limits: &PlanLimits) -> Vec<u32> {
+        let mut wanted = std::mem::take(&mut self.unfound);
+        wanted.sort_unstable();
+        wanted.dedup();
+        let is_wanted = |slot: &Slot| slot.drawn > 0 && !slot.found;
+        wanted.retain(|&number| self.get(number).is_some_and(is_wanted));
+        wanted.sort_by_key(|&number| self.get(number).map(|slot| slot.mesh.id()));
+        let mut total = self.held;
+        for slot in wanted.iter().filter_map(|&number| self.get(number)) {
+            for (total, words) in total.iter_mut().zip(words(&slot.mesh, slot.way)) {
+                *total += words;
+            }
+        }
+        let most = limits.storage_bytes / 4;
+        let crowded = total.iter().any(|words| *words > most)
+            || self.arguments.in_use() + wanted.len() > limits.casters;
+        if crowded {
+            for number in 0..self.slots.len() as u32 {
+                if self.get(number).is_some_and(|slot| slot.drawn == 0) {
+                    self.forget(number);
                 }
             }
-            self.order.push(found);
         }
-        for slot in 0..self.slots.len() as u32 {
-            if self.get(slot).is_some_and(|s| s.seen != self.frame) {
-                self.remove(slot);
-            }
-        }
-        self.sort_free();
-        for (at, subject) in subjects.iter().enumerate() {
-            if self.order[at].is_none() && subject.form.is_some() {
-                self.order[at] = Some(self.insert(subject, &casters[subject.index].mesh));
-            }
-        }
+        self.last_found.clone_from(&wanted);
+        wanted
     }
 
     /// Gives a wanted slot its place.
-    pub fn place(&mut self, slot: u32, words: Words) {
+    pub fn place(&mut self, number: u32, words: Words) {
         let place = self.regions.take(words);
-        if let Some(slot) = self.get_mut(slot) {
-            slot.place = place;
-            slot.words = words;
-            slot.instance.facing_base = place.facing;
-            slot.instance.cap_base = place.cap;
-            slot.instance.side_base = place.side;
+        let Some(slot) = (self.slots.get_mut(number as usize)).and_then(Option::as_mut) else {
+            return;
+        };
+        slot.found = true;
+        slot.place = place;
+        slot.words = words;
+        slot.instance.facing_base = place.facing;
+        slot.instance.cap_base = place.cap;
+        slot.instance.side_base = place.side;
+        if slot.way == Way::Compute {
+            slot.instance.arguments = self.arguments.take();
         }
+        let key = (slot.mesh.id(), place.chunk);
+        *self.users_of.entry(key).or_default() += 1;
+        (self.held.iter_mut().zip(words)).for_each(|(held, words)| *held += words);
     }
 
     /// The same for one that the CPU has found, which takes no more than it came to.
@@ -187,51 +257,54 @@ impl Kept {
         }
     }
 
-    fn insert(&mut self, subject: &Subject, mesh: &CasterMesh) -> u32 {
-        let entry = match self.by_key.entry(subject.key) {
-            // A twin was here first.
-            Entry::Occupied(entry) => return *entry.get(),
-            Entry::Vacant(entry) => entry,
-        };
+    fn insert(&mut self, key: Key, volume: &Volume, mesh: &CasterMesh) -> u32 {
         let number = self.free.pop().unwrap_or_else(|| {
             self.slots.push(None);
             self.slots.len() as u32 - 1
         });
         self.slots[number as usize] = Some(Slot {
             mesh: mesh.clone(),
-            way: subject.way,
+            way: key.way,
             place: Place::default(),
-            words: [0; 3],
             instance: InstanceParams {
-                light: subject.light.light,
-                light_rest: subject.light.rest,
-                both_sides: subject.counted as u32,
-                arguments: number,
+                light: volume.light.light,
+                light_rest: volume.light.rest,
+                both_sides: volume.counted as u32,
                 ..bytemuck::Zeroable::zeroed()
             },
             counts: Counts::default(),
             layers: None,
-            key: subject.key,
-            seen: self.frame,
+            key,
+            found: false,
+            words: [0; 3],
+            users: 0,
+            drawn: 0,
         });
-        self.wanted.push(number);
-        *entry.insert(number)
+        self.by_key.insert(key, number);
+        number
     }
 
-    fn remove(&mut self, number: u32) {
-        let Some(slot) = self.slots.get_mut(number as usize).and_then(Option::take) else {
+    /// Gives a volume's place back, if it has one.
+    fn forget(&mut self, number: u32) {
+        let slot = self.slots.get_mut(number as usize).and_then(Option::as_mut);
+        let Some(slot) = slot.filter(|slot| slot.found) else {
             return;
         };
-        self.by_key.remove(&slot.key);
+        slot.found = false;
         self.regions.give_back(&slot.place, slot.words);
-        self.free.push(number);
-    }
-
-    /// What is made next takes the least numbers, one after another, so that what is written for
-    /// them lies together.
-    fn sort_free(&mut self) {
-        if !self.free.is_sorted_by(|a, b| a > b) {
-            self.free.sort_unstable_by(|a, b| b.cmp(a));
+        let key = (slot.mesh.id(), slot.place.chunk);
+        if let Some(users) = self.users_of.get_mut(&key) {
+            *users -= 1;
+            if *users == 0 {
+                self.users_of.remove(&key);
+            }
+        }
+        if slot.way == Way::Compute {
+            self.arguments.free.insert(slot.instance.arguments);
+        }
+        (self.held.iter_mut().zip(slot.words)).for_each(|(held, words)| *held -= words);
+        if slot.drawn > 0 {
+            self.unfound.push(number);
         }
     }
 }

@@ -21,9 +21,9 @@ use glam::{DMat3, DVec3, DVec4, Vec3, Vec4Swizzles as _};
 
 use crate::mesh::{Bounds, MeshData};
 use crate::volume::decide::world_box::rounding;
-use crate::volume::plan::cache::{Kept, Slot};
-use crate::volume::plan::faces::Plan;
-use crate::volume::plan::params::CasterParams;
+use crate::volume::plan::cache::{Slot, VolumeCache};
+use crate::volume::plan::params::{CasterParams, LightParams};
+use crate::volume::plan::windows::Window;
 use crate::volume::silhouette::CpuVolume;
 
 /// Longitudes from and to, and how often.
@@ -35,32 +35,37 @@ const EVERYWHERE: [f64; 2] = [-PI, PI];
 /// Turns of the poles that are tried; the best is taken.
 const TURNS: u32 = 4;
 
-/// No point is in more of a plan's volumes than this. What is found for one volume is kept with it.
-pub(crate) fn bound(plan: &Plan, kept: &mut Kept, scratch: &mut CpuVolume) -> u64 {
-    for &number in &plan.slot_of {
-        if let Some(slot) = kept.get_mut(number)
+/// No point is in more of the volumes of these windows, all of one light, than this. What is found for
+/// one volume is kept with it.
+pub(crate) fn bound(
+    windows: &[&Window],
+    light: &LightParams,
+    cache: &mut VolumeCache,
+    scratch: &mut CpuVolume,
+) -> u64 {
+    for window in windows {
+        if let Some(slot) = cache.get_mut(window.slot)
             && slot.layers.is_none()
         {
             slot.layers = Some(of_caster(slot, scratch));
         }
     }
-    let slots = plan.slot_of.iter().map(|&slot| kept.get(slot));
-    let casters = slots.zip(&plan.casters);
+    let casters = windows.iter();
     let casters: Vec<_> = casters
-        .filter_map(|(s, caster)| Some((s?, caster)))
+        .filter_map(|window| Some((cache.get(window.slot)?, &window.params)))
         .collect();
     let layers = |slot: &Slot| slot.layers.unwrap_or(u64::MAX);
-    let Some((_, first)) = casters.first() else {
+    if casters.is_empty() {
         return 0;
-    };
-    let light = DVec4::from(first.light.map(f64::from));
+    }
+    let light = DVec4::from(light.homogeneous.map(f64::from));
     let axis = match light.w {
         0.0 => light.xyz().normalize(),
         _ => DVec3::X,
     };
     let together = |frame: DMat3| {
         let spans = casters.iter();
-        let spans = spans.map(|(slot, caster)| (around(slot, caster, &frame), layers(slot)));
+        let spans = spans.map(|(slot, caster)| (around(slot, caster, light, &frame), layers(slot)));
         deepest(spans, period(light))
     };
     frames(axis).map(together).min().unwrap_or(u64::MAX)
@@ -77,14 +82,13 @@ fn frames(first: DVec3) -> impl Iterator<Item = DMat3> {
 }
 
 /// The longitudes of a caster's bounding sphere, seen from the light.
-fn around(slot: &Slot, caster: &CasterParams, frame: &DMat3) -> [f64; 2] {
+fn around(slot: &Slot, caster: &CasterParams, light: DVec4, frame: &DMat3) -> [f64; 2] {
     let [x, y, z, w] = caster
         .world_from_object
         .map(|column| Vec3::from_slice(&column).as_dvec3());
     let linear = DMat3::from_cols(x, y, z);
     let bounds = slot.mesh.bounds();
     let centre = linear * bounds.min.as_dvec3().midpoint(bounds.max.as_dvec3()) + w;
-    let light = DVec4::from(caster.light.map(f64::from));
     let reach = slot.mesh.radius_under(&linear);
     let radius = reach + rounding(centre.abs() + w.abs() + reach).length();
     if light.w == 0.0 {

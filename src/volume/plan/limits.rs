@@ -34,9 +34,9 @@ const PULL: &[Need] = &[("max_storage_buffers_per_shader_stage", 3, |l| {
     l.max_storage_buffers_per_shader_stage
 })];
 
-/// For all volumes.
+/// For all volumes: caster, view and light.
 pub(crate) const EVERY_WAY: &[Need] =
-    &[("max_dynamic_uniform_buffers_per_pipeline_layout", 1, |l| {
+    &[("max_dynamic_uniform_buffers_per_pipeline_layout", 3, |l| {
         l.max_dynamic_uniform_buffers_per_pipeline_layout
     })];
 
@@ -70,4 +70,22 @@ pub(crate) fn check_one(
         needed,
         available,
     })
+}
+
+/// What of the device's limits a plan depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlanLimits {
+    /// Bytes of the largest buffer that can be made.
+    pub buffer_bytes: u64,
+    /// Bytes of the largest buffer that can be made and bound as storage.
+    pub storage_bytes: u64,
+    /// Casters whose parameters fit the buffers.
+    pub casters: usize,
+    /// Workgroups in one dimension of a dispatch.
+    pub workgroups: u32,
+    /// Bytes from one caster's, view's, light's and batch's parameters to the next's.
+    pub caster_window: u32,
+    pub view_window: u32,
+    pub light_window: u32,
+    pub batch_window: u32,
 }

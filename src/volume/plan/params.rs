@@ -2,6 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::View;
+use crate::volume::decide::facing;
+
 /// `Batch` in `volume_batch.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
@@ -34,9 +37,7 @@ pub(crate) struct InstanceParams {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct CasterParams {
-    pub clip_from_world: [[f32; 4]; 4],
     pub world_from_object: [[f32; 4]; 4],
-    pub light: [f32; 4],
     pub far_plane: [f32; 4],
     pub apex: [f32; 4],
     pub position_stride: u32,
@@ -50,7 +51,33 @@ pub(crate) struct CasterParams {
     /// See `settled` in `volume_light_side.wgsl`.
     pub zero: u32,
     pub anchor_from_light: [f32; 3],
+    pub padding: u32,
+}
+
+/// `Camera` in `volume_extrude.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct ViewParams {
+    pub clip_from_world: [[f32; 4]; 4],
     pub depth_step: f32,
+    pub padding: [u32; 3],
+}
+
+impl ViewParams {
+    pub fn new(view: &View) -> Self {
+        Self {
+            clip_from_world: view.clip_from_world().to_cols_array_2d(),
+            depth_step: facing::depth_step(view),
+            padding: [0; 3],
+        }
+    }
+}
+
+/// `Light` in `volume_extrude.wgsl`.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct LightParams {
+    pub homogeneous: [f32; 4],
 }
 
 /// The indirect arguments of one instance, before anything is counted.
@@ -184,9 +211,7 @@ mod tests {
                 source,
                 "Caster",
                 CasterParams,
-                clip_from_world,
                 world_from_object,
-                light,
                 far_plane,
                 apex,
                 position_stride,
@@ -199,8 +224,10 @@ mod tests {
                 anchor,
                 zero,
                 anchor_from_light,
-                depth_step
+                padding
             );
+            assert_layout!(source, "Camera", ViewParams, clip_from_world, depth_step);
+            assert_layout!(source, "Light", LightParams, homogeneous);
         }
     }
 

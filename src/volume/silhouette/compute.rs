@@ -68,7 +68,7 @@ impl Pass {
         let module = crate::shader::module(device, label, source);
         let label = Some(label);
         let stage = wgpu::ShaderStages::COMPUTE;
-        let mut entries = vec![uniform(stage, size_of::<BatchParams>())];
+        let mut entries = vec![uniform(0, stage, size_of::<BatchParams>())];
         entries.extend(
             (1..)
                 .zip(read_only)

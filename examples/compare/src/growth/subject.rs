@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use anyhow::Result;
+use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::{
     Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PcfDescriptor,
-    PointLight, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, wgpu,
+    PointLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, wgpu,
 };
 
 use super::quantity::Situation;
@@ -208,12 +209,12 @@ impl Means {
             }
             Self::Volumes(volumes) => {
                 for (volumes, light) in volumes.iter_mut().zip(&place.lights) {
-                    let frame = ShadowVolumeFrame {
+                    let frame = OneLight {
                         range: Some(light.range),
                         receivers: Some(inputs.receivers),
-                        ..ShadowVolumeFrame::new(&inputs.view, light.homogeneous(), &inputs.casters)
+                        ..OneLight::new(&inputs.view, light.homogeneous(), &inputs.casters)
                     };
-                    volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
+                    volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
                 }
             }
         }
@@ -229,7 +230,7 @@ impl Means {
                 for volumes in volumes {
                     volumes.encode(encoder);
                     volumes
-                        .render(&mut renderer.begin_stencil_pass(encoder))
+                        .render(&mut renderer.begin_stencil_pass(encoder), 0, 0)
                         .expect("it is encoded");
                 }
             }

@@ -1,0 +1,164 @@
+//! What one frame consists of: lights, views, casters.
+
+use crate::error::{LightError, ShadowVolumeError};
+use crate::mesh::Bounds;
+use crate::{
+    Caster, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight, View,
+};
+
+/// A light, as far as shadow volumes need it.
+///
+/// ```
+/// use shadows::{PointLight, VolumeLight, glam::Vec3};
+/// let lamp = VolumeLight::from(PointLight::new(Vec3::Y, 30.0));
+/// assert_eq!(lamp.range, Some(30.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeLight {
+    /// In world space: `w = 1` a point, `w = 0` a direction.
+    pub light: HomogeneousLight,
+    /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
+    /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
+    pub range: Option<f32>,
+}
+
+impl From<HomogeneousLight> for VolumeLight {
+    /// Without a range.
+    fn from(light: HomogeneousLight) -> Self {
+        Self { light, range: None }
+    }
+}
+
+impl From<PointLight> for VolumeLight {
+    fn from(light: PointLight) -> Self {
+        Self {
+            light: light.homogeneous(),
+            range: Some(light.range),
+        }
+    }
+}
+
+impl From<SpotLight> for VolumeLight {
+    /// Shining all around: what is outside the cone is for the host's light pass to leave dark.
+    fn from(light: SpotLight) -> Self {
+        Self {
+            light: light.homogeneous(),
+            range: Some(light.range),
+        }
+    }
+}
+
+impl From<DirectionalLight> for VolumeLight {
+    fn from(light: DirectionalLight) -> Self {
+        light.homogeneous().into()
+    }
+}
+
+/// A camera, and what it draws into.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeView {
+    /// The camera whose depth the pass holds.
+    pub view: View,
+    /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
+    /// of it: the draws are then clipped to what a light's range covers on screen. `None`: they are
+    /// not.
+    pub target_size: Option<[u32; 2]>,
+}
+
+impl From<View> for VolumeView {
+    /// Without a target size.
+    fn from(view: View) -> Self {
+        Self {
+            view,
+            target_size: None,
+        }
+    }
+}
+
+/// One frame, as [`prepare`](crate::ShadowVolumeRenderer::prepare) needs it. Default: nothing.
+///
+/// ```
+/// # use shadows::{Caster, PointLight, ShadowVolumeFrame, View};
+/// # fn one_of_each(light: PointLight, view: View, casters: &[Caster]) {
+/// let frame = ShadowVolumeFrame {
+///     lights: &[light.into()],
+///     views: &[view.into()],
+///     casters,
+///     ..Default::default()
+/// };
+/// # let _ = frame;
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ShadowVolumeFrame<'a> {
+    /// The lights that shine in this frame. A light is known by its place in this list: one that
+    /// keeps its place and does not move keeps all of its volumes.
+    pub lights: &'a [VolumeLight],
+    /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen.
+    pub views: &'a [VolumeView],
+    /// Bounds in world space of everything that is to be shadowed: all surfaces in the passes' depth
+    /// buffers, those of casters included. Volumes then end just behind these bounds, and casters that
+    /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
+    /// default: anywhere.
+    ///
+    /// Worth giving, as it saves much of the fill (`unbounded_vs_textbook` against `auto_vs_textbook` in
+    /// `docs/benches.md`). The closer the bounds, the better.
+    pub receivers: Option<Bounds>,
+    /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
+    /// [`Method::ZFail`](crate::Method::ZFail) a caster that it does not draw still casts, if its
+    /// triangles are wound outward; z-pass relies on their being drawn.)
+    pub casters: &'a [Caster],
+}
+
+impl ShadowVolumeFrame<'_> {
+    /// Whether lights, views and receivers are sound, for passes of this convention.
+    pub(crate) fn validate(&self, depth: DepthConvention) -> Result<(), ShadowVolumeError> {
+        for VolumeView { view, target_size } in self.views {
+            if view.depth() != depth {
+                return Err(ShadowVolumeError::Depth {
+                    renderer: depth,
+                    view: view.depth(),
+                });
+            }
+            if let Some(size) = target_size.filter(|size| size.contains(&0)) {
+                return Err(ShadowVolumeError::TargetSize(size));
+            }
+        }
+        for VolumeLight { light, range } in self.lights {
+            light.validate()?;
+            if let Some(range) = *range
+                && !(range.is_finite() && range > 0.0)
+            {
+                return Err(LightError::Range(range).into());
+            }
+        }
+        if let Some(Bounds { min, max }) = self.receivers
+            && !(min.is_finite() && max.is_finite() && min.cmple(max).all())
+        {
+            let [min, max] = [min, max].map(|corner| corner.to_array());
+            return Err(ShadowVolumeError::Receivers { min, max });
+        }
+        Ok(())
+    }
+
+    /// One light and one view of it.
+    pub(crate) fn situation(&self, light: usize, view: usize) -> Option<Situation> {
+        Some(Situation {
+            light: self.lights.get(light)?.light,
+            range: self.lights.get(light)?.range,
+            view: self.views.get(view)?.view,
+            target_size: self.views.get(view)?.target_size,
+            receivers: self.receivers,
+        })
+    }
+}
+
+/// One light and one view of a frame: all that the choices for a caster depend on, beside the caster.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Situation {
+    pub light: HomogeneousLight,
+    pub range: Option<f32>,
+    pub view: View,
+    pub target_size: Option<[u32; 2]>,
+    pub receivers: Option<Bounds>,
+}

@@ -1,0 +1,258 @@
+//! One light in one view: what is decided for each caster, and the draws that follow from it.
+
+use std::collections::BTreeSet;
+
+use glam::Mat4;
+
+use crate::volume::decide::decision::{Choices, Decision, KnownCaster, Volume};
+use crate::volume::decide::facing::{self, ObjectLight};
+use crate::volume::decide::method::{Form, Options};
+use crate::volume::decide::scissor::Rect;
+use crate::volume::frame::Situation;
+use crate::volume::plan::batches::position_words;
+use crate::volume::plan::cache::{Slot, VolumeCache};
+use crate::volume::plan::faces::{Draw, DrawnAs};
+use crate::volume::plan::params::CasterParams;
+use crate::volume::plan::scene::{Changes, SceneCasters};
+use crate::volume::plan::windows::{Window, Windows};
+use crate::volume::statistics::{CasterState, Counted, Tally};
+
+/// A light in a view, and the casters as they were decided on last, by their numbers.
+#[derive(Debug, Default)]
+pub(crate) struct Pair {
+    situation: Option<Situation>,
+    choices: Option<Choices>,
+    entries: Vec<Option<Entry>>,
+    /// The casters that are drawn and were decided on in this frame.
+    decided: Vec<u32>,
+    pub draws: BTreeSet<Draw>,
+    pub tally: Tally,
+    /// What of the target is drawn to, and the target's size.
+    pub scissor: Option<(Rect, [u32; 2])>,
+}
+
+/// What was decided for a caster, and what came of it.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    counted: Counted,
+    volume: Option<Volume>,
+    form: Option<Form>,
+    slot: Option<u32>,
+    drawn_as: Option<DrawnAs>,
+}
+
+/// What pairs share.
+pub(crate) struct Shared<'a> {
+    pub casters: &'a SceneCasters,
+    pub cache: &'a mut VolumeCache,
+    pub windows: &'a mut Windows,
+}
+
+impl Pair {
+    /// Decides anew for what changed: for all casters if light, view or receivers did.
+    pub fn decide(
+        &mut self,
+        situation: &Situation,
+        (options, keep): (Options, bool),
+        (changes, lights): (&Changes, &[Option<ObjectLight>]),
+        shared: &mut Shared<'_>,
+    ) {
+        self.decided.clear();
+        let anew = self.situation.as_ref() != Some(situation);
+        if !anew && changes.is_empty() {
+            return;
+        }
+        for &number in &changes.departed {
+            self.let_go(number, shared);
+        }
+        if anew {
+            self.situation = Some(*situation);
+            self.choices = Some(Choices::new(situation, options, keep));
+            self.scissor = options.scissor(situation);
+        }
+        let Some(choices) = self.choices.take() else {
+            return;
+        };
+        let casters = shared.casters;
+        let changed = changes.changed.iter().map(|(_, number)| *number);
+        let all = casters.numbers().iter().copied().filter(|_| anew);
+        let mut update = |number: u32| {
+            if let Some(known) = casters.get(number) {
+                let light = lights.get(number as usize).and_then(Option::as_ref);
+                self.update(number, known, choices.decide(known, light), shared);
+            }
+        };
+        match anew {
+            true => all.for_each(&mut update),
+            false => changed.for_each(&mut update),
+        }
+        self.choices = Some(choices);
+    }
+
+    /// Gives the casters that are drawn and were decided on their windows and draws.
+    pub fn draw(&mut self, shared: &mut Shared<'_>) {
+        let Some(choices) = &self.choices else { return };
+        let left_handed = choices.left_handed;
+        for &number in &self.decided {
+            let entry = self.entries[number as usize].as_mut();
+            let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
+                continue;
+            };
+            let (Some(form), Some(volume)) = (&entry.form, &entry.volume) else {
+                continue;
+            };
+            let last = entry.drawn_as;
+            let window = last.map_or_else(|| shared.windows.take(), |last| last.window);
+            let now = DrawnAs::new(
+                window,
+                form,
+                (volume.counted, known.way),
+                (known.mirrored, left_handed),
+            );
+            if last != Some(now) {
+                remove_draws(&mut self.draws, last);
+                now.draws(|draw| {
+                    self.draws.insert(draw);
+                });
+                entry.drawn_as = Some(now);
+            }
+        }
+    }
+
+    /// Fills their windows, their volumes having their places.
+    pub fn fill(&self, shared: &mut Shared<'_>) {
+        for &number in &self.decided {
+            let entry = self.entries[number as usize].as_ref();
+            let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
+                continue;
+            };
+            let (Some(drawn_as), Some(number)) = (entry.drawn_as, entry.slot) else {
+                continue;
+            };
+            let slot = shared.cache.get(number);
+            if let Some(params) = slot.and_then(|slot| entry.params(known, slot)) {
+                let slot = number;
+                shared.windows.set(drawn_as.window, Window { slot, params });
+            }
+        }
+    }
+
+    /// Lets everything go: light or view is no more.
+    pub fn clear(&mut self, shared: &mut Shared<'_>) {
+        for number in 0..self.entries.len() as u32 {
+            self.let_go(number, shared);
+        }
+        self.situation = None;
+    }
+
+    /// What became of a caster.
+    pub fn state(&self, number: u32) -> Option<CasterState> {
+        let entry = self.entries.get(number as usize)?.as_ref()?;
+        Some(entry.counted.state)
+    }
+
+    /// The windows of all casters that are drawn.
+    pub fn windows(&self) -> impl Iterator<Item = u32> {
+        let drawn = self.entries.iter().flatten();
+        drawn.filter_map(|entry| Some(entry.drawn_as?.window))
+    }
+
+    /// Keeps volume, window and draws where the caster had them.
+    fn update(
+        &mut self,
+        number: u32,
+        known: &KnownCaster,
+        decision: Decision,
+        shared: &mut Shared<'_>,
+    ) {
+        let Decision {
+            state,
+            form,
+            volume,
+        } = decision;
+        let drawn = form.is_some();
+        let counted = volume.map(|volume| volume.counted);
+        let entry = Entry {
+            counted: Counted {
+                state,
+                away_facing: drawn && counted == Some(facing::Counted::AwayFacing),
+                triangles: known.mesh().triangle_count(),
+            },
+            slot: volume.map(|volume| shared.cache.acquire(&volume, known, drawn)),
+            volume,
+            form,
+            drawn_as: None,
+        };
+        if self.entries.len() <= number as usize {
+            self.entries.resize(number as usize + 1, None);
+        }
+        let last = self.entries[number as usize].replace(entry);
+        self.tally.add(entry.counted);
+        if let Some(last) = last {
+            self.tally.remove(last.counted);
+            if let Some(slot) = last.slot {
+                shared.cache.release(slot, last.form.is_some());
+            }
+            match drawn {
+                true => {
+                    if let Some(entry) = &mut self.entries[number as usize] {
+                        entry.drawn_as = last.drawn_as;
+                    }
+                }
+                false => self.undraw(last.drawn_as, shared),
+            }
+        }
+        if drawn {
+            self.decided.push(number);
+        }
+    }
+
+    fn let_go(&mut self, number: u32, shared: &mut Shared<'_>) {
+        let entry = self.entries.get_mut(number as usize).and_then(Option::take);
+        let Some(entry) = entry else { return };
+        self.tally.remove(entry.counted);
+        if let Some(slot) = entry.slot {
+            shared.cache.release(slot, entry.form.is_some());
+        }
+        self.undraw(entry.drawn_as, shared);
+    }
+
+    fn undraw(&mut self, drawn_as: Option<DrawnAs>, shared: &mut Shared<'_>) {
+        remove_draws(&mut self.draws, drawn_as);
+        if let Some(drawn_as) = drawn_as {
+            shared.windows.give_back(drawn_as.window);
+        }
+    }
+}
+
+fn remove_draws(draws: &mut BTreeSet<Draw>, drawn_as: Option<DrawnAs>) {
+    if let Some(drawn_as) = drawn_as {
+        drawn_as.draws(|draw| {
+            draws.remove(&draw);
+        });
+    }
+}
+
+impl Entry {
+    fn params(&self, known: &KnownCaster, slot: &Slot) -> Option<CasterParams> {
+        let (form, volume) = (self.form.as_ref()?, self.volume.as_ref()?);
+        let (stride, offset) = position_words(known.mesh());
+        let light = &volume.light;
+        Some(CasterParams {
+            world_from_object: Mat4::from(known.caster.world_from_object).to_cols_array_2d(),
+            far_plane: form.far.plane.as_vec4().to_array(),
+            apex: form.far.apex.as_vec4().to_array(),
+            position_stride: stride,
+            position_offset: offset,
+            side_base: slot.place.side,
+            side_vertices: form.side_vertices,
+            object_light: light.light,
+            object_light_rest: light.rest,
+            both_sides: volume.counted as u32,
+            anchor: light.origin.anchor,
+            zero: 0,
+            anchor_from_light: light.origin.from_light,
+            padding: 0,
+        })
+    }
+}
