@@ -2,7 +2,7 @@
 
 use shadows::{DepthEncoding, FlatLights, Gather, Kernel, MapKind};
 
-use crate::pcf::{WAYS, Way, made, textbooks};
+use crate::pcf::{WAYS, Way, made, takes_light, textbooks};
 use crate::pipeline::Case;
 use host::peers::PEERS;
 
@@ -56,7 +56,7 @@ pub fn lambert() -> Case {
 }
 
 /// What is counted: no device of today wants the others.
-const COUNTED: [&str; 9] = [
+const COUNTED: [&str; 11] = [
     "cube",
     "cube-linear",
     "cube-array",
@@ -66,6 +66,8 @@ const COUNTED: [&str; 9] = [
     "flat-border",
     "flat-spot",
     "flat-directional",
+    "atlas-point",
+    "atlas-spot",
 ];
 
 fn name(kernel: Kernel) -> &'static str {
@@ -95,8 +97,9 @@ fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
 /// The loop over the taps of a disk; on a cube then the one for disks that go over an edge of a face.
 fn disk_trips(way: &Way, trips: u32) -> Vec<u32> {
     match way.map {
-        MapKind::Flat => vec![trips],
-        _ => vec![trips, 0],
+        MapKind::Cube => vec![trips, 0],
+        MapKind::Atlas if way.light_kinds.point => vec![trips, 0],
+        _ => vec![trips],
     }
 }
 
@@ -111,7 +114,10 @@ pub fn all() -> Vec<Case> {
             .filter(|kernel| kernel.reads(way.encoding))
         {
             let sampler = made(&device, &queue, &way.descriptor(kernel));
-            let index = if way.many_lights { "0u, " } else { "" };
+            let index = match takes_light(&way.descriptor(kernel)) {
+                true => "0u, ",
+                false => "",
+            };
             let flat = if way.map == MapKind::Flat {
                 "_flat"
             } else {

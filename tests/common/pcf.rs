@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test uses its own part
 
 use shadows::{
-    DepthEncoding, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu,
+    DepthEncoding, FlatLights, Gather, Kernel, LightKinds, MapKind, PcfDescriptor, PcfSampler, wgpu,
 };
 
 pub fn made(
@@ -33,6 +33,7 @@ pub struct Way {
     /// Whether the device's samplers have borders.
     pub border: bool,
     pub flat_lights: FlatLights,
+    pub light_kinds: LightKinds,
 }
 
 const CUBE: Way = Way {
@@ -43,6 +44,7 @@ const CUBE: Way = Way {
     gather: Gather::Auto,
     border: false,
     flat_lights: FlatLights::Any,
+    light_kinds: LightKinds::ALL,
 };
 
 const LINEAR: Way = Way {
@@ -75,8 +77,14 @@ const ATLAS: Way = Way {
     ..CUBE
 };
 
+const NO_KINDS: LightKinds = LightKinds {
+    point: false,
+    spot: false,
+    directional: false,
+};
+
 /// All of them.
-pub const WAYS: [Way; 18] = [
+pub const WAYS: [Way; 21] = [
     CUBE,
     LINEAR,
     Way {
@@ -145,6 +153,30 @@ pub const WAYS: [Way; 18] = [
     },
     ATLAS,
     Way {
+        name: "atlas-point",
+        light_kinds: LightKinds {
+            point: true,
+            ..NO_KINDS
+        },
+        ..ATLAS
+    },
+    Way {
+        name: "atlas-spot",
+        light_kinds: LightKinds {
+            spot: true,
+            ..NO_KINDS
+        },
+        ..ATLAS
+    },
+    Way {
+        name: "atlas-directional",
+        light_kinds: LightKinds {
+            directional: true,
+            ..NO_KINDS
+        },
+        ..ATLAS
+    },
+    Way {
         name: "atlas-fetches",
         gather: Gather::Never,
         ..ATLAS
@@ -171,6 +203,7 @@ impl Way {
             many_lights: self.many_lights,
             gather: self.gather,
             flat_lights: self.flat_lights,
+            light_kinds: self.light_kinds,
             ..Default::default()
         }
     }

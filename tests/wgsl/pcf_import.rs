@@ -68,6 +68,7 @@ fn functions_without_bindings_are_imported_too() {
         let module = wgsl::import_module("shadows::functions", &sampler.wgsl());
         let (kind, names) = match descriptor.map {
             MapKind::Flat => ("flat", "Flat"),
+            MapKind::Atlas if !descriptor.light_kinds.point => ("flat", ""),
             _ => ("cube", ""),
         };
         let (texture, sampled) = match descriptor.kernel {

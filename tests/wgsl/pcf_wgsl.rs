@@ -64,7 +64,7 @@ fn every_name_has_the_prefix() {
 fn a_kernel_carries_no_code_of_another() {
     for (descriptor, sampler) in samplers() {
         let text = sampler.wgsl();
-        let flat = descriptor.map == MapKind::Flat;
+        let flat = descriptor.map == MapKind::Flat || !descriptor.light_kinds.point;
         for other in Kernel::ALL {
             let name = match flat {
                 true => other.function().replace("cube", "flat"),
