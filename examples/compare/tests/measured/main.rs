@@ -13,3 +13,4 @@ mod peers;
 #[path = "../../../../tests/common/receivers.rs"]
 mod receivers;
 mod temporal;
+mod timer;
