@@ -463,7 +463,9 @@ fn instructions_are_set_against_error_for_every_receiver_that_is_counted() {
     let rows: Value = serde_json::from_str(&counts).unwrap();
     let names = rows.as_array().unwrap().iter();
     let names = names.map(|row| row["name"].as_str().unwrap().to_owned());
+    // An atlas's receivers get wrong what those of its lights' own maps do.
     let names: Vec<String> = names
+        .filter(|name| !name.starts_with("atlas-"))
         .filter_map(|name| match name.strip_suffix("/normal") {
             Some(kernel) if !kernel.starts_with("cube-") && !kernel.starts_with("flat-") => {
                 Some(kernel.to_owned())
