@@ -63,6 +63,7 @@ pub const JOINED: &[&[&str]] = &[
     EDGES,
     &["volume_count"],
     &["volume_screen"],
+    &["volume_screen", "volume_reset"],
     &["volume_screen", "volume_debug"],
     &["volume_screen", "volume_join"],
     &["volume_screen", "volume_join_samples"],

@@ -17,6 +17,7 @@ mod light_pass;
 mod many;
 mod near_light;
 mod near_plane;
+mod one_pass;
 mod passes;
 mod pictures;
 mod pipelines;
