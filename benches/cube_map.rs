@@ -171,7 +171,7 @@ impl World {
                 &CubeShadowMapDescriptor {
                     size: 16,
                     lights: 16,
-                    cube_array: gpu.support.cube_arrays,
+                    cube_array: true,
                     ..Default::default()
                 },
             ),

@@ -47,7 +47,7 @@ fn host_ask(world: vec3f, normal: vec3f, pixel: vec2f) -> f32 {
         for (var x = -1; x <= 1; x++) {
             let texel = middle + vec2f(f32(x), f32(y));
             lit += shadows_cube_texel(
-                shadows_map, shadows_map_sampler, receiver, shadows_light.size, texel,
+                shadows_map, shadows_map_sampler, receiver, texel,
             );
         }
     }

@@ -4,17 +4,9 @@
 //      -X  +Z  +X  -Z
 //          -Y
 
-// The part of ShadowsCubeLight that is needed here.
-struct Light {
-    position: vec3f,
-    near: f32,
-    range: f32,
-    rest: vec3f,
-}
-
-@group(0) @binding(0) var map: texture_cube<f32>;
+@group(0) @binding(0) var map: texture_2d_array<f32>;
 @group(0) @binding(1) var map_sampler: sampler;
-@group(0) @binding(2) var<uniform> light: Light;
+@group(0) @binding(2) var<uniform> light: ShadowsLight;
 
 // Whether texels hold distance / range rather than near / (distance along the major axis).
 override linear: bool = false;
@@ -32,27 +24,28 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     return Corner(clip, corner * vec2f(4.0, 3.0));
 }
 
+// The face in a cell, by its layer; -1: none.
+fn face_in(cell: vec2f) -> i32 {
+    if cell.y == 1.0 {
+        return vec4i(1, 4, 0, 5)[u32(cell.x)];
+    }
+    return select(-1, select(3, 2, cell.y == 0.0), cell.x == 1.0);
+}
+
 @fragment
 fn fragment(in: Corner) -> @location(0) vec4f {
     let cell = floor(in.cell);
-    let at = (in.cell - cell) * 2.0 - 1.0;
-    var direction: vec3f;
-    if cell.y == 1.0 {
-        switch u32(cell.x) {
-            case 0u: { direction = vec3f(-1.0, -at.y, at.x); }
-            case 1u: { direction = vec3f(at.x, -at.y, 1.0); }
-            case 2u: { direction = vec3f(1.0, -at.y, -at.x); }
-            default: { direction = vec3f(-at.x, -at.y, -1.0); }
-        }
-    } else if cell.x == 1.0 {
-        direction = select(vec3f(at.x, -1.0, -at.y), vec3f(at.x, 1.0, at.y), cell.y == 0.0);
-    } else {
+    let face = face_in(cell);
+    if face < 0 {
         discard;
     }
-    let stored = textureSampleLevel(map, map_sampler, direction, 0.0).x;
-    if stored == select(0.0, 1.0, linear) {
+    let layer = i32(light.tiles.x >> 20u) + face;
+    let stored = textureSampleLevel(map, map_sampler, in.cell - cell, layer, 0.0).x;
+    // A light without casters has no layers.
+    let drawn = light.kind == 1u;
+    if !drawn | (stored == select(0.0, 1.0, linear)) {
         return vec4f(0.0, 0.0, 0.25, 1.0);
     }
-    let along = select(light.near / (stored * light.range), stored, linear);
+    let along = select(1.0 / (stored * light.forward.z), stored, linear);
     return vec4f(vec3f(1.0 - min(along, 1.0)), 1.0);
 }

@@ -1,10 +1,11 @@
-// The four stored depths around a corner of texels that is in this direction along the face's axes. Bottom
-// left, bottom right, top right, top left.
+// The four stored depths around a corner of texels of the receiver's face, in texels from the face's middle.
+// Bottom left, bottom right, top right, top left.
 fn shadows_cube_gather(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    direction: vec3f,
+    corner: vec2f,
 ) -> vec4f {
-    return textureGather(0, map, map_sampler, shadows_cube_to_world(receiver.face, direction));
+    let at = corner * receiver.light.step + receiver.tile.middle;
+    return textureGather(0, map, map_sampler, at, receiver.tile.layer);
 }

@@ -8,7 +8,7 @@ fn shadows_cube_step(quantum: f32) -> f32 {
 // What is stored as near / (distance along the major axis): `squared` is the squared length of each
 // texel's direction where that is 1 along the axis. Nothing stored (1) is infinitely far away.
 fn shadows_cube_depth(receiver: ShadowsCubeReceiver, stored: vec4f, squared: vec4f) -> vec4f {
-    let distance = (stored + receiver.quantum) * receiver.range_over_near;
+    let distance = (stored + receiver.light.quantum) * receiver.light.forward.z;
     return select(sqrt(squared) / distance, vec4f(0.0), stored >= vec4f(1.0));
 }
 
@@ -20,6 +20,6 @@ fn shadows_cube_nearer(
     stored: vec4f,
     squared: vec4f,
 ) -> vec4<bool> {
-    let share = depths * ((stored + receiver.quantum) * receiver.range_over_near);
+    let share = depths * ((stored + receiver.light.quantum) * receiver.light.forward.z);
     return (share * share < squared) & (stored < vec4f(1.0));
 }

@@ -2,9 +2,9 @@
 // how far from the receiver a tap's texel may be, in texels and in the world: across the light's rays, and in
 // the plane.
 fn shadows_cube_derived(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     x: vec3f,
     y: vec3f,
@@ -34,9 +34,9 @@ fn shadows_cube_derived(
 
 // The same from the map.
 fn shadows_cube_mapped(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     reach: vec4f,
     taps: i32,
@@ -47,18 +47,15 @@ fn shadows_cube_mapped(
     let major = max(shadows_cube_major(from_light), 1e-30);
     var receiver: ShadowsCubeReceiver;
     receiver.face = face;
-    receiver.texel = shadows_cube_across(face, from_light) * (light.half_size / major);
-    receiver.centre = light.centre;
-    receiver.half_size = light.half_size;
-    receiver.cube = light.cube;
-    receiver.quantum = light.quantum;
-    receiver.range_over_near = light.range / light.near;
-    let found = shadows_cube_slopes(map, map_sampler, receiver, light.size, taps);
-    let own = light.near / major;
+    receiver.texel = shadows_cube_across(face, from_light) * (light.texels / major);
+    receiver.light = light;
+    receiver.tile = shadows_cube_tile(light, face);
+    let found = shadows_cube_slopes(map, map_sampler, receiver, taps);
+    let own = light.depth_per / (light.depth_bias * major);
     // Four texels of depth from one texel to the next.
     let bend = shadows_cube_bend(found, 4.0 * own * light.texel);
     // Depth is linear along the face; it is the plane's distance that makes it the receiver's own here.
-    let across = shadows_cube_to_world(face, vec3f(0.0, light.half_size * found.slope));
+    let across = shadows_cube_to_world(face, vec3f(0.0, light.texels * found.slope));
     let forward = own - dot(across, from_light) / major;
     let normal = across + shadows_cube_to_world(face, vec3f(forward, 0.0, 0.0));
     // Texels around the receiver, and around where it is taken to be.
@@ -70,22 +67,16 @@ fn shadows_cube_mapped(
 }
 
 fn shadows_cube_stored_at(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     texel: vec2f,
 ) -> f32 {
-    let direction = vec3f(receiver.half_size, texel + 0.5);
-    let world = shadows_cube_to_world(receiver.face, direction);
-    let found = shadows_cube_fetch(map, map_sampler, receiver, world);
-    let step = 2.0 / size;
-    let squared = step * step * dot(direction, direction);
-    return shadows_cube_depth(receiver, vec4f(found), vec4f(squared)).x;
+    return shadows_cube_stored(map, map_sampler, receiver, texel + 0.5 + receiver.light.middle);
 }
 
 // The receiver's texel, or the nearest that has others to all sides on the same face.
-fn shadows_cube_inner(receiver: ShadowsCubeReceiver, size: f32) -> vec2f {
-    let most = receiver.half_size - 1.5;
+fn shadows_cube_inner(receiver: ShadowsCubeReceiver) -> vec2f {
+    let most = receiver.light.middle - 1.5;
     return shadows_cube_floor(receiver, clamp(receiver.texel, vec2f(-most), vec2f(most)));
 }

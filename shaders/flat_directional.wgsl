@@ -1,8 +1,8 @@
-// A directional light's map. One of another light is dark.
-fn shadows_flat_spot(light: ShadowsFlatLight) -> bool {
+// A directional light's tile. One of another light is dark.
+fn shadows_flat_spot(light: ShadowsLight) -> bool {
     return false;
 }
 
-fn shadows_flat_served(light: ShadowsFlatLight) -> bool {
-    return light.perspective <= 0.5;
+fn shadows_flat_served(light: ShadowsLight) -> bool {
+    return shadows_kind(light) == 3u;
 }

@@ -1,8 +1,9 @@
-// The map's edge where samplers have a border: beyond it they find depth 0, which is nothing.
-fn shadows_flat_gathers(size: f32, corner: vec2f, reach: f32) -> bool {
+// The tile's edge where it is the texture's and samplers have a border: beyond it they find depth 0, which is
+// nothing.
+fn shadows_flat_gathers(light: ShadowsLight, corner: vec2f, reach: f32) -> bool {
     return true;
 }
 
-fn shadows_flat_inside(size: f32, texel: vec2f) -> bool {
+fn shadows_flat_inside(light: ShadowsLight, texel: vec2f) -> bool {
     return true;
 }

@@ -1,11 +1,11 @@
 // The depths stored in the four texels around a corner: bottom left, bottom right, top right, top
 // left.
 fn shadows_flat_stored(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
-    size: f32,
     corner: vec2f,
 ) -> vec4f {
-    return textureGather(0, map, map_sampler, corner * receiver.step);
+    let at = corner * receiver.light.step + receiver.tile.middle;
+    return textureGather(0, map, map_sampler, at, receiver.tile.layer);
 }

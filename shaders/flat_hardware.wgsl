@@ -6,9 +6,9 @@
 //
 // `normal` is of any length and either sign, and its end may be off by `doubt`.
 fn shadows_flat_hardware(
-    map: texture_depth_2d,
+    map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
-    light: ShadowsFlatLight,
+    light: ShadowsLight,
     position: vec3f,
     normal: vec3f,
     doubt: f32,
@@ -29,8 +29,8 @@ fn shadows_flat_hardware(
     let steepness = select(-slope, slope, facing > 0.0) * n.yz;
     let gradient = light.texel * steepness;
     let inverse = 1.0 / away;
-    let place = local.yz * (light.texels * inverse) + 0.5 * light.size;
-    let between = fract(place - 0.5);
+    let place = local.yz * (light.texels * inverse);
+    let between = fract(place + light.centre);
     let rise = max(gradient, vec2f(0.0)) - gradient * between;
     let own = select(1.0 - local.x * light.depth_per + light.depth_bias, light.depth_per * inverse, spot);
     // No nearer than a thirty-second of the receiver's distance, or sixteen widths of the map before it.
@@ -40,11 +40,13 @@ fn shadows_flat_hardware(
     let bias = light.normal_offset * (abs(steepness.x) + abs(steepness.y));
     let nearest = own + rise.x + rise.y + bias + slope * unknown;
     let reference = clamp(nearest, 0.0, max(bound, 0.0)) + light.quantum;
-    let share = textureSampleCompareLevel(map, map_sampler, place * light.step, reference);
+    let tile = shadows_tile(light);
+    let at = shadows_tile_blend(light, tile, place);
+    let share = textureSampleCompareLevel(map, map_sampler, at, tile.layer, reference);
     // Exactly 0 or 1 where all texels agree, however a sampler rounds the sum of their weights.
     let lit = saturate(share * (1.0 + 0x1p-16) - 0x1p-17);
-    let on_map = shadows_flat_inside(light.size, place - 0.5) & (away > 0.0) & (light.quantum >= 0.0);
+    let on_map = shadows_flat_inside(light, place - 0.5) & (away > 0.0) & shadows_casts(light);
     let seen = select(1.0, lit, on_map);
-    let reached = shadows_flat_served(light) & (!spot | (squared <= light.reach));
+    let reached = shadows_flat_served(light) & (!spot | (squared <= light.range_squared));
     return select(0.0, seen, reached);
 }

@@ -1,14 +1,16 @@
-// What kernels on a flat map need besides the light: the depth of the receiver's plane at any
+// What kernels on a spot's or a directional light's tile need besides the light: the depth of the receiver's plane at any
 // texel.
 
 // Depth is near / d (spot) or 1 - d / range (directional), d along the frame's forward axis. Of a
 // plane either is linear over the map.
 struct ShadowsFlatReceiver {
-    // In texels from the map's corner.
+    // In texels from the tile's middle.
     texel: vec2f,
     // How the plane's depth changes from texel to texel.
     slope: vec2f,
-    // The plane's depth at the receiver. Stands in for that at a texel which does not see the plane, so that
+    // The plane's depth at the tile's corner.
+    corner: f32,
+    // The same at the receiver. Stands in for that at a texel which does not see the plane, so that
     // nothing behind the receiver shadows it.
     own: f32,
     // The same without the bias in texels, which at grazing angles is most of the distance between a spot and
@@ -26,10 +28,9 @@ struct ShadowsFlatReceiver {
     normal: vec3f,
     // World width of a texel at the receiver.
     width: f32,
-    // Of the light.
-    step: f32,
-    texels: f32,
-    depth_per: f32,
+    // Of the light, and where its tile is.
+    light: ShadowsLight,
+    tile: ShadowsTile,
     spot: bool,
     // Whether the map says what the receiver sees, and if not, whether it is lit.
     asks: bool,
@@ -47,18 +48,18 @@ struct ShadowsFlatDerived {
     moved: f32,
 }
 
-fn shadows_flat_ray(light: ShadowsFlatLight, from_light: vec3f) -> vec3f {
+fn shadows_flat_ray(light: ShadowsLight, from_light: vec3f) -> vec3f {
     return select(light.forward, from_light, shadows_flat_spot(light));
 }
 
 // A normal that the host knows.
-fn shadows_flat_given(light: ShadowsFlatLight, position: vec3f, normal: vec3f) -> ShadowsFlatDerived {
+fn shadows_flat_given(light: ShadowsLight, position: vec3f, normal: vec3f) -> ShadowsFlatDerived {
     let facing = dot(normal, shadows_flat_ray(light, position - light.position));
     return ShadowsFlatDerived(normal, dot(normal, normal), facing, 0.0);
 }
 
 fn shadows_flat_receiver(
-    light: ShadowsFlatLight,
+    light: ShadowsLight,
     position: vec3f,
     derived: ShadowsFlatDerived,
 ) -> ShadowsFlatReceiver {
@@ -86,13 +87,14 @@ fn shadows_flat_receiver(
     // Behind a spot the map says nothing. A spot within the bias of the receiver's plane: nothing is between
     // them. The plane seen from its edge by a directional light: nothing of it is hidden. Nor where there is
     // no plane.
-    let reached = shadows_flat_served(light) & (!spot | (squared <= light.reach));
-    receiver.asks = reached & (light.quantum >= 0.0) & (away > 0.0) & (facing > 0.0) & (left > 0.0);
+    let reached = shadows_flat_served(light) & (!spot | (squared <= light.range_squared));
+    receiver.asks = reached & shadows_casts(light) & (away > 0.0) & (facing > 0.0) & (left > 0.0);
     receiver.lit = reached;
-    receiver.texel = local.yz * (light.texels * inverse) + 0.5 * light.size;
+    receiver.texel = local.yz * (light.texels * inverse);
     receiver.slope = n.yz * (light.texel * select(-per_length, per_length, derived.facing > 0.0));
     let parallel = 1.0 + light.depth_bias - local.x * light.depth_per + per_length * (offset + derived.moved);
     receiver.own = select(parallel, per_length * facing * inverse, spot) + light.quantum;
+    receiver.corner = receiver.own - dot(receiver.slope, receiver.texel + light.middle);
     receiver.alone = light.depth_per * facing * inverse / (taken - rounded) + light.quantum;
     // Far behind all casters the sum is below 0, and so would be taken to lie behind empty texels.
     let nearest = max(0.0, receiver.own + light.widths);
@@ -102,19 +104,19 @@ fn shadows_flat_receiver(
     receiver.ray = select(vec3f(1.0, 0.0, 0.0), local * inverseSqrt(squared), spot);
     receiver.normal = n * (select(1.0, -1.0, derived.facing > 0.0) * inverseSqrt(derived.squared));
     receiver.width = light.texel * away;
-    receiver.step = light.step;
-    receiver.texels = light.texels;
-    receiver.depth_per = light.depth_per;
+    receiver.light = light;
+    receiver.tile = shadows_tile(light);
     receiver.spot = spot;
     return receiver;
 }
 
 // Where the receiver is between the centres of texels, 0 .. 1.
 fn shadows_flat_between(receiver: ShadowsFlatReceiver) -> vec2f {
-    return fract(receiver.texel + 0.5);
+    return fract(receiver.texel + receiver.light.centre);
 }
 
-// The corner of a place's texel toward that of the map.
+// The corner of a place's texel toward that of the tile.
 fn shadows_flat_floor(receiver: ShadowsFlatReceiver, place: vec2f) -> vec2f {
-    return floor(place);
+    let middle = receiver.light.middle;
+    return floor(place + middle) - middle;
 }

@@ -2,9 +2,9 @@
 // how far from the receiver a tap's texel may be, in texels and in the world: across the light's rays, and in
 // the plane.
 fn shadows_flat_derived(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
-    light: ShadowsFlatLight,
+    light: ShadowsLight,
     position: vec3f,
     x: vec3f,
     y: vec3f,
@@ -34,9 +34,9 @@ fn shadows_flat_derived(
 
 // The same from the map.
 fn shadows_flat_mapped(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
-    light: ShadowsFlatLight,
+    light: ShadowsLight,
     position: vec3f,
     reach: vec4f,
     taps: i32,
@@ -49,13 +49,14 @@ fn shadows_flat_mapped(
     let inverse = 1.0 / select(1.0, max(local.x, 1e-30), spot);
     let place = local.yz * (light.texels * inverse);
     var receiver: ShadowsFlatReceiver;
-    receiver.step = light.step;
-    receiver.texel = place + 0.5 * light.size;
+    receiver.light = light;
+    receiver.tile = shadows_tile(light);
+    receiver.texel = place;
     // Without the bias that is in it.
     let own = light.depth_per / light.depth_bias * inverse;
     // Four texels of depth from one texel to the next.
     let steepest = 4.0 * light.texel * select(light.depth_per, own * inverse, spot);
-    let found = shadows_flat_slopes(map, map_sampler, receiver, light.size, taps);
+    let found = shadows_flat_slopes(map, map_sampler, receiver, taps);
     // Depth is linear over the map; it is the plane's distance that makes it the receiver's own here.
     let forward = select(light.depth_per, own - dot(found.slope, place), spot);
     let normal = axes * vec3f(forward, light.texels * found.slope);
@@ -68,16 +69,16 @@ fn shadows_flat_mapped(
 }
 
 fn shadows_flat_stored_at(
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsFlatReceiver,
-    size: f32,
     texel: vec2f,
 ) -> f32 {
-    return shadows_flat_depths(map, map_sampler, receiver, size, texel).y;
+    return shadows_flat_depths(map, map_sampler, receiver, texel).y;
 }
 
 // The receiver's texel, or the nearest that has others to all sides.
-fn shadows_flat_inner(receiver: ShadowsFlatReceiver, size: f32) -> vec2f {
-    return max(min(floor(receiver.texel), vec2f(size - 2.0)), vec2f(1.0));
+fn shadows_flat_inner(receiver: ShadowsFlatReceiver) -> vec2f {
+    let most = receiver.light.middle - 1.5;
+    return shadows_flat_floor(receiver, clamp(receiver.texel, vec2f(-most), vec2f(most)));
 }

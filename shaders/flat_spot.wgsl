@@ -1,8 +1,8 @@
-// A spot's map. One of another light is dark.
-fn shadows_flat_spot(light: ShadowsFlatLight) -> bool {
+// A spot's tile. One of another light is dark.
+fn shadows_flat_spot(light: ShadowsLight) -> bool {
     return true;
 }
 
-fn shadows_flat_served(light: ShadowsFlatLight) -> bool {
-    return light.perspective >= 0.5;
+fn shadows_flat_served(light: ShadowsLight) -> bool {
+    return shadows_kind(light) == 2u;
 }

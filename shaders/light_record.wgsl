@@ -9,15 +9,14 @@ struct ShadowsLight {
     kind: u32,
     // Axes of the tile in world space, of length 1. A point light has six tiles with axes of their own:
     // `forward` then is (`depth_per` over `texels`; the depth that bounds those of planes, for a receiver at
-    // distance `texels` along the major axis; where texel centres are between whole numbers, counted from the
-    // middle of a face), and `right.x` the range over the distance of the near plane.
+    // distance `texels` along the major axis; the range over the distance of the near plane).
     forward: vec3f,
-    // Texels across 1 in the world (directional), at distance 1 (spot); a little less than half of `size` (point),
-    // so that scaled by it only a direction's major axis is as long as half of a face.
+    // Texels across 1 in the world (directional), at distance 1 (spot); a little less than `middle` (point), so
+    // that scaled by it no direction is rounded to beyond a face.
     texels: f32,
     right: vec3f,
-    // Texels along a side of a tile.
-    size: f32,
+    // Half of the texels along a side of a tile: its middle, in texels from its corner.
+    middle: f32,
     down: vec3f,
     // How far the light reaches, squared. Parallel rays reach everything.
     range_squared: f32,
@@ -46,5 +45,16 @@ struct ShadowsLight {
     last_tiles: vec2u,
     // One over the texels before a cascade's border over which it blends into the next.
     per_blend: f32,
-    padding: f32,
+    // Where texel centres are between whole numbers, counted in texels from the middle of a tile: 0.5 if there
+    // is an even number of texels along a side, else 0.
+    centre: f32,
+}
+
+// The kind of light, and whether its tiles say what is lit.
+fn shadows_kind(light: ShadowsLight) -> u32 {
+    return light.kind & 3u;
+}
+
+fn shadows_casts(light: ShadowsLight) -> bool {
+    return (light.kind & 4u) == 0u;
 }

@@ -2,11 +2,10 @@
 // the mean depth of what blocks gives the penumbra's width, the width gives the disk. Depths are
 // read, never filtered.
 fn shadows_cube_filter(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
-    kernel: ShadowsCubeKernel,
+    kernel: ShadowsKernel,
     offsets: texture_3d<f32>,
     pixel: vec2f,
 ) -> f32 {
@@ -18,29 +17,19 @@ fn shadows_cube_filter(
     // The table's first taps are a whole disk of their own, at this scale.
     let spread = sqrt(f32(kernel.taps) / f32(kernel.first_taps));
     let search = shadows_cube_turned(shadows_cube_disk(receiver, spread * widest, stretch), turn);
-    var plane = 0.0;
-    var stored = 0.0;
-    var blocked = 0.0;
-    var at = 0.25 * kernel.layer;
-    for (var i = 0u; i < kernel.first_taps; i++) {
-        let pair = textureSampleLevel(offsets, map_sampler, vec3f(0.5, 0.5, at), 0.0);
-        let offset = select(pair.xy, pair.zw, (i & 1u) == 1u);
-        at += 0.5 * kernel.layer;
-        let depths = shadows_cube_tap(map, map_sampler, receiver, size, search, offset);
-        let blocks = select(0.0, 1.0, depths.x < depths.y);
-        plane += blocks * depths.x;
-        stored += blocks * depths.y;
-        blocked += blocks;
-    }
+    let found = shadows_cube_search(
+        map, map_sampler, receiver, search, offsets, kernel.layer, kernel.first_taps,
+    );
+    let blocked = found.z;
     let searched = f32(kernel.first_taps);
     let agree = blocked == 0.0 || blocked == searched;
-    let gap = shadows_cube_gap(receiver, plane, stored, blocked);
+    let gap = shadows_cube_gap(receiver, found.x, found.y, blocked);
     // Below a texel the map has nothing to say.
     let radius = clamp(kernel.light_size * gap, min(receiver.width, widest), widest);
     let disk = shadows_cube_turned(shadows_cube_disk(receiver, radius, stretch), turn);
     // One tap rather than a branch: drivers that run both sides of a branch leave a loop.
     let lit = shadows_cube_lit(
-        map, map_sampler, receiver, size, disk, offsets, vec2f(0.5), kernel.layer,
+        map, map_sampler, receiver, disk, offsets, vec2f(0.5), kernel.layer,
         select(kernel.taps, 1u, agree), 0u,
     );
     return select(lit, select(1.0, 0.0, blocked > 0.0), agree);

@@ -23,20 +23,19 @@ fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
 // of two counts: the other may reach over the edge of what the texel shows. `taps` is 5, or 0 where
 // nothing is asked: drivers that run both sides of a branch run a loop once at least.
 fn shadows_cube_slopes(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     taps: i32,
 ) -> ShadowsCubeSlopes {
-    let texel = shadows_cube_inner(receiver, size);
+    let texel = shadows_cube_inner(receiver);
     // There, and to the left, to the right, above and below.
     var middle = 0.0;
     var around = vec4f(0.0);
     for (var i = 0; i < taps; i++) {
         let side = select(1.0, -1.0, (i & 1) == 1);
         let along = select(select(vec2f(0.0), vec2f(1.0, 0.0), i > 0), vec2f(0.0, 1.0), i > 2);
-        let stored = shadows_cube_stored_at(map, map_sampler, receiver, size, texel + side * along);
+        let stored = shadows_cube_stored_at(map, map_sampler, receiver, texel + side * along);
         middle = select(middle, stored, i == 0);
         around = select(around, vec4f(stored), vec4i(1, 2, 3, 4) == vec4i(i));
     }

@@ -1,25 +1,7 @@
-// What kernels on a disk share: their parameters, the disk in the receiver's tangent plane, and
-// its taps.
+// What kernels on a disk share: the disk in the receiver's tangent plane, and its taps where the receiver's tile holds them all.
 
-struct ShadowsCubeKernel {
-    // Of the disk: so many texels, plus so much in world units, at the receiver.
-    radius_texels: f32,
-    radius_world: f32,
-    // Radius of a spherical light; of a directional one, the tangent of its angular radius.
-    light_size: f32,
-    // Added to the pixel before it is hashed: moves the noise on from frame to frame.
-    frame_shift: f32,
-    taps: u32,
-    // Taps of the blocker search; or of the first batch, after which the rest is skipped where
-    // all agree.
-    first_taps: u32,
-    // How far apart the layers of the texture of offsets are, each of which has two taps'.
-    layer: f32,
-    // WebGL 2 takes uniforms in units of 16 bytes.
-    padding: u32,
-}
-
-// The disk's axes, as long as its radius, along the same axes as `receiver.local`.
+// The disk's axes, as long as its radius, along the same axes as `receiver.normal`; of taps, as
+// `receiver.local`.
 struct ShadowsCubeDisk {
     across: vec3f,
     along: vec3f,
@@ -43,31 +25,29 @@ fn shadows_cube_disk(receiver: ShadowsCubeReceiver, radius: f32, stretch: f32) -
     return ShadowsCubeDisk(across, stretch * cross(n, across));
 }
 
-fn shadows_cube_radius(receiver: ShadowsCubeReceiver, kernel: ShadowsCubeKernel) -> f32 {
+fn shadows_cube_radius(receiver: ShadowsCubeReceiver, kernel: ShadowsKernel) -> f32 {
     return kernel.radius_world + kernel.radius_texels * receiver.width;
 }
 
 // Depths at one tap: the plane's and the stored one.
 fn shadows_cube_tap(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     disk: ShadowsCubeDisk,
     offset: vec2f,
 ) -> vec2f {
     let local = receiver.local + offset.x * disk.across + offset.y * disk.along;
-    return shadows_cube_look(map, map_sampler, receiver, size, local);
+    return shadows_cube_look(map, map_sampler, receiver, local);
 }
 
 // The share of taps that are lit. Where `first` of them agree, the rest is taken to agree with them
 // (0: never). Offsets are in a texture: a uniform array given as a parameter is copied for every pixel. And
 // it is sampled: a load is guarded against coordinates outside by asking for the size, once a tap.
-fn shadows_cube_lit(
-    map: texture_cube<f32>,
+fn shadows_cube_lit_on(
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
     disk: ShadowsCubeDisk,
     offsets: texture_3d<f32>,
     column: vec2f,
@@ -83,8 +63,8 @@ fn shadows_cube_lit(
     // run both sides of a branch run every loop once at least, and once more if it asks before.
     loop {
         let pair = textureSampleLevel(offsets, map_sampler, at, 0.0);
-        let a = shadows_cube_tap(map, map_sampler, receiver, size, disk, pair.xy);
-        let b = shadows_cube_tap(map, map_sampler, receiver, size, disk, pair.zw);
+        let a = shadows_cube_tap(map, map_sampler, receiver, disk, pair.xy);
+        let b = shadows_cube_tap(map, map_sampler, receiver, disk, pair.zw);
         lit += select(0u, 1u, a.x >= a.y);
         lit += select(0u, 1u, (b.x >= b.y) & (i + 1u < taps));
         i += 2u;
@@ -95,7 +75,11 @@ fn shadows_cube_lit(
             break if i >= end;
         }
     }
-    // Exactly 0 or 1 where all taps agree, though a GPU's quotient of equal numbers need not be 1:
-    // stretched around one half by more than that, and cut off.
-    return saturate(1.0 + 0x1p-17 - f32(end - lit) * ((1.0 + 0x1p-16) / f32(end)));
+    return shadows_cube_share(end - lit, end);
+}
+
+// How much is lit where so many of some taps are blocked. Exactly 0 or 1 where all taps agree, though a
+// GPU's quotient of equal numbers need not be 1: stretched around one half by more than that, and cut off.
+fn shadows_cube_share(blocked: u32, taps: u32) -> f32 {
+    return saturate(1.0 + 0x1p-17 - f32(blocked) * ((1.0 + 0x1p-16) / f32(taps)));
 }

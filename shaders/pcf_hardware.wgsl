@@ -1,9 +1,9 @@
 // One comparison by the sampler: 2x2 texels, blended, all compared with one depth (Reeves, Salesin and
 // Cook 1987, as hardware has it).
 fn shadows_cube_hardware_bilinear(
-    map: texture_depth_cube,
+    map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     normal: vec3f,
 ) -> f32 {
@@ -12,9 +12,9 @@ fn shadows_cube_hardware_bilinear(
 
 // The same with the normal that two screen derivatives of the position span.
 fn shadows_cube_hardware_derived(
-    map: texture_depth_cube,
+    map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
-    light: ShadowsCubeLight,
+    light: ShadowsLight,
     position: vec3f,
     x: vec3f,
     y: vec3f,

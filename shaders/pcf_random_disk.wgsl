@@ -3,11 +3,10 @@
 // "Efficient Soft-Edged Shadows Using Pixel Shader Branching", GPU Gems 2, 2005). The outermost ring
 // comes first.
 fn shadows_cube_filter(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
-    kernel: ShadowsCubeKernel,
+    kernel: ShadowsKernel,
     offsets: texture_3d<f32>,
     pixel: vec2f,
 ) -> f32 {
@@ -15,7 +14,7 @@ fn shadows_cube_filter(
     // Sampling repeats nothing: the pixel modulo n, at the texel's centre.
     let column = fract((floor(pixel) + 0.5) / vec2f(textureDimensions(offsets).xy));
     return shadows_cube_lit(
-        map, map_sampler, receiver, size, disk, offsets, column, kernel.layer, kernel.taps,
+        map, map_sampler, receiver, disk, offsets, column, kernel.layer, kernel.taps,
         kernel.first_taps,
     );
 }

@@ -16,10 +16,9 @@ fn shadows_cube_pair(i: i32, s: f32) -> vec2f {
 }
 
 fn shadows_cube_filter(
-    map: texture_cube<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
-    size: f32,
 ) -> f32 {
     let s = shadows_cube_between(receiver);
     // From the receiver to the corner in the middle of the kernel.
@@ -42,7 +41,7 @@ fn shadows_cube_filter(
             let right = middle + (u + 0.5) * slope.x;
             let at = corner + vec2f(u, v);
             let behind = shadows_cube_blocked(
-                map, map_sampler, receiver, size, at, vec2f(left, right), vec2f(upper, lower),
+                map, map_sampler, receiver, at, vec2f(left, right), vec2f(upper, lower),
             );
             let weights = select(vec4f(0.0), shadows_cube_pair(x, s.x).xyyx, behind);
             blocked += weights.wx + weights.zy;
@@ -54,12 +53,13 @@ fn shadows_cube_filter(
     // run both sides of a branch leave a loop that no lane is in; and one for all taps, because they run it
     // once at least.
     let most = (reach + 0.5) * (abs(slope.x) + abs(slope.y));
-    let whole = shadows_cube_whole(receiver, size, corner, reach)
+    let whole = shadows_cube_whole(receiver, corner, reach)
         & (middle - most > receiver.horizon) & (middle + most <= receiver.bound);
     let side = 2 * shadows_cube_pairs;
     let end = select(side * side, 0, whole);
     shadow = select(0.0, shadow, whole);
     let first = corner - f32(shadows_cube_pairs);
+    let edge = shadows_cube_again(receiver, corner, s);
     for (var i = 0; i < end; i++) {
         let x = i % side;
         let y = i / side;
@@ -67,7 +67,7 @@ fn shadows_cube_filter(
         let down = shadows_cube_pair(y / 2, s.y);
         let weight = select(across.x, across.y, (x & 1) == 1) * select(down.x, down.y, (y & 1) == 1);
         let texel = first + vec2f(f32(x), f32(y));
-        shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, receiver, size, texel));
+        shadow += weight * (1.0 - shadows_cube_texel(map, map_sampler, edge, texel));
     }
     // Exactly 0 or 1 where all texels agree, however a GPU rounds the products and their sum: stretched
     // around one half by more than that, and cut off. One half stays one half.

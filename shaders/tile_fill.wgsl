@@ -1,7 +1,7 @@
 // Fills one tile of a layer, on which the viewport lies: with the depth that means "no caster", or with the
 // texels that another texture has at the same place. (WebGPU copies depth by whole layers only.)
 
-@group(0) @binding(0) var source: texture_depth_2d;
+@group(0) @binding(0) var source: texture_2d<f32>;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -12,5 +12,5 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
 
 @fragment
 fn fragment(@builtin(position) pixel: vec4f) -> @builtin(frag_depth) f32 {
-    return textureLoad(source, vec2i(pixel.xy), 0);
+    return textureLoad(source, vec2i(pixel.xy), 0).x;
 }

@@ -14,11 +14,3 @@ pub(crate) fn array_layers(device: &wgpu::Device, layers: u32) -> u32 {
     let mistaken = layers == 1 || layers.is_multiple_of(6);
     layers + u32::from(is_gl(device) && mistaken)
 }
-
-/// The cubes that a texture needs, at least so many, for the back end to take it for an array of cubes.
-pub(crate) fn array_cubes(device: &wgpu::Device, cubes: u32) -> u32 {
-    match is_gl(device) {
-        true => cubes.max(2),
-        false => cubes,
-    }
-}

@@ -227,8 +227,8 @@ pub use map::{
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{
-    AnyMap, ContactHardening, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler,
-    Radius, RandomDisk, VogelDisk,
+    AnyMap, ContactHardening, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace,
+    PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

@@ -24,8 +24,8 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 ///   [`wgsl::POSITION`](crate::wgsl::POSITION).
 /// - Textures of several samples cannot be read in shaders: [`LightJoin`](crate::LightJoin) and
 ///   [`ExactCount`](crate::ExactCount) take one sample.
-/// - A cube array cannot be read as single cubes, a [`ShadowMask`](crate::ShadowMask) may have a spare
-///   layer, and depth is not copied ([`StaticLayers`](crate::StaticLayers)).
+/// - Cube maps cannot be read as cubes ([`CubeShadowMap::view`](crate::CubeShadowMap::view)) and have a
+///   spare layer, as a [`ShadowMask`](crate::ShadowMask) may, and depth is not copied ([`StaticLayers`](crate::StaticLayers)).
 ///
 /// ```
 /// # fn host(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
@@ -40,8 +40,6 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support {
-    /// Cube array textures: the maps of several point lights in one binding.
-    pub cube_arrays: bool,
     /// Depth clip control: shadow volumes under projections with a finite far plane, and casters in
     /// maps that are nearer to their light than its near plane.
     pub depth_clip_control: bool,
@@ -60,14 +58,9 @@ pub struct Support {
     pub compute: bool,
     /// Samplers with a border: flat maps are lit beyond their edge without a test in the shader.
     pub clamp_to_border: bool,
-    /// Texture gathers: square kernels read four texels of a flat map at once. Every device has them
+    /// Texture gathers: square kernels read four texels of a map at once. Every device has them
     /// but those of the GL back end without compute shaders, which are WebGL 2 and OpenGL ES 3.0.
     pub gather: bool,
-    /// Texture gathers of cube maps that can be relied on: [`gather`](Self::gather), except on Intel's
-    /// GPUs, whose drivers for Windows and macOS give other texels
-    /// (<https://github.com/gpuweb/gpuweb/issues/4857>, 2024). Browsers do not tell the vendor, so
-    /// there it is true; see [`Gather`](crate::Gather).
-    pub cube_gather: bool,
     limits: Limits,
 }
 
@@ -114,8 +107,6 @@ impl Support {
         let gather = info.backend != Backend::Gl || downlevel.contains(COMPUTE);
         Self {
             gather,
-            cube_gather: gather && gathers_cubes(info),
-            cube_arrays: downlevel.contains(DownlevelFlags::CUBE_ARRAY_TEXTURES),
             depth_clip_control: features.contains(Features::DEPTH_CLIP_CONTROL),
             clip_distances: features.contains(Features::CLIP_DISTANCES),
             depth32float_stencil8: features.contains(Features::DEPTH32FLOAT_STENCIL8),
@@ -170,11 +161,6 @@ impl Support {
     pub fn fallbacks(&self) -> Vec<Fallback> {
         [
             (
-                self.cube_arrays,
-                "cube array textures",
-                "one cube texture and one bind group for each light",
-            ),
-            (
                 self.depth_clip_control,
                 "DEPTH_CLIP_CONTROL",
                 "shadow volumes need an infinite reverse-Z projection; others are refused",
@@ -212,12 +198,7 @@ impl Support {
             (
                 self.gather,
                 "texture gathers",
-                "square kernels fetch texels of flat maps one by one",
-            ),
-            (
-                self.cube_gather,
-                "right gathers of cube maps",
-                "square kernels fetch texels of cube maps one by one",
+                "square kernels fetch texels one by one",
             ),
         ]
         .into_iter()
@@ -227,15 +208,9 @@ impl Support {
     }
 }
 
-/// Whether a device takes shaders with cube array textures.
-pub(crate) fn has_cube_arrays(device: &wgpu::Device) -> bool {
-    let source = "@group(0) @binding(0) var map: texture_cube_array<f32>;";
-    takes(device, || {
-        drop(device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("shadows cube array"),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        }));
-    })
+/// Whether a device's shaders read storage buffers. WebGL 2 has none.
+pub(crate) fn has_storage(device: &wgpu::Device) -> bool {
+    device.limits().max_storage_buffers_per_shader_stage > 0
 }
 
 /// Whether a device's shaders gather texels. GL has gathers from the versions on that have compute
@@ -250,17 +225,6 @@ pub(crate) fn has_gather(device: &wgpu::Device) -> bool {
                 mapped_at_creation: false,
             }));
         })
-}
-
-/// Whether a device's gathers of cube maps are right.
-pub(crate) fn has_cube_gather(device: &wgpu::Device) -> bool {
-    gathers_cubes(&device.adapter_info()) && has_gather(device)
-}
-
-/// As far as the vendor goes.
-fn gathers_cubes(info: &AdapterInfo) -> bool {
-    const INTEL: u32 = 0x8086;
-    info.vendor != INTEL
 }
 
 /// Whether a device takes storage buffers in vertex shaders.
@@ -297,11 +261,8 @@ fn takes(device: &wgpu::Device, make: impl FnOnce()) -> bool {
 mod tests {
     use super::*;
 
-    fn info(backend: Backend, vendor: u32) -> AdapterInfo {
-        AdapterInfo {
-            vendor,
-            ..AdapterInfo::new(wgpu::DeviceType::Other, backend)
-        }
+    fn info(backend: Backend) -> AdapterInfo {
+        AdapterInfo::new(wgpu::DeviceType::Other, backend)
     }
 
     fn full(limits: Limits, info: &AdapterInfo) -> Support {
@@ -309,28 +270,26 @@ mod tests {
     }
 
     #[test]
-    fn gl_gathers_where_it_computes_and_intel_does_not_gather_cubes() {
+    fn gl_gathers_where_it_computes() {
         let none = DownlevelFlags::empty();
-        let gathers = |backend, vendor, flags| {
+        let gathers = |backend, flags| {
             let limits = Limits::defaults();
-            let support = Support::new(Features::empty(), limits, flags, &info(backend, vendor));
-            [support.gather, support.cube_gather]
+            Support::new(Features::empty(), limits, flags, &info(backend)).gather
         };
-        assert_eq!(gathers(Backend::Gl, 0, none), [false, false]);
-        assert_eq!(gathers(Backend::Gl, 0, COMPUTE), [true, true]);
-        assert_eq!(gathers(Backend::Vulkan, 0x10de, none), [true, true]);
-        assert_eq!(gathers(Backend::Dx12, 0x8086, COMPUTE), [true, false]);
+        assert!(!gathers(Backend::Gl, none));
+        assert!(gathers(Backend::Gl, COMPUTE));
+        assert!(gathers(Backend::Vulkan, none));
         let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
-        assert!(has_gather(&device) && has_cube_gather(&device));
+        assert!(has_gather(&device));
     }
 
     #[test]
     fn a_bare_adapter_asks_for_nothing_and_says_what_it_does_instead() {
         let limits = Limits::downlevel_webgl2_defaults();
-        let info = info(Backend::Gl, 0);
+        let info = info(Backend::Gl);
         let support = Support::new(Features::empty(), limits, DownlevelFlags::empty(), &info);
         assert_eq!(support.features(), Features::empty());
-        assert_eq!(support.fallbacks().len(), 10);
+        assert_eq!(support.fallbacks().len(), 8);
         let every_device_has_it = wgpu::TextureFormat::Depth24PlusStencil8;
         assert_eq!(support.depth_stencil_format(), every_device_has_it);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);
@@ -338,7 +297,7 @@ mod tests {
 
     #[test]
     fn a_full_adapter_lacks_nothing() {
-        let support = full(Limits::defaults(), &info(Backend::Vulkan, 0));
+        let support = full(Limits::defaults(), &info(Backend::Vulkan));
         assert!(support.fallbacks().is_empty());
         let default = crate::ShadowVolumeDescriptor::default().depth_stencil_format;
         assert_eq!(support.depth_stencil_format(), default);

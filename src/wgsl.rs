@@ -49,4 +49,7 @@ pub(crate) const CUBE_CASTER_GL: &str = concat!(
 );
 
 /// A cube map unfolded as a cross.
-pub(crate) const CUBE_CROSS: &str = include_str!("../shaders/cube_cross.wgsl");
+pub(crate) const CUBE_CROSS: &str = concat!(
+    include_str!("../shaders/light_record.wgsl"),
+    include_str!("../shaders/cube_cross.wgsl"),
+);

@@ -28,7 +28,7 @@ impl<'a> Many<'a> {
         let descriptor = CubeShadowMapDescriptor {
             size: 256,
             lights,
-            cube_array: stage.gpu.support.cube_arrays,
+            cube_array: true,
             ..options
         };
         let place = |light: u32| {

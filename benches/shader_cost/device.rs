@@ -162,7 +162,6 @@ unsafe fn create(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Resu
         .dynamic_rendering(true);
     let features = vk::PhysicalDeviceFeatures::default()
         .robust_buffer_access(true)
-        .image_cube_array(true)
         .depth_clamp(true)
         .sample_rate_shading(true)
         .vertex_pipeline_stores_and_atomics(true)

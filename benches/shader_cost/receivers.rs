@@ -2,7 +2,7 @@
 
 use shadows::{DepthEncoding, FlatLights, Gather, Kernel, MapKind};
 
-use crate::pcf::{WAYS, Way, made, textbooks};
+use crate::pcf::{WAYS, Way, made, takes_light, textbooks};
 use crate::pipeline::Case;
 use host::peers::PEERS;
 
@@ -56,7 +56,7 @@ pub fn lambert() -> Case {
 }
 
 /// What is counted: no device of today wants the others.
-const COUNTED: [&str; 9] = [
+const COUNTED: [&str; 11] = [
     "cube",
     "cube-linear",
     "cube-array",
@@ -66,13 +66,15 @@ const COUNTED: [&str; 9] = [
     "flat-border",
     "flat-spot",
     "flat-directional",
+    "atlas-point",
+    "atlas-spot",
 ];
 
 fn name(kernel: Kernel) -> &'static str {
     kernel.function().trim_start_matches("shadows_cube_")
 }
 
-/// The loops of a kernel's code: a square's is for the edges of the map alone.
+/// The loops of a kernel's code: a square's is for the edges of a face or of the map alone.
 fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
     let linear = way.encoding == DepthEncoding::LinearDistance;
     let fetches = way.gather == Gather::Never;
@@ -81,12 +83,23 @@ fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
         Kernel::Hard if way.flat_lights != FlatLights::Directional => vec![0],
         Kernel::Hard | Kernel::HardwareBilinear => Vec::new(),
         // Nearly everywhere the first taps agree.
-        Kernel::RandomDisk(disk) => vec![disk.around * disk.rings / 2],
-        Kernel::Vogel(disk) => vec![disk.taps / 2],
-        Kernel::ContactHardening(contact) => vec![contact.search_taps, contact.taps / 2],
+        Kernel::RandomDisk(disk) => disk_trips(way, disk.around * disk.rings / 2),
+        Kernel::Vogel(disk) => disk_trips(way, disk.taps / 2),
+        Kernel::ContactHardening(contact) => [contact.search_taps, contact.taps / 2]
+            .map(|trips| disk_trips(way, trips))
+            .concat(),
         // What is too long for the compiler to unroll, a row of gathers at a time.
         Kernel::Weighted7 if linear || fetches => vec![4, 0],
         _ => vec![0],
+    }
+}
+
+/// The loop over the taps of a disk; on a cube then the one for disks that go over an edge of a face.
+fn disk_trips(way: &Way, trips: u32) -> Vec<u32> {
+    match way.map {
+        MapKind::Cube => vec![trips, 0],
+        MapKind::Atlas if way.light_kinds.point => vec![trips, 0],
+        _ => vec![trips],
     }
 }
 
@@ -101,7 +114,10 @@ pub fn all() -> Vec<Case> {
             .filter(|kernel| kernel.reads(way.encoding))
         {
             let sampler = made(&device, &queue, &way.descriptor(kernel));
-            let index = if way.many_lights { "0u, " } else { "" };
+            let index = match takes_light(&way.descriptor(kernel)) {
+                true => "0u, ",
+                false => "",
+            };
             let flat = if way.map == MapKind::Flat {
                 "_flat"
             } else {

@@ -49,7 +49,7 @@ pub enum CubeShadowMapError {
     },
     /// No light at all, or more than the texture's layers or a buffer of matrices can hold.
     #[error(
-        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in a cube array, 1536 bytes of matrices each)"
+        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in one texture if they share it, and 128 lights then on devices without storage buffers; 1536 bytes of matrices each)"
     )]
     Slots {
         /// Lights asked for.
@@ -71,11 +71,6 @@ pub enum CubeShadowMapError {
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
     )]
     SlopeScale,
-    /// A cube array on a device without such textures.
-    #[error(
-        "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for cube_array: each light then has a cube and a bind group of its own"
-    )]
-    CubeArray,
     /// Layers of static casters on a back end that cannot copy depth.
     #[error(
         "StaticLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
@@ -86,9 +81,9 @@ pub enum CubeShadowMapError {
         "StaticLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false); pass StaticLayers::Auto or Never"
     )]
     NoStaticLayers,
-    /// A view of one cube of a cube array, on a back end that has none.
+    /// A cube view, on a back end that takes the layers of a texture for an array or for a cube.
     #[error(
-        "wgpu's GL back end reads no single cube out of a cube array; read the array (PcfDescriptor::many_lights), or make the map without cube_array"
+        "wgpu's GL back end reads a texture as layers or as a cube, not as both; read the layers of CubeShadowMap::texture in the order of CubeFace::ALL"
     )]
     CubeView,
     /// A view of a map that holds something else.
@@ -255,11 +250,6 @@ pub enum PcfError {
         /// What the sampler reads.
         sampler: crate::DepthEncoding,
     },
-    /// A sampler for many lights on a device without cube array textures.
-    #[error(
-        "the device has no cube array textures (DownlevelFlags::CUBE_ARRAY_TEXTURES); pass Support::cube_arrays for many_lights: each light is then read through a bind group of its own"
-    )]
-    CubeArray,
     /// Gathers on a device that has none.
     #[error(
         "the device has no texture gathers (it is a GL device without compute shaders, as WebGL 2); pass Gather::Auto or Gather::Never"
@@ -267,7 +257,7 @@ pub enum PcfError {
     Gather,
     /// A sampler for many lights and a map with one texture for each.
     #[error(
-        "the sampler reads many lights from one cube array, the map has a cube for each; make the map with cube_array, or the sampler without many_lights"
+        "the sampler reads many lights from one texture, the map has a texture for each; make the map with cube_array, or the sampler without many_lights"
     )]
     NoCubeArray,
     /// A kernel that reaches farther than the map was made for.
@@ -290,6 +280,19 @@ pub enum PcfError {
         /// The maps that the sampler is to read.
         map: crate::MapKind,
     },
+    /// A setting for atlases, of a sampler for others.
+    #[error(
+        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Atlas"
+    )]
+    AtlasOnly {
+        /// The field.
+        setting: &'static str,
+        /// The maps that the sampler is to read.
+        map: crate::MapKind,
+    },
+    /// Receivers for no kind of light.
+    #[error("light_kinds has no kind of light, so that all would be dark; pass at least one")]
+    NoLightKinds,
     /// A setting for flat maps, of a sampler for others.
     #[error(
         "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Flat"
@@ -300,11 +303,11 @@ pub enum PcfError {
         /// The maps that the sampler is to read.
         map: crate::MapKind,
     },
-    /// A sampler for one light and a cube array, on a back end that reads no single cube out of it.
+    /// A prefix with which a name is none.
     #[error(
-        "wgpu's GL back end reads no single cube out of a cube array; make the sampler with many_lights, or the map without cube_array"
+        "the prefix of a module's names is no beginning of a name in WGSL; pass letters, digits and underscores, the first no digit, and not two underscores first"
     )]
-    CubeView,
+    Prefix,
     /// A bind group for a light that the map has no place for.
     #[error(
         "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"
@@ -320,11 +323,6 @@ pub enum PcfError {
         "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass encoding: MajorAxis, or another kernel"
     )]
     HardwareEncoding(crate::DepthEncoding),
-    /// A hardware comparison of cube arrays on a back end that has none.
-    #[error(
-        "wgpu's GL back end compares no cube arrays in hardware; pass many_lights: false, or another kernel"
-    )]
-    HardwareArray,
     /// Textbook receivers of depths that they cannot read.
     #[error(
         "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"

@@ -30,6 +30,10 @@ use crate::{Bias, Light, Radius};
 /// differ by the rasteriser's rounding, which goes by where in the layer a tile lies (2^-14 of the depth
 /// is the most that was seen).
 ///
+/// Receivers see what they see on such a map. [`Kernel::HardwareBilinear`](crate::Kernel) alone takes what lies
+/// beside a tile for what is on its edge: half a texel along the seams of a point light's faces and the
+/// border of a spot.
+///
 /// # What is drawn again
 ///
 /// A tile whose light, casters, transforms and mesh revisions are those it was drawn with is left alone,
@@ -373,7 +377,6 @@ impl ShadowAtlas {
         self.statistics
     }
 
-    #[allow(dead_code)] // until receivers read it
     pub(crate) fn light_buffer(&self) -> &wgpu::Buffer {
         self.gpu.lights().buffer()
     }

@@ -2,7 +2,7 @@
 
 use super::cube::CubeShadowMap;
 use super::encoding::DepthEncoding;
-use super::gpu::LightUniform;
+use super::gpu::LightRecord;
 use crate::error::CubeShadowMapError;
 
 /// How to make a [`CubeCross`].
@@ -71,8 +71,7 @@ impl CubeCross {
     /// [`CubeShadowMap::texture_revision`] changes.
     ///
     /// # Errors
-    /// [`CubeShadowMapError`] if the map has another encoding or was made for fewer lights; and
-    /// [`CubeShadowMapError::CubeView`], as [`CubeShadowMap::view`].
+    /// [`CubeShadowMapError`] if the map has another encoding or was made for fewer lights.
     pub fn bind_group(
         &self,
         device: &wgpu::Device,
@@ -89,7 +88,7 @@ impl CubeCross {
         if light >= lights {
             return Err(CubeShadowMapError::NoSuchLight { light, lights });
         }
-        let view = map.view(light)?;
+        let view = map.layers(light);
         Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
@@ -132,7 +131,7 @@ fn layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
                 0,
                 wgpu::BindingType::Texture {
                     sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: wgpu::TextureViewDimension::Cube,
+                    view_dimension: wgpu::TextureViewDimension::D2Array,
                     multisampled: false,
                 },
             ),
@@ -145,7 +144,7 @@ fn layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
                 wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
                     has_dynamic_offset: false,
-                    min_binding_size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+                    min_binding_size: wgpu::BufferSize::new(size_of::<LightRecord>() as u64),
                 },
             ),
         ],

@@ -226,7 +226,7 @@ impl CubeShadowMap {
     }
 
     /// A light's texture and the first of its six layers, in the order of [`CubeFace::ALL`]; `None`
-    /// if it has no texels. On wgpu's GL back end a cube array for one light has six more layers, which
+    /// if it has no texels. On wgpu's GL back end the texture has a spare layer after all lights', which
     /// nothing is drawn into.
     pub fn texture(&self, light: usize) -> Option<(&wgpu::Texture, u32)> {
         let slot = self.gpu.textures().slot(self.slots.of_light(light)?)?;
@@ -237,8 +237,8 @@ impl CubeShadowMap {
     /// texel a face if it has none.
     ///
     /// # Errors
-    /// [`CubeShadowMapError::CubeView`] if the map is a cube array on wgpu's GL back end, which reads
-    /// no cube out of an array.
+    /// [`CubeShadowMapError::CubeView`] on wgpu's GL back end, which reads a texture as layers, as receivers
+    /// do, or as a cube, and not as both.
     pub fn view(&self, light: usize) -> Result<&wgpu::TextureView, CubeShadowMapError> {
         let view = self.gpu.textures().cube(self.slot_of(light));
         view.ok_or(CubeShadowMapError::CubeView)
@@ -317,9 +317,14 @@ impl CubeShadowMap {
         self.gpu.lights().one(light)
     }
 
-    /// The array of all cubes and the buffer of all lights, where they share a binding.
-    pub(crate) fn array(&self) -> Option<(&wgpu::TextureView, &wgpu::Buffer)> {
-        Some((self.gpu.textures().array()?, self.gpu.lights().all()?))
+    /// All layers of the texture that a light is in.
+    pub(crate) fn layers(&self, light: usize) -> &wgpu::TextureView {
+        self.gpu.textures().layers(self.slot_of(light))
+    }
+
+    /// The buffer of all lights, where they share a binding.
+    pub(crate) fn all_lights(&self) -> Option<&wgpu::Buffer> {
+        self.gpu.lights().all()
     }
 
     fn slot_of(&self, light: usize) -> usize {

@@ -1,10 +1,12 @@
 //! How a cube map is made, and what it is told each frame.
 
 use super::encoding::{DepthEncoding, quantum};
+use super::gpu::UNIFORM_LIGHTS;
 use super::sides::CasterSides;
 use super::static_layers::StaticLayers;
 use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
+use crate::support::has_storage;
 use crate::{Bias, PointLight, Radius, View};
 
 /// When a [`CubeShadowMap`](crate::CubeShadowMap) takes its texture memory.
@@ -37,10 +39,9 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// device's `max_buffer_size`, and six layers for each its `max_texture_array_layers` if
     /// `cube_array` is set.
     pub lights: u32,
-    /// Whether all lights share one cube array texture and one bind group, which needs
-    /// [`Support::cube_arrays`](crate::Support): pass that for both this and
-    /// [`PcfDescriptor::many_lights`](crate::PcfDescriptor::many_lights) to have it wherever it can
-    /// be. Default false: one cube texture for each light, and one bind group for each
+    /// Whether all lights share one texture and one bind group: see
+    /// [`PcfDescriptor::many_lights`](crate::PcfDescriptor::many_lights). Default false: one texture
+    /// for each light, and one bind group for each
     /// ([`PcfSampler::bind_group_of`](crate::PcfSampler::bind_group_of)). Receivers see the same.
     pub cube_array: bool,
     /// When the texture is made. Default [`Allocation::WithFirstCaster`].
@@ -106,15 +107,12 @@ impl CubeShadowMapDescriptor<'_> {
                 limit,
             });
         }
-        let most = self.most_lights(&limits, most_tiles);
+        let most = self.most_lights(device, most_tiles);
         if self.lights == 0 || self.lights > most {
             return Err(CubeShadowMapError::Slots {
                 lights: self.lights,
                 limit: most,
             });
-        }
-        if self.cube_array && !crate::support::has_cube_arrays(device) {
-            return Err(CubeShadowMapError::CubeArray);
         }
         if quantum(self.format).is_none() {
             return Err(CubeShadowMapError::Format(self.format));
@@ -137,11 +135,17 @@ impl CubeShadowMapDescriptor<'_> {
     }
 
     /// As many as have room for their matrices, and in one texture for their layers.
-    fn most_lights(&self, limits: &wgpu::Limits, most_tiles: u32) -> u32 {
-        match self.cube_array {
-            true => (most_tiles / 6).min(limits.max_texture_array_layers / 6),
-            false => most_tiles / 6,
+    fn most_lights(&self, device: &wgpu::Device, most_tiles: u32) -> u32 {
+        if !self.cube_array {
+            return most_tiles / 6;
         }
+        let bound = match has_storage(device) {
+            true => u32::MAX,
+            false => UNIFORM_LIGHTS,
+        };
+        // The GL back end wants a spare layer.
+        let layers = device.limits().max_texture_array_layers.saturating_sub(1);
+        (most_tiles / 6).min(layers / 6).min(bound)
     }
 
     /// The fewest triangles of static casters on a face that are worth a layer.

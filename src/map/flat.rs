@@ -5,15 +5,16 @@ use glam::{Mat4, Vec4};
 use super::encoding::{DepthEncoding, texel_bytes};
 use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 use super::gpu::{
-    Draw, DrawLists, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, FlatLightUniform,
-    INSTANCE_SIZE, Instances, PipelineKind, Pipelines, TooLarge, begin_depth_pass,
-    can_pull_casters, create_texture,
+    Draw, DrawLists, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, INSTANCE_SIZE, Instances,
+    LightRecord, PipelineKind, Pipelines, TilePlace, TileTexture, Tiles, TooLarge, array_view,
+    begin_depth_pass, can_pull_casters, create_texture, layer_view,
 };
 use super::plan::{FlatPlace, Rules, SlotPlan, Slots, choose_tiles, follow};
 use super::projection::NearPlane;
 use super::sides::CasterSides;
 use super::statistics::ShadowMapStatistics;
 use crate::error::ShadowMapError;
+use crate::gl;
 use crate::mesh::Caster;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
@@ -59,7 +60,9 @@ pub struct ShadowMap {
     sides: CasterSides,
     cache: bool,
     texture: wgpu::Texture,
-    view: wgpu::TextureView,
+    /// What is drawn on, and what is read.
+    layer: wgpu::TextureView,
+    layers: wgpu::TextureView,
     pipelines: Pipelines,
     uniforms: FaceUniforms,
     light: FlatLightBuffer,
@@ -90,7 +93,8 @@ impl ShadowMap {
             None => "shadows map".to_owned(),
         };
         let (size, bias, reach) = (descriptor.size, descriptor.bias, descriptor.reach);
-        let texture = create_texture(device, &label, size, descriptor.format, 1);
+        let layers = gl::array_layers(device, 1);
+        let texture = create_texture(device, &label, size, descriptor.format, layers);
         let uniforms = FaceUniforms::new(device, &label, 1);
         let kind = PipelineKind {
             format: texture.format(),
@@ -105,10 +109,8 @@ impl ShadowMap {
             reach,
             sides: descriptor.sides,
             cache: descriptor.cache,
-            view: texture.create_view(&wgpu::TextureViewDescriptor {
-                label: Some(&label),
-                ..Default::default()
-            }),
+            layer: layer_view(&texture, &label, 0),
+            layers: array_view(&texture, &label),
             texture,
             place: FlatPlace::new(size, reach, near_plane, kind.unclipped_depth),
             pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
@@ -166,10 +168,8 @@ impl ShadowMap {
         if self.is_pending() {
             self.record_draws(device, frame.casters)?;
         }
-        let (size, format) = (self.size, self.texture.format());
-        let frame_shown = self.place.frame();
-        let light = FlatLightUniform::new(frame_shown, &self.bias, size, format);
-        self.light.write(&mut self.uploads, light);
+        let record = self.light_record();
+        self.light.write(&mut self.uploads, record);
         self.statistics = ShadowMapStatistics {
             not_encoded,
             encoder_dropped,
@@ -251,9 +251,10 @@ impl ShadowMap {
         &self.texture
     }
 
-    /// The map as a 2D texture, for hosts that sample it themselves.
+    /// The map as layer 0 of a 2D array (`texture_2d_array`, `texture_depth_2d_array`), for hosts that
+    /// sample it themselves. On wgpu's GL back end it has a spare layer, which nothing is drawn into.
     pub fn view(&self) -> &wgpu::TextureView {
-        &self.view
+        &self.layers
     }
 
     /// Texels along each side.
@@ -274,7 +275,7 @@ impl ShadowMap {
         &self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
-        begin_depth_pass(encoder, &self.label, &self.view, wgpu::LoadOp::Clear(0.0))
+        begin_depth_pass(encoder, &self.label, &self.layer, wgpu::LoadOp::Clear(0.0))
     }
 
     /// A directional light's map is made wider by what kernels reach beside what is seen; of texels, a
@@ -352,6 +353,23 @@ impl ShadowMap {
         Ok(())
     }
 
+    /// What receivers are told of the light.
+    fn light_record(&self) -> LightRecord {
+        let texture = TileTexture {
+            side: self.size,
+            bias: self.bias,
+            format: self.texture.format(),
+        };
+        let tile = Tiles::At {
+            size: self.size,
+            places: [TilePlace::layer(0)],
+        };
+        match self.place.frame() {
+            Some(frame) => LightRecord::flat(frame, tile, &texture),
+            None => LightRecord::lit(),
+        }
+    }
+
     /// Forgets what was to be written, and what has been.
     fn forget_uploads(&mut self) {
         self.uploads.clear();
@@ -367,7 +385,9 @@ impl ShadowMap {
             casters_outside: casters as u32 - drawn,
             draws: self.draws.iter().count() as u32,
             triangles: self.draws.iter().map(Draw::triangles).sum(),
-            bytes: u64::from(self.size).pow(2) * texel_bytes(self.texture.format())
+            bytes: u64::from(self.texture.depth_or_array_layers())
+                * u64::from(self.size).pow(2)
+                * texel_bytes(self.texture.format())
                 + self.instances.bytes()
                 + self.uniforms.bytes()
                 + self.light.buffer().size(),

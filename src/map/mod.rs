@@ -31,7 +31,7 @@ pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 pub use gpu::HostDraw;
-pub(crate) use gpu::{FlatLightUniform, LightUniform};
+pub(crate) use gpu::{LightRecord, UNIFORM_LIGHTS};
 pub use plan::TileSize;
 pub use projection::CubeFace;
 pub use sides::CasterSides;

@@ -1,8 +1,7 @@
 //! How square kernels read four texels.
 
-use super::MapKind;
 use crate::error::PcfError;
-use crate::support::{has_cube_gather, has_gather};
+use crate::support::has_gather;
 
 /// Whether the shaders of square kernels read four texels with one texture gather, or fetch each by
 /// itself. Both read the same texels, and give the same visibility bit for bit. Exhaustive: there is no
@@ -11,29 +10,23 @@ use crate::support::{has_cube_gather, has_gather};
 /// [`Hard`](crate::Kernel::Hard) and the disks gather nothing, and are the same with any.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Gather {
-    /// A gather wherever it can be relied on: flat maps where there is [`Support::gather`], cube maps
-    /// where there is [`Support::cube_gather`].
-    ///
-    /// [`Support::gather`]: crate::Support::gather
-    /// [`Support::cube_gather`]: crate::Support::cube_gather
+    /// A gather wherever there is one: [`Support::gather`](crate::Support::gather).
     #[default]
     Auto,
-    /// A gather, on Intel's GPUs, too: for hosts that know theirs to be right.
+    /// A gather; refused where there is none.
     Always,
-    /// Four fetches: for devices whose gathers are wrong and that the crate does not know, among them
-    /// Intel's in browsers, which do not tell the vendor.
+    /// Four fetches: for devices whose gathers are wrong.
     Never,
 }
 
 impl Gather {
-    /// Whether a device's shaders gather from a kind of map.
-    pub(super) fn on(self, device: &wgpu::Device, map: MapKind) -> Result<bool, PcfError> {
-        match (self, map) {
-            (Self::Never, _) => Ok(false),
-            (Self::Auto, MapKind::Cube) => Ok(has_cube_gather(device)),
-            (Self::Auto, MapKind::Flat) => Ok(has_gather(device)),
-            (Self::Always, _) if has_gather(device) => Ok(true),
-            (Self::Always, _) => Err(PcfError::Gather),
+    /// Whether a device's shaders gather.
+    pub(super) fn on(self, device: &wgpu::Device) -> Result<bool, PcfError> {
+        match self {
+            Self::Never => Ok(false),
+            Self::Auto => Ok(has_gather(device)),
+            Self::Always if has_gather(device) => Ok(true),
+            Self::Always => Err(PcfError::Gather),
         }
     }
 }

@@ -93,7 +93,8 @@ pub enum Kernel {
     /// usable normal. This kernel cannot read a slope from the map instead, so everything is lit there except what is
     /// behind a caster very near the light. Pass a normal in such scenes.
     ///
-    /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only, and no cube arrays on GL.
+    /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only. On a cube its taps end where the face
+    /// does: within half a texel of an edge the outermost texels count alone.
     HardwareBilinear,
     /// Random disk: a table of jittered, stratified offsets, picked by the pixel.
     RandomDisk(RandomDisk),
@@ -199,7 +200,7 @@ impl Kernel {
     }
 }
 
-/// Parameters of a kernel; `ShadowsCubeKernel` in WGSL.
+/// Parameters of a kernel; `ShadowsKernel` in WGSL.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(super) struct KernelUniform {
@@ -224,12 +225,9 @@ mod tests {
 
     #[test]
     fn the_parameters_lie_in_memory_as_wgsl_has_them() {
-        // Up to the functions, which need other files.
-        let text = include_str!("../../shaders/pcf_disk.wgsl");
-        let (parameters, _) = text.split_once("// The disk's axes").unwrap();
         assert_layout!(
-            parameters,
-            "ShadowsCubeKernel",
+            include_str!("../../shaders/pcf_parameters.wgsl"),
+            "ShadowsKernel",
             KernelUniform,
             radius_texels,
             radius_world,

@@ -1,45 +1,33 @@
-//! The layout of a sampler's bind group.
+//! The bindings of a sampler.
 
+use super::Kernel;
 use super::kernel::KernelUniform;
-use super::map_kind::Reads;
-use super::{Kernel, MapKind};
-use crate::map::{FlatLightUniform, LightUniform};
+use super::map_kind::{Lights, Reads};
+use crate::map::{LightRecord, UNIFORM_LIGHTS};
 
-/// The kinds of binding that a map and its lights are.
-struct MapEntries {
-    dimension: wgpu::TextureViewDimension,
-    lights: wgpu::BufferBindingType,
-    light_size: usize,
-}
-
-fn map_entries(reads: Reads) -> MapEntries {
-    MapEntries {
-        dimension: match (reads.map, reads.many_lights) {
-            (MapKind::Cube, false) => wgpu::TextureViewDimension::Cube,
-            (MapKind::Cube, true) => wgpu::TextureViewDimension::CubeArray,
-            (MapKind::Flat, _) => wgpu::TextureViewDimension::D2,
-        },
-        lights: match reads.many_lights {
-            false => wgpu::BufferBindingType::Uniform,
-            true => wgpu::BufferBindingType::Storage { read_only: true },
-        },
-        light_size: match reads.map {
-            MapKind::Cube => size_of::<LightUniform>(),
-            MapKind::Flat => size_of::<FlatLightUniform>(),
-        },
+/// The buffer that a sampler reads lights from, and how large it is at least.
+fn light_buffer(reads: Reads) -> (wgpu::BufferBindingType, usize) {
+    let one = size_of::<LightRecord>();
+    match reads.lights {
+        Lights::One => (wgpu::BufferBindingType::Uniform, one),
+        Lights::Storage => (wgpu::BufferBindingType::Storage { read_only: true }, one),
+        Lights::Uniform => (
+            wgpu::BufferBindingType::Uniform,
+            one * UNIFORM_LIGHTS as usize,
+        ),
     }
 }
 
-pub(super) fn create_layout(
-    device: &wgpu::Device,
-    label: &str,
+/// What a sampler binds, from `first` on.
+pub(super) fn layout_entries(
     kernel: Kernel,
     reads: Reads,
-) -> wgpu::BindGroupLayout {
-    let map = map_entries(reads);
+    first: u32,
+) -> Vec<wgpu::BindGroupLayoutEntry> {
+    let (lights, light_size) = light_buffer(reads);
     let visibility = wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE;
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
+        binding: first + binding,
         visibility,
         ty,
         count: None,
@@ -65,17 +53,14 @@ pub(super) fn create_layout(
         min_binding_size: wgpu::BufferSize::new(size as u64),
     };
     let mut entries = vec![
-        entry(0, texture(depths, map.dimension)),
+        entry(0, texture(depths, wgpu::TextureViewDimension::D2Array)),
         entry(1, wgpu::BindingType::Sampler(sampler)),
-        entry(2, buffer(map.lights, map.light_size)),
+        entry(2, buffer(lights, light_size)),
     ];
     if kernel.uses_pixel() {
         let ty = wgpu::BufferBindingType::Uniform;
         entries.push(entry(3, buffer(ty, size_of::<KernelUniform>())));
         entries.push(entry(4, texture(float, wgpu::TextureViewDimension::D3)));
     }
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &entries,
-    })
+    entries
 }

@@ -1,9 +1,10 @@
 //! The kinds of shadow map that a sampler can read.
 
 use super::text::TEXEL;
-use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowMap};
+use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowAtlas, ShadowMap};
 
-const CUBE_TAP: &str = include_str!("../../shaders/cube_tap.wgsl");
+const TILE_WHOLE: &str = include_str!("../../shaders/tile_whole.wgsl");
+const CUBE_TEXEL: &str = include_str!("../../shaders/cube_texel.wgsl");
 
 /// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -14,6 +15,52 @@ pub enum MapKind {
     Cube,
     /// [`ShadowMap`]: spot and directional lights.
     Flat,
+    /// [`ShadowAtlas`]: lights of any kind.
+    Atlas,
+}
+
+/// Which kinds of light the receivers of an atlas are for. Those of the others are dark to them, and leave no
+/// code in their shaders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LightKinds {
+    /// Point lights.
+    pub point: bool,
+    /// Spots.
+    pub spot: bool,
+    /// Directional lights.
+    pub directional: bool,
+}
+
+impl LightKinds {
+    /// All kinds.
+    pub const ALL: Self = Self {
+        point: true,
+        spot: true,
+        directional: true,
+    };
+
+    pub(super) fn is_empty(self) -> bool {
+        !self.point && !self.is_flat()
+    }
+
+    /// Whether any has flat tiles.
+    pub(super) fn is_flat(self) -> bool {
+        self.spot || self.directional
+    }
+
+    fn flat_lights(self) -> FlatLights {
+        match (self.spot, self.directional) {
+            (true, false) => FlatLights::Spot,
+            (false, true) => FlatLights::Directional,
+            _ => FlatLights::Any,
+        }
+    }
+}
+
+impl Default for LightKinds {
+    fn default() -> Self {
+        Self::ALL
+    }
 }
 
 /// Which kinds of light a sampler of flat maps serves. One for a single kind costs less (docs/shader-cost.md).
@@ -47,6 +94,8 @@ pub enum AnyMap<'a> {
     Cube(&'a CubeShadowMap),
     /// A flat map.
     Flat(&'a ShadowMap),
+    /// An atlas.
+    Atlas(&'a ShadowAtlas),
 }
 
 impl<'a> AnyMap<'a> {
@@ -55,6 +104,7 @@ impl<'a> AnyMap<'a> {
         match self {
             Self::Cube(_) => MapKind::Cube,
             Self::Flat(_) => MapKind::Flat,
+            Self::Atlas(_) => MapKind::Atlas,
         }
     }
 
@@ -63,6 +113,7 @@ impl<'a> AnyMap<'a> {
         match self {
             Self::Cube(map) => map.reach,
             Self::Flat(map) => map.reach,
+            Self::Atlas(map) => map.reach,
         }
     }
 }
@@ -79,13 +130,32 @@ impl<'a> From<&'a ShadowMap> for AnyMap<'a> {
     }
 }
 
+impl<'a> From<&'a ShadowAtlas> for AnyMap<'a> {
+    fn from(map: &'a ShadowAtlas) -> Self {
+        Self::Atlas(map)
+    }
+}
+
+/// How shaders get at lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lights {
+    /// One, in a uniform buffer.
+    One,
+    /// All of a map, in a storage buffer.
+    Storage,
+    /// The same in a uniform buffer, on devices without storage buffers.
+    Uniform,
+}
+
 /// What a sampler is made to read.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reads {
     pub map: MapKind,
     pub encoding: DepthEncoding,
-    pub many_lights: bool,
+    pub lights: Lights,
     pub flat_lights: FlatLights,
+    /// Of an atlas.
+    pub kinds: LightKinds,
     /// Whether its sampler has a border of depth 0.
     pub border: bool,
     /// Whether squares of texels are gathered, or else fetched one by one.
@@ -95,7 +165,11 @@ pub(super) struct Reads {
 /// The files that a kind of map brings along.
 pub(super) struct MapWgsl {
     reads: Reads,
-    pub light: &'static str,
+    /// Whether it is for spots and directional lights.
+    is_flat: bool,
+    /// Where the tiles of a light are.
+    pub tile: &'static str,
+    /// What kind of light is read, or of a cube its faces.
     pub kind: &'static str,
     pub receiver: &'static str,
     pub depth: &'static str,
@@ -105,25 +179,42 @@ pub(super) struct MapWgsl {
     pub texel: &'static str,
     pub four: &'static str,
     pub tap: &'static str,
+    pub disk: &'static str,
+    pub search: &'static str,
     /// All that [`Kernel::Hard`](super::Kernel::Hard) takes.
-    pub hard: [&'static str; 2],
+    pub hard: &'static [&'static str],
     pub slope: &'static str,
-    pub compare: &'static str,
     pub hardware: &'static str,
 }
 
 impl MapWgsl {
     pub fn new(reads: Reads) -> Self {
         match reads.map {
-            MapKind::Cube => Self::cube(reads),
+            MapKind::Cube | MapKind::Atlas => Self::cube(reads),
             MapKind::Flat => Self::flat(reads),
+        }
+    }
+
+    /// The same for the flat tiles of an atlas.
+    pub fn flat_tiles(reads: Reads) -> Self {
+        Self::flat(Reads {
+            flat_lights: reads.kinds.flat_lights(),
+            ..reads
+        })
+    }
+
+    fn tile(reads: Reads) -> &'static str {
+        match reads.map {
+            MapKind::Atlas => include_str!("../../shaders/tile_placed.wgsl"),
+            _ => TILE_WHOLE,
         }
     }
 
     fn flat(reads: Reads) -> Self {
         Self {
             reads,
-            light: include_str!("../../shaders/flat_light.wgsl"),
+            tile: Self::tile(reads),
+            is_flat: true,
             kind: reads.flat_lights.wgsl(),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
             depth: "",
@@ -139,79 +230,77 @@ impl MapWgsl {
             texel: "",
             four: include_str!("../../shaders/flat_compare.wgsl"),
             tap: include_str!("../../shaders/flat_tap.wgsl"),
-            hard: [TEXEL, include_str!("../../shaders/flat_hard.wgsl")],
+            disk: include_str!("../../shaders/flat_disk.wgsl"),
+            search: include_str!("../../shaders/flat_search.wgsl"),
+            hard: &[include_str!("../../shaders/flat_hard.wgsl")],
             slope: include_str!("../../shaders/flat_slope.wgsl"),
-            compare: "",
             hardware: include_str!("../../shaders/flat_hardware.wgsl"),
         }
     }
 
     fn cube(reads: Reads) -> Self {
-        let (fetch, gather) = match reads.many_lights {
-            false => (
-                include_str!("../../shaders/cube_fetch.wgsl"),
-                include_str!("../../shaders/cube_gather.wgsl"),
-            ),
-            true => (
-                include_str!("../../shaders/cube_array_fetch.wgsl"),
-                include_str!("../../shaders/cube_array_gather.wgsl"),
-            ),
-        };
-        let gather = match reads.gather {
-            true => gather,
-            false => include_str!("../../shaders/cube_gather_fetches.wgsl"),
-        };
         Self {
             reads,
-            light: include_str!("../../shaders/cube_light.wgsl"),
-            kind: "",
+            tile: Self::tile(reads),
+            is_flat: false,
+            kind: include_str!("../../shaders/cube_face.wgsl"),
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
             depth: match reads.encoding {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
                 DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
             },
             edge: "",
-            fetch,
-            gather,
-            texel: include_str!("../../shaders/cube_texel.wgsl"),
-            four: include_str!("../../shaders/cube_four.wgsl"),
-            tap: CUBE_TAP,
-            hard: [CUBE_TAP, include_str!("../../shaders/cube_hard.wgsl")],
-            slope: include_str!("../../shaders/cube_slope.wgsl"),
-            compare: match reads.many_lights {
-                false => include_str!("../../shaders/cube_compare.wgsl"),
-                true => include_str!("../../shaders/cube_array_compare.wgsl"),
+            fetch: include_str!("../../shaders/cube_fetch.wgsl"),
+            gather: match reads.gather {
+                true => include_str!("../../shaders/cube_gather.wgsl"),
+                false => include_str!("../../shaders/cube_gather_fetches.wgsl"),
             },
+            texel: CUBE_TEXEL,
+            four: include_str!("../../shaders/cube_four.wgsl"),
+            tap: include_str!("../../shaders/cube_tap.wgsl"),
+            disk: include_str!("../../shaders/cube_disk.wgsl"),
+            search: include_str!("../../shaders/cube_search.wgsl"),
+            hard: &[
+                CUBE_TEXEL,
+                TEXEL,
+                include_str!("../../shaders/cube_hard.wgsl"),
+            ],
+            slope: include_str!("../../shaders/cube_slope.wgsl"),
             hardware: include_str!("../../shaders/cube_hardware.wgsl"),
         }
     }
 
-    /// Whether the map is an array with a cube for each light.
-    pub fn many_lights(&self) -> bool {
-        self.reads.many_lights
+    /// How shaders get at its lights.
+    pub fn lights(&self) -> Lights {
+        self.reads.lights
     }
 
-    /// Kernels are written for one cube map, and are WGSL as they stand. On other maps they differ
-    /// in the texture's type, and on flat ones in the names.
+    /// Kernels are written for cube maps, and are WGSL as they stand. On flat ones they differ in the
+    /// names.
     pub fn adapt(&self, wgsl: &str) -> String {
-        match (self.reads.map, self.reads.many_lights) {
-            (MapKind::Cube, false) => wgsl.to_owned(),
-            (MapKind::Cube, true) => wgsl
-                .replace("texture_cube<f32>", "texture_cube_array<f32>")
-                .replace("texture_depth_cube,", "texture_depth_cube_array,")
-                .replace("texture_depth_cube;", "texture_depth_cube_array;"),
-            (MapKind::Flat, _) => wgsl
-                .replace("texture_cube<f32>", "texture_2d<f32>")
-                .replace("texture_depth_cube", "texture_depth_2d")
-                .replace("ShadowsCube", "ShadowsFlat")
-                .replace("shadows_cube_", "shadows_flat_"),
-        }
+        let own = [
+            ("ShadowsCube", "ShadowsFlat"),
+            ("shadows_cube_", "shadows_flat_"),
+        ];
+        // What cube maps and flat ones share: a shader may hold a sampler's module of each.
+        let shared = [
+            ("ShadowsLight", "ShadowsFlatLight"),
+            ("ShadowsTile", "ShadowsFlatTile"),
+            ("ShadowsKernel", "ShadowsFlatKernel"),
+            ("shadows_kind", "shadows_flat_kind"),
+            ("shadows_casts", "shadows_flat_casts"),
+            ("shadows_tile", "shadows_flat_tile"),
+        ];
+        let own = own.iter().filter(|_| self.is_flat);
+        let shared = shared.iter().filter(|_| self.reads.map == MapKind::Flat);
+        own.chain(shared)
+            .fold(wgsl.to_owned(), |text, (from, to)| text.replace(from, to))
     }
 
     /// The same for a module with bindings, whose names have no kind in them for cube maps.
     pub fn adapt_module(&self, wgsl: &str) -> String {
         match self.reads.map {
-            MapKind::Cube => self.adapt(wgsl),
+            MapKind::Cube | MapKind::Atlas => self.adapt(wgsl),
             MapKind::Flat => {
                 let plain = wgsl.replace("shadows_cube_", "shadows_");
                 self.adapt(&plain).replace("shadows_", "shadows_flat_")

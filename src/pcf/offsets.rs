@@ -2,7 +2,45 @@
 
 use std::f32::consts::TAU;
 
+use wgpu::util::DeviceExt as _;
+
+use super::Kernel;
 use super::disk::RandomDisk;
+
+/// The texture of a disk's offsets; nothing for other kernels.
+pub(super) fn create(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    label: &str,
+    kernel: Kernel,
+) -> Option<wgpu::TextureView> {
+    let (side, texels) = match kernel {
+        Kernel::RandomDisk(disk) => (disk.size, random_disk(&disk)),
+        Kernel::Vogel(disk) => (1, vogel(disk.taps)),
+        Kernel::ContactHardening(contact) => (1, vogel(contact.taps)),
+        _ => return None,
+    };
+    let texture = device.create_texture_with_data(
+        queue,
+        &wgpu::TextureDescriptor {
+            label: Some(&format!("{label} offsets")),
+            size: wgpu::Extent3d {
+                width: side,
+                height: side,
+                depth_or_array_layers: texels.len() as u32 / (side * side),
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D3,
+            format: wgpu::TextureFormat::Rgba32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        bytemuck::cast_slice(&texels),
+    );
+    Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+}
 
 /// `taps` offsets on Vogel's spiral, two in each entry, from the centre out.
 pub(super) fn vogel(taps: u32) -> Vec<[f32; 4]> {

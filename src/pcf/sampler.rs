@@ -2,11 +2,15 @@
 
 use wgpu::util::DeviceExt as _;
 
+use super::bound::Bound;
 use super::kernel::KernelUniform;
-use super::layout::create_layout;
-use super::map_kind::{MapWgsl, Reads};
-use super::{AnyMap, FlatLights, Gather, Kernel, MapKind, offsets, text};
+use super::layout::layout_entries;
+use super::map_kind::{Lights, MapWgsl, Reads};
+use super::{
+    AnyMap, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace, atlas_text, offsets, text,
+};
 use crate::error::PcfError;
+use crate::support::has_storage;
 use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
@@ -21,8 +25,8 @@ pub struct PcfDescriptor<'a> {
     /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]; flat maps have no other.
     pub encoding: DepthEncoding,
     /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
-    /// a cube map. Such maps are made with `cube_array`, and the device has
-    /// [`Support::cube_arrays`](crate::Support). Default false: one light a bind group. For cube maps.
+    /// a cube map. Such maps are made with `cube_array`. Default false: one light a bind group. For cube
+    /// maps.
     pub many_lights: bool,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
@@ -32,6 +36,8 @@ pub struct PcfDescriptor<'a> {
     /// Which lights its flat maps are prepared for. Default [`FlatLights::Any`]; a sampler for one kind
     /// of light takes fewer instructions. For flat maps.
     pub flat_lights: FlatLights,
+    /// Which kinds of light of an atlas its receivers are for. Default all. For atlases.
+    pub light_kinds: LightKinds,
     /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
     pub gather: Gather,
 }
@@ -55,6 +61,15 @@ impl PcfDescriptor<'_> {
                 setting: "flat_lights",
                 map: self.map,
             });
+        }
+        if self.map != MapKind::Atlas && self.light_kinds != LightKinds::default() {
+            return Err(PcfError::AtlasOnly {
+                setting: "light_kinds",
+                map: self.map,
+            });
+        }
+        if self.light_kinds.is_empty() {
+            return Err(PcfError::NoLightKinds);
         }
         if !self.textbook {
             return match self.kernel.reads(self.encoding) {
@@ -106,9 +121,8 @@ impl PcfSampler {
     /// no bindings in its layout.
     ///
     /// # Errors
-    /// [`PcfError`] if a parameter of the kernel is out of range, the device has no cube arrays for
-    /// many lights or no gathers for [`Gather::Always`], its back end or the encoding does not go with
-    /// [`Kernel::HardwareBilinear`], textbook receivers are to read another encoding
+    /// [`PcfError`] if a parameter of the kernel is out of range, the device has no gathers for
+    /// [`Gather::Always`], the encoding does not go with [`Kernel::HardwareBilinear`], textbook receivers are to read another encoding
     /// than theirs, or a setting would have no effect.
     pub fn new(
         device: &wgpu::Device,
@@ -123,17 +137,12 @@ impl PcfSampler {
             many_lights,
             textbook,
             flat_lights,
+            light_kinds,
             gather,
         } = descriptor;
         kernel.validate()?;
         descriptor.validate_combination()?;
-        if many_lights && !crate::support::has_cube_arrays(device) {
-            return Err(PcfError::CubeArray);
-        }
         let hardware = kernel == Kernel::HardwareBilinear;
-        if hardware && many_lights && crate::gl::is_gl(device) {
-            return Err(PcfError::HardwareArray);
-        }
         let border = map == MapKind::Flat
             && device
                 .features()
@@ -145,10 +154,15 @@ impl PcfSampler {
         let reads = Reads {
             map,
             encoding,
-            many_lights,
+            lights: match many_lights {
+                false if map != MapKind::Atlas => Lights::One,
+                _ if has_storage(device) => Lights::Storage,
+                _ => Lights::Uniform,
+            },
             flat_lights,
+            kinds: light_kinds,
             border,
-            gather: gather.on(device, map)?,
+            gather: gather.on(device)?,
         };
         let filter = match hardware {
             false => wgpu::FilterMode::Nearest,
@@ -162,7 +176,10 @@ impl PcfSampler {
             kernel,
             reads,
             textbook,
-            layout: create_layout(device, &label, kernel, reads),
+            layout: device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(&label),
+                entries: &layout_entries(kernel, reads, 0),
+            }),
             // Nearest: texels are compared one by one, never blended as depths. In hardware it is what
             // comparisons say that is blended.
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
@@ -182,7 +199,7 @@ impl PcfSampler {
                     usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 })
             }),
-            offsets: create_offsets(device, queue, &label, kernel),
+            offsets: offsets::create(device, queue, &label, kernel),
             label,
         })
     }
@@ -208,15 +225,21 @@ impl PcfSampler {
         }
     }
 
-    /// Layout of the bind group: 0 the map (`texture_cube<f32>`, unfilterable; with `many_lights`
-    /// `texture_cube_array<f32>`; for flat maps `texture_2d<f32>`), 1 a sampler (non-filtering); for
-    /// [`Kernel::HardwareBilinear`] a `texture_depth_cube`, `texture_depth_cube_array` or
-    /// `texture_depth_2d` and a comparison sampler;
-    /// 2 the light (uniform buffer of 64 bytes, for flat maps 96; with `many_lights` a read-only
-    /// storage buffer of all lights); for disks also 3, the kernel's parameters (uniform buffer of
-    /// 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and compute stages.
+    /// Layout of the bind group: 0 the map (`texture_2d_array<f32>`, unfilterable), 1 a sampler
+    /// (non-filtering); for [`Kernel::HardwareBilinear`] a `texture_depth_2d_array` and a comparison
+    /// sampler; 2 the light (uniform buffer of 128 bytes; with `many_lights` a read-only storage buffer of
+    /// all lights, or without storage buffers a uniform buffer of 128); for disks also 3, the kernel's
+    /// parameters (uniform buffer of 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and
+    /// compute stages.
     pub fn bind_group_layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
+    }
+
+    /// The same bindings in the same order for a bind group of the host's, from `first_binding` on: three,
+    /// or five for disks. [`entries`](Self::entries) has what is bound, [`wgsl_module_at`](Self::wgsl_module_at)
+    /// the WGSL.
+    pub fn layout_entries(&self, first_binding: u32) -> Vec<wgpu::BindGroupLayoutEntry> {
+        layout_entries(self.kernel, self.reads, first_binding)
     }
 
     /// The bind group for a map: all its lights with `many_lights`, else its first. Maps of any
@@ -227,26 +250,14 @@ impl PcfSampler {
     /// stays right for good.
     ///
     /// # Errors
-    /// [`PcfError`] if the map is of another kind, has another encoding, is no cube array, or was made
+    /// [`PcfError`] if the map is of another kind, has another encoding, has a texture for each light, or was made
     /// for kernels that do not reach as far as this one.
     pub fn bind_group<'a>(
         &self,
         device: &wgpu::Device,
         map: impl Into<AnyMap<'a>>,
     ) -> Result<wgpu::BindGroup, PcfError> {
-        let map = map.into();
-        if map.kind() != self.map() {
-            let (made_for, given) = (self.map(), map.kind());
-            return Err(PcfError::Map { made_for, given });
-        }
-        self.check_reach(map)?;
-        match map {
-            AnyMap::Cube(map) => self.bind_group_of(device, map, 0),
-            AnyMap::Flat(map) => {
-                let light = map.light_uniform().as_entire_binding();
-                Ok(self.group(device, map.view(), light))
-            }
-        }
+        Ok(self.group(device, &self.bound(map.into(), 0)?.entries(0)))
     }
 
     /// The bind group for one light of a cube map that has a texture for each; `light` is its place
@@ -260,30 +271,77 @@ impl PcfSampler {
         map: &CubeShadowMap,
         light: usize,
     ) -> Result<wgpu::BindGroup, PcfError> {
-        if self.map() != MapKind::Cube {
-            let (made_for, given) = (self.map(), MapKind::Cube);
+        Ok(self.group(device, &self.bound(map.into(), light)?.entries(0)))
+    }
+
+    /// What [`bind_group`](Self::bind_group) binds, for a bind group of the host's with
+    /// [`layout_entries`](Self::layout_entries) in its layout. It is to be made again when that would be.
+    ///
+    /// # Errors
+    /// As [`bind_group`](Self::bind_group).
+    pub fn entries<'a>(
+        &'a self,
+        map: impl Into<AnyMap<'a>>,
+        first_binding: u32,
+    ) -> Result<Vec<wgpu::BindGroupEntry<'a>>, PcfError> {
+        Ok(self.bound(map.into(), 0)?.entries(first_binding))
+    }
+
+    /// The same for one light of a cube map that has a texture for each:
+    /// [`bind_group_of`](Self::bind_group_of).
+    ///
+    /// # Errors
+    /// As [`bind_group_of`](Self::bind_group_of).
+    pub fn entries_of<'a>(
+        &'a self,
+        map: &'a CubeShadowMap,
+        light: usize,
+        first_binding: u32,
+    ) -> Result<Vec<wgpu::BindGroupEntry<'a>>, PcfError> {
+        Ok(self.bound(map.into(), light)?.entries(first_binding))
+    }
+
+    /// What is bound for a map and, if it is read light by light, one of its lights.
+    fn bound<'a>(&'a self, map: AnyMap<'a>, light: usize) -> Result<Bound<'a>, PcfError> {
+        if map.kind() != self.map() {
+            let (made_for, given) = (self.map(), map.kind());
             return Err(PcfError::Map { made_for, given });
         }
-        self.check_reach(map.into())?;
+        self.check_reach(map)?;
+        let (map, lights) = match map {
+            AnyMap::Cube(map) => (map.layers(light), self.lights_of(map, light)?),
+            AnyMap::Flat(map) => (map.view(), map.light_uniform().as_entire_binding()),
+            AnyMap::Atlas(map) => (map.view(), map.light_buffer().as_entire_binding()),
+        };
+        Ok(Bound {
+            map,
+            sampler: &self.sampler,
+            lights,
+            parameters: self.parameters.as_ref(),
+            offsets: self.offsets.as_ref(),
+        })
+    }
+
+    fn lights_of<'a>(
+        &self,
+        map: &'a CubeShadowMap,
+        light: usize,
+    ) -> Result<wgpu::BindingResource<'a>, PcfError> {
         if map.encoding() != self.reads.encoding {
             return Err(PcfError::Encoding {
                 map: map.encoding(),
                 sampler: self.reads.encoding,
             });
         }
-        let (view, lights) = match (self.reads.many_lights, map.array()) {
-            (true, Some((view, lights))) => (view, lights.as_entire_binding()),
-            (true, None) => return Err(PcfError::NoCubeArray),
-            (false, _) if light >= map.most_lights() => {
+        match (self.reads.lights, map.all_lights()) {
+            (Lights::One, _) if light >= map.most_lights() => {
                 let lights = map.most_lights();
-                return Err(PcfError::Light { light, lights });
+                Err(PcfError::Light { light, lights })
             }
-            (false, _) => {
-                let view = map.view(light).map_err(|_| PcfError::CubeView)?;
-                (view, map.light_uniform(light))
-            }
-        };
-        Ok(self.group(device, view, lights))
+            (Lights::One, _) => Ok(map.light_uniform(light)),
+            (_, Some(lights)) => Ok(lights.as_entire_binding()),
+            (_, None) => Err(PcfError::NoCubeArray),
+        }
     }
 
     /// What a kernel reads beyond a map's reach may be out of date, or beside the map.
@@ -298,26 +356,12 @@ impl PcfSampler {
     fn group(
         &self,
         device: &wgpu::Device,
-        view: &wgpu::TextureView,
-        lights: wgpu::BindingResource<'_>,
+        entries: &[wgpu::BindGroupEntry<'_>],
     ) -> wgpu::BindGroup {
-        let parameters = self.parameters.as_ref();
-        let offsets = self.offsets.as_ref();
-        let resources = [
-            Some(wgpu::BindingResource::TextureView(view)),
-            Some(wgpu::BindingResource::Sampler(&self.sampler)),
-            Some(lights),
-            parameters.map(wgpu::Buffer::as_entire_binding),
-            offsets.map(wgpu::BindingResource::TextureView),
-        ];
-        let entries: Vec<_> = (0..)
-            .zip(resources.into_iter().flatten())
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-            .collect();
         device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
-            entries: &entries,
+            entries,
         })
     }
 
@@ -326,21 +370,24 @@ impl PcfSampler {
     ///
     /// ```wgsl
     /// fn shadows_cube_bilinear(
-    ///     map: texture_cube<f32>,
+    ///     map: texture_2d_array<f32>, // the faces, in the order of CubeFace::ALL
     ///     map_sampler: sampler,
-    ///     light: ShadowsCubeLight,
+    ///     light: ShadowsLight,
     ///     position: vec3f, // of the receiver, world space
     ///     normal: vec3f,   // geometric, world space, any length, either sign
     /// ) -> f32             // 1 lit, 0 in shadow; 0 beyond the light's range
     /// ```
     ///
-    /// For flat maps `flat` takes the place of `cube` in all names, and the map is a
-    /// `texture_2d<f32>`. Disks take `kernel: ShadowsCubeKernel` and `offsets: texture_3d<f32>` after
+    /// For flat maps `flat` takes the place of `cube` in all names, and the map has one layer. Disks take `kernel: ShadowsKernel` and `offsets: texture_3d<f32>` after
     /// the light and `pixel: vec2f`, the pixel's coordinates, as the last.
     ///
-    /// With `many_lights` the map is a `texture_cube_array<f32>`, and `light.cube` says which cube.
+    /// `light.tiles` says which layers they are.
     pub fn wgsl(&self) -> String {
         let own = MapWgsl::new(self.reads);
+        if self.map() == MapKind::Atlas {
+            let flat = MapWgsl::flat_tiles(self.reads);
+            return atlas_text::functions(self.kernel, &own, &flat, self.reads.kinds);
+        }
         match self.textbook {
             true => text::textbook(&own),
             false => text::functions(self.kernel, &own),
@@ -360,13 +407,54 @@ impl PcfSampler {
     /// Disks ([`Kernel::uses_pixel`]) take one more argument, `pixel: vec2f`: the x and y of
     /// `@builtin(position)`.
     ///
-    /// With `many_lights` both take the light's place in the frame first, as `light: u32`. For flat
+    /// With `many_lights` both take the light's place in the frame first, as `light: u32`; of an atlas the
+    /// number that [`ShadowAtlas::light_index`](crate::ShadowAtlas::light_index) gives. For flat
     /// maps the names begin with `shadows_flat_`: `shadows_flat_visibility` and
     /// `shadows_flat_visibility_flat`, so that a shader may hold a cube sampler's module and a flat
     /// one's.
     pub fn wgsl_module(&self, group: u32) -> String {
+        self.module(group, 0)
+    }
+
+    /// The same for a bind group of the host's: the bindings begin at that of `place`, and before every name
+    /// stands its prefix, so that a shader may hold the modules of any samplers.
+    ///
+    /// ```
+    /// # fn host(sampler: &shadows::PcfSampler) -> Result<String, shadows::error::PcfError> {
+    /// let place = shadows::ModulePlace {
+    ///     group: 0,
+    ///     first_binding: 3,
+    ///     prefix: "lamp_",
+    /// };
+    /// // lamp_shadows_visibility(position)
+    /// sampler.wgsl_module_at(&place)
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`PcfError::Prefix`] if names would be none with the prefix.
+    pub fn wgsl_module_at(&self, place: &ModulePlace<'_>) -> Result<String, PcfError> {
+        let prefix = place.validated_prefix()?;
+        let plain = self.module(place.group, place.first_binding);
+        // By way of what no text has, in case the prefix has the word itself.
+        let words = [("shadows_", "\u{1}"), ("Shadows", "\u{2}")];
+        let marked = words
+            .iter()
+            .fold(plain, |text, (word, mark)| text.replace(word, mark));
+        let named = words.iter().fold(marked, |text, (word, mark)| {
+            text.replace(mark, &format!("{prefix}{word}"))
+        });
+        Ok(named)
+    }
+
+    fn module(&self, group: u32, first_binding: u32) -> String {
         let kernel = (!self.textbook).then_some(self.kernel);
-        self.wgsl() + &text::bindings(kernel, &MapWgsl::new(self.reads), group)
+        if self.map() == MapKind::Atlas {
+            return self.wgsl()
+                + &text::declarations(kernel, self.reads.lights, group, first_binding)
+                + &atlas_text::visibility(self.kernel, self.reads.kinds);
+        }
+        self.wgsl() + &text::bindings(kernel, &MapWgsl::new(self.reads), group, first_binding)
     }
 
     /// Whether the functions of [`wgsl_module`](Self::wgsl_module) take the pixel's coordinates:
@@ -374,39 +462,4 @@ impl PcfSampler {
     pub fn takes_pixel(&self) -> bool {
         self.kernel.uses_pixel() && !self.textbook
     }
-}
-
-/// The texture of a disk's offsets; nothing for other kernels.
-fn create_offsets(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    label: &str,
-    kernel: Kernel,
-) -> Option<wgpu::TextureView> {
-    let (side, texels) = match kernel {
-        Kernel::RandomDisk(disk) => (disk.size, offsets::random_disk(&disk)),
-        Kernel::Vogel(disk) => (1, offsets::vogel(disk.taps)),
-        Kernel::ContactHardening(contact) => (1, offsets::vogel(contact.taps)),
-        _ => return None,
-    };
-    let texture = device.create_texture_with_data(
-        queue,
-        &wgpu::TextureDescriptor {
-            label: Some(&format!("{label} offsets")),
-            size: wgpu::Extent3d {
-                width: side,
-                height: side,
-                depth_or_array_layers: texels.len() as u32 / (side * side),
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D3,
-            format: wgpu::TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        wgpu::util::TextureDataOrder::LayerMajor,
-        bytemuck::cast_slice(&texels),
-    );
-    Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }

@@ -9,9 +9,8 @@ pub const JOINED: &[&[&str]] = &[
     &["volume_exact_samples"],
     FACE,
     &["cube_caster", "cube_caster_gl"],
-    &["cube_cross"],
-    // Written by nobody yet.
-    &["light_record"],
+    &["light_record", "cube_cross"],
+    &["tile_fill"],
     PULLED,
     PULLED_STEPS,
     RECORDS,

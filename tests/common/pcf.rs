@@ -1,9 +1,8 @@
 //! Every configuration of a `PcfSampler`, and hosts that ask it.
 #![allow(dead_code)] // each test uses its own part
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
 use shadows::{
-    DepthEncoding, FlatLights, Gather, Kernel, MapKind, PcfDescriptor, PcfSampler, wgpu,
+    DepthEncoding, FlatLights, Gather, Kernel, LightKinds, MapKind, PcfDescriptor, PcfSampler, wgpu,
 };
 
 pub fn made(
@@ -34,6 +33,7 @@ pub struct Way {
     /// Whether the device's samplers have borders.
     pub border: bool,
     pub flat_lights: FlatLights,
+    pub light_kinds: LightKinds,
 }
 
 const CUBE: Way = Way {
@@ -44,6 +44,7 @@ const CUBE: Way = Way {
     gather: Gather::Auto,
     border: false,
     flat_lights: FlatLights::Any,
+    light_kinds: LightKinds::ALL,
 };
 
 const LINEAR: Way = Way {
@@ -70,8 +71,20 @@ const SUN: Way = Way {
     ..FLAT
 };
 
+const ATLAS: Way = Way {
+    name: "atlas",
+    map: MapKind::Atlas,
+    ..CUBE
+};
+
+const NO_KINDS: LightKinds = LightKinds {
+    point: false,
+    spot: false,
+    directional: false,
+};
+
 /// All of them.
-pub const WAYS: [Way; 16] = [
+pub const WAYS: [Way; 21] = [
     CUBE,
     LINEAR,
     Way {
@@ -138,6 +151,36 @@ pub const WAYS: [Way; 16] = [
         border: true,
         ..FLAT
     },
+    ATLAS,
+    Way {
+        name: "atlas-point",
+        light_kinds: LightKinds {
+            point: true,
+            ..NO_KINDS
+        },
+        ..ATLAS
+    },
+    Way {
+        name: "atlas-spot",
+        light_kinds: LightKinds {
+            spot: true,
+            ..NO_KINDS
+        },
+        ..ATLAS
+    },
+    Way {
+        name: "atlas-directional",
+        light_kinds: LightKinds {
+            directional: true,
+            ..NO_KINDS
+        },
+        ..ATLAS
+    },
+    Way {
+        name: "atlas-fetches",
+        gather: Gather::Never,
+        ..ATLAS
+    },
 ];
 
 impl Way {
@@ -160,6 +203,7 @@ impl Way {
             many_lights: self.many_lights,
             gather: self.gather,
             flat_lights: self.flat_lights,
+            light_kinds: self.light_kinds,
             ..Default::default()
         }
     }
@@ -215,6 +259,11 @@ pub fn textbooks() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     vec![of(false), of(true)]
 }
 
+/// Whether shaders name a light.
+pub fn takes_light(descriptor: &PcfDescriptor<'_>) -> bool {
+    descriptor.many_lights || descriptor.map == MapKind::Atlas
+}
+
 /// A fragment shader that asks for the visibility at its position; `module` is what stands before
 /// the function's name.
 pub fn host_of(descriptor: &PcfDescriptor<'_>, module: &str) -> String {
@@ -222,7 +271,7 @@ pub fn host_of(descriptor: &PcfDescriptor<'_>, module: &str) -> String {
         true => ", pixel.xy",
         false => "",
     };
-    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let light = if takes_light(descriptor) { "3u, " } else { "" };
     let name = visibility_name(descriptor.map);
     format!(
         "
@@ -245,7 +294,7 @@ pub fn given_host(descriptor: &PcfDescriptor<'_>) -> String {
         true => ", pixel.xy",
         false => "",
     };
-    let light = if descriptor.many_lights { "3u, " } else { "" };
+    let light = if takes_light(descriptor) { "3u, " } else { "" };
     let name = visibility_name(descriptor.map);
     format!(
         "
@@ -269,13 +318,4 @@ pub fn visibility_name(map: MapKind) -> &'static str {
         MapKind::Flat => "shadows_flat_visibility",
         _ => "shadows_visibility",
     }
-}
-
-/// Parses and validates WGSL as a device with cube arrays would.
-pub fn validate_arrays(wgsl: &str) -> Result<naga::Module, String> {
-    let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
-    Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
-        .validate(&module)
-        .map_err(|e| e.emit_to_string(wgsl))?;
-    Ok(module)
 }

@@ -85,7 +85,8 @@ pub fn ask_group(
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
     let device = &gpu.device;
-    let call = match descriptor.many_lights {
+    let by_number = descriptor.many_lights || descriptor.map == MapKind::Atlas;
+    let call = match by_number {
         false => "shadows_visibility_flat(".to_owned(),
         true => format!("shadows_visibility_flat({light}u, "),
     };

@@ -95,15 +95,12 @@ impl Ground {
 /// The depths stored on all faces.
 fn stored(gpu: &Gpu, map: &CubeShadowMap) -> Vec<f32> {
     let source = format!(
-        "@group(1) @binding(0) var map: texture_cube<f32>;
+        "@group(1) @binding(0) var map: texture_2d_array<f32>;
         @group(1) @binding(1) var nearest: sampler;
         fn ask(i: u32) -> f32 {{
             let face = i / {TEXELS}u;
             let texel = vec2f(f32(i % {SIZE}u), f32(i % {TEXELS}u / {SIZE}u));
-            let at = (texel + 0.5) * (2.0 / {SIZE}.0) - 1.0;
-            let ray = vec3f(select(-1.0, 1.0, face % 2u == 0u), at);
-            let turned = select(select(ray.yzx, ray.yxz, face / 2u == 1u), ray, face / 2u == 0u);
-            return textureSampleLevel(map, nearest, turned, 0.0).x;
+            return textureSampleLevel(map, nearest, (texel + 0.5) / {SIZE}.0, face, 0.0).x;
         }}"
     );
     let descriptor = PcfDescriptor {

@@ -56,7 +56,7 @@ fn child() {
         );
         return;
     }
-    assert!(!old.support.gather && !old.support.cube_gather);
+    assert!(!old.support.gather);
     let always = PcfDescriptor {
         gather: Gather::Always,
         ..Default::default()

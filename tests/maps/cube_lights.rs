@@ -5,7 +5,7 @@ use crate::cubes::{draw, draw_frame, faces, fresh};
 use crate::receivers::{ask, ask_group};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
-use shadows::error::{CubeShadowMapError, PcfError};
+use shadows::error::PcfError;
 use shadows::{
     Allocation, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel,
     PcfDescriptor, PcfSampler, PointLight, glam,
@@ -46,19 +46,14 @@ fn casters(gpu: &Gpu) -> Vec<Caster> {
         .collect()
 }
 
-fn arrays(gpu: &Gpu) -> Vec<bool> {
-    let mut kinds = vec![false];
-    if gpu.support.cube_arrays {
-        kinds.push(true);
-    }
-    kinds
-}
+/// Whether lights share a texture.
+const ARRAYS: [bool; 2] = [false, true];
 
 #[test]
 fn each_light_has_the_faces_it_would_have_alone() {
     let Some(gpu) = Gpu::for_test() else { return };
     let (casters, lights) = (casters(&gpu), lights());
-    for array in arrays(&gpu) {
+    for array in ARRAYS {
         let map = fresh(&gpu, &descriptor(array), &lights, &casters);
         assert_eq!(map.lights_in_one_binding(), array);
         let alone: Vec<_> = lights
@@ -75,7 +70,7 @@ fn each_light_has_the_faces_it_would_have_alone() {
 #[test]
 fn a_light_that_comes_goes_or_moves_has_only_its_own_faces_drawn() {
     let Some(gpu) = Gpu::for_test() else { return };
-    for array in arrays(&gpu) {
+    for array in ARRAYS {
         only_its_own_faces(&gpu, array);
     }
 }
@@ -130,7 +125,7 @@ fn receivers_ask_for_a_light_by_its_place() {
         assert_eq!(alone[3][3000..], [1.0, 0.0]);
         assert!(alone[0].contains(&0.0) && alone[0].contains(&1.0));
         assert_ne!(alone[0], alone[1], "the broken twin: another light");
-        for many_lights in arrays(&gpu) {
+        for many_lights in ARRAYS {
             let mut map = fresh(&gpu, &descriptor(many_lights), &lights, &casters);
             let sampler = PcfDescriptor {
                 many_lights,
@@ -183,7 +178,7 @@ fn no_texture_without_a_casting_light() {
     let Some(gpu) = Gpu::for_test() else { return };
     let (casters, lights) = (casters(&gpu), lights());
     let cube = 6 * 4 * 32 * 32;
-    for array in arrays(&gpu) {
+    for array in ARRAYS {
         let mut map = fresh(&gpu, &descriptor(array), &lights, &[]);
         assert!(map.texture(0).is_none());
         assert!(map.statistics().bytes < cube, "{}", map.statistics().bytes);
@@ -222,7 +217,7 @@ fn lights_that_reach_no_caster_for_a_while_give_their_texels_back() {
     let Some(gpu) = Gpu::for_test() else { return };
     let (casters, lights) = (casters(&gpu), lights());
     let lights = &lights[..2];
-    for array in arrays(&gpu) {
+    for array in ARRAYS {
         let mut map = fresh(&gpu, &descriptor(array), lights, &casters);
         // The frame, counted from 1, in which there are texels for so many lights only.
         let mut frame_of = |left: usize, lights: &[PointLight], casters: &[Caster]| {
@@ -247,9 +242,6 @@ fn lights_that_reach_no_caster_for_a_while_give_their_texels_back() {
 #[test]
 fn samplers_refuse_maps_that_they_cannot_read() {
     let Some(gpu) = Gpu::for_test() else { return };
-    if !gpu.support.cube_arrays {
-        return eprintln!("skipped: no cube arrays");
-    }
     let map = CubeShadowMap::new(&gpu.device, &descriptor(false)).unwrap();
     let refused = |descriptor: &PcfDescriptor<'_>| {
         PcfSampler::new(&gpu.device, &gpu.queue, descriptor)
@@ -346,55 +338,48 @@ fn a_bind_group_that_was_not_made_again_shows_all_lights_dark() {
     }
 }
 
-/// Set for a process of its own, whose GL driver has no cube arrays.
-const WITHOUT: &str = "SHADOWS_TEST_WITHOUT_CUBE_ARRAYS";
+/// Set for a process of its own, whose GL driver has no storage buffers.
+const WITHOUT: &str = "SHADOWS_TEST_WITHOUT_STORAGE";
 
 #[test]
-fn devices_without_cube_arrays_give_each_light_a_cube() {
+fn devices_without_storage_buffers_have_many_lights_too() {
     if std::env::var_os(WITHOUT).is_some() {
-        return without_cube_arrays();
+        return without_storage();
     }
-    let name = "devices_without_cube_arrays_give_each_light_a_cube";
+    let name = "cube_lights::devices_without_storage_buffers_have_many_lights_too";
     let status = std::process::Command::new(std::env::current_exe().unwrap())
         .args(["--exact", name, "--nocapture"])
         .env(WITHOUT, "1")
         .env("MESA_GL_VERSION_OVERRIDE", "3.3")
-        .env("MESA_GLES_VERSION_OVERRIDE", "3.0")
+        .env("MESA_GLSL_VERSION_OVERRIDE", "330")
         .env(
             "MESA_EXTENSION_OVERRIDE",
-            "-GL_EXT_texture_cube_map_array -GL_OES_texture_cube_map_array -GL_ARB_texture_cube_map_array",
+            "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object",
         )
         .status();
     assert!(status.unwrap().success());
 }
 
-fn without_cube_arrays() {
+fn without_storage() {
     let gl = match Gpu::new(Some("(Gl,")) {
         Ok(gl) => gl,
         Err(_) => return eprintln!("skipped: no GL adapter"),
     };
-    if gl.support.cube_arrays {
-        return eprintln!("skipped: this GL driver has cube arrays whatever it is told");
+    if gl.device.limits().max_storage_buffers_per_shader_stage > 0 {
+        return eprintln!("skipped: this GL driver has storage buffers whatever it is told");
     }
-    let make = |cube_array| CubeShadowMap::new(&gl.device, &descriptor(cube_array));
-    let error = gl.checked(|| make(true).unwrap_err());
-    assert_eq!(error, CubeShadowMapError::CubeArray);
-    let many = |many_lights| PcfDescriptor {
-        many_lights,
+    let many = PcfDescriptor {
+        many_lights: true,
         ..Default::default()
     };
-    let sampler = |many_lights| PcfSampler::new(&gl.device, &gl.queue, &many(many_lights));
-    let error = gl.checked(|| sampler(true).unwrap_err());
-    assert_eq!(error, PcfError::CubeArray);
-
-    // What the errors say to do.
-    let has = gl.support.cube_arrays;
-    let (mut map, sampler) = (make(has).unwrap(), sampler(has).unwrap());
+    let sampler = gl.checked(|| PcfSampler::new(&gl.device, &gl.queue, &many).unwrap());
+    let module = sampler.wgsl_module(0);
+    assert!(
+        module.contains("var<uniform> shadows_light: array<"),
+        "{module}"
+    );
+    let mut map = CubeShadowMap::new(&gl.device, &descriptor(true)).unwrap();
     draw(&gl, &mut map, &lights(), &casters(&gl));
-    assert!(!map.lights_in_one_binding());
-    for light in 0..3 {
-        assert!(map.texture(light).is_some());
-        gl.checked(|| sampler.bind_group_of(&gl.device, &map, light).unwrap());
-    }
-    eprintln!("no cube arrays: a cube for each light");
+    gl.checked(|| sampler.bind_group(&gl.device, &map).unwrap());
+    eprintln!("no storage buffers: many lights in a uniform buffer");
 }

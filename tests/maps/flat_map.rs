@@ -246,15 +246,17 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
             0,
             &points,
             |module| {
-                module
-                .replace(test, border)
-                .replace("(texel + 0.5) * receiver.step;", "clamp((texel + 0.5) * receiver.step, vec2f(0.01), vec2f(0.99));")
-                .replace("centre * receiver.step", "clamp(centre * receiver.step, vec2f(0.01), vec2f(0.99))")
-                .replace("place * light.step", "clamp(place * light.step, vec2f(0.01), vec2f(0.99))")
-                .replace("return true;", "return corner_inside(size);")
-                .replace("fn shadows_flat_gathers", "fn corner_inside(size: f32) -> bool { return size < 0.0; }\nfn shadows_flat_gathers")
-                .replacen("-> bool {\n    return corner_inside(size);\n}\n\nfn shadows_flat_inside", "-> bool {\n    return false;\n}\n\nfn shadows_flat_inside", 1)
-                .replace("return corner_inside(size);", "return true;")
+                let inner = |place: &str| format!("clamp({place}, vec2f(0.01), vec2f(0.99))");
+                let mut changed = module.replace(test, border);
+                for place in [
+                    "place * receiver.light.step + receiver.tile.middle",
+                    "corner * receiver.light.step + receiver.tile.middle",
+                    "centre * light.step + receiver.tile.corner",
+                    "place * light.step + 0.5",
+                ] {
+                    changed = changed.replace(place, &inner(place));
+                }
+                changed
             },
         );
         assert_ne!(clamped, expected, "{kernel:?}");

@@ -1,5 +1,6 @@
 //! Kernels as receivers ask them: their weights, their bias and their error, against exact visibility.
 
+mod atlas;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_receivers;
@@ -14,6 +15,7 @@ mod pcf_gl;
 mod pcf_grazing;
 mod pcf_hardware;
 mod pcf_kernels;
+mod pcf_own_group;
 mod pcf_quality;
 mod pcf_seams;
 #[path = "../common/receivers.rs"]

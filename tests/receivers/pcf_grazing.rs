@@ -258,10 +258,11 @@ fn what_stands_beyond_the_horizon_of_a_receiver_casts_no_shadow_on_it() {
     let counts = wrong_beyond(&gpu, &walls, dark, |module| {
         module
             .replace("select(texel, mirrored, behind)", "texel")
-            .replace("2.0 * place - direction", "direction")
-            .replace("floor(2.0 * receiver.texel - texel - 0.5)", "texel")
+            .replace(
+                "texel = shadows_flat_floor(receiver, 2.0 * receiver.texel - texel - 0.5);",
+                "",
+            )
             .replace("select(receiver.own, ", "select(0.0, ")
-            .replace("select(own, ", "select(0.0, ")
             .replace(", receiver.own, ", ", 0.0, ")
             .replace(", receiver.alone, ", ", 0.0, ")
     });
@@ -292,8 +293,10 @@ fn texels_beyond_the_horizon_are_reflected_into_the_shadow_of_what_ends_there() 
     let counts = wrong_beyond(&gpu, &walls, lit, |module| {
         module
             .replace("select(texel, mirrored, behind)", "texel")
-            .replace("2.0 * place - direction", "direction")
-            .replace("floor(2.0 * receiver.texel - texel - 0.5)", "texel")
+            .replace(
+                "texel = shadows_flat_floor(receiver, 2.0 * receiver.texel - texel - 0.5);",
+                "",
+            )
     });
     for (kernel, [right, broken]) in counts {
         match kernel.uses_pixel() {

@@ -4,6 +4,7 @@
 mod dependencies;
 mod features;
 mod figures;
+mod named;
 mod pages;
 mod rust_version;
 

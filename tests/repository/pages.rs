@@ -56,22 +56,45 @@ fn the_readme_shows_code_that_runs() {
 }
 
 /// Where a page's links and pictures lead, those of its definitions `[name]: target` included, but for other
-/// sites and places within the page.
+/// sites.
 fn links(page: &str) -> Vec<&str> {
     let starts = page.split("](").skip(1);
     let inline = starts.map(|rest| rest.split(')').next().unwrap());
     let defined = page.lines().filter(|line| line.starts_with('['));
     let targets = inline.chain(defined.filter_map(|line| line.split_once("]: ").map(|(_, to)| to)));
     targets
-        .map(|target| target.split('#').next().unwrap())
         .filter(|target| !target.is_empty() && !target.contains("://") && !target.contains("data:"))
         .collect()
 }
 
+/// The anchors of a page: its headings in lower case, words joined by hyphens, the rest left out.
+fn anchors(page: &str) -> Vec<String> {
+    let headings = page.lines().filter_map(|line| line.strip_prefix('#'));
+    headings
+        .map(|heading| {
+            let words = heading.trim_start_matches('#').trim().to_lowercase();
+            let kept = words
+                .chars()
+                .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+            kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+        })
+        .collect()
+}
+
 fn broken_links(path: &Path, page: &str) -> Vec<String> {
-    let folder = path.parent().unwrap();
-    let missing = |target: &&str| !folder.join(target).exists();
-    let broken = links(page).into_iter().filter(missing);
+    let is_broken = |target: &&str| {
+        let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+        let file = match file {
+            "" => path.to_owned(),
+            file => path.parent().unwrap().join(file),
+        };
+        if anchor.is_empty() || !file.exists() {
+            return !file.exists();
+        }
+        let text = std::fs::read_to_string(file).unwrap();
+        !anchors(&text).iter().any(|heading| heading == anchor)
+    };
+    let broken = links(page).into_iter().filter(is_broken);
     broken.map(str::to_owned).collect()
 }
 
@@ -95,9 +118,32 @@ fn what_pages_link_to_is_there() {
         assert!(broken.is_empty(), "{}: {broken:?}", path.display());
     }
     let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let broken = broken_links(
-        &readme,
-        "![a](docs/none.png) [b](docs/adding.md) [c][c]\n[c]: no.md",
-    );
-    assert_eq!(broken, ["docs/none.png", "no.md"]);
+    let page = "![a](docs/none.png) [b](docs/adding.md#2-register-each-mesh-once) [c](docs/adding.md#none) [d][d]\n[d]: no.md";
+    let broken = broken_links(&readme, page);
+    assert_eq!(broken, ["docs/none.png", "docs/adding.md#none", "no.md"]);
+}
+
+/// Which test compiles the Rust of a page; a page that is not here may have none.
+const COMPILED: [(&str, &str); 3] = [
+    ("README.md", "the_readme_shows_code_that_runs"),
+    ("adding.md", "a test of the documentation"),
+    (
+        "speed-vs-error.md",
+        "what `compare --sweep` advises, compiled by its own tests",
+    ),
+];
+
+fn is_unchecked(name: &str, page: &str) -> bool {
+    let is_compiled = COMPILED.iter().any(|(known, _)| *known == name);
+    !blocks(page, "rust").is_empty() && !is_compiled
+}
+
+#[test]
+fn all_rust_of_pages_is_compiled_somewhere() {
+    for path in pages() {
+        let page = std::fs::read_to_string(&path).unwrap();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert!(!is_unchecked(name, &page), "{name}: who compiles its Rust?");
+    }
+    assert!(is_unchecked("none.md", "a\n```rust\nfn a() {}\n```\n"));
 }

@@ -159,7 +159,7 @@ fn to_glsl(ready: &Ready<'_>) -> Result<String, String> {
 }
 
 /// What is not valid in a language, and why that is no matter.
-const EXCEPT: [(Language, &str); 6] = [
+const EXCEPT: [(Language, &str); 5] = [
     // glslang does not know GL_EXT_clip_cull_distance, by which OpenGL ES has them.
     (Language::Glsl, "@builtin(clip_distances)"),
     // `Features::CLIP_DISTANCES`, which wgpu does not offer on D3D12.
@@ -167,8 +167,6 @@ const EXCEPT: [(Language, &str); 6] = [
     // What joins or counts samples is refused there (`tests/gl/samples.rs`).
     (Language::Glsl, "@builtin(sample_index)"),
     (Language::Glsl, "textureNumSamples"),
-    // `PcfError::HardwareArray`.
-    (Language::Glsl, "texture_depth_cube_array"),
     // naga makes a number of what should be an array of one (gfx-rs/wgpu#7311). No driver is known to mind.
     (Language::SpirV, "-> @builtin(sample_mask)"),
 ];

@@ -91,23 +91,26 @@ fn pages() -> Vec<Module> {
     all
 }
 
-/// The modules of the cube sampler and of the flat one, where a shader asks them.
+/// The modules of the samplers that a shader asks: of an atlas if it names its lights, else of the cube sampler
+/// and of the flat one.
 fn asked(shader: &str) -> String {
-    let of = |(name, sign, group): (&str, &str, u32)| {
-        let way = WAYS.iter().find(|way| way.name == name).unwrap();
+    let of = |(name, sign, group): &(&str, &str, u32)| {
+        let way = WAYS.iter().find(|way| way.name == *name).unwrap();
         let (device, queue) = way.device();
         let sampler = made(&device, &queue, &way.descriptor(Kernel::ALL[0]));
         match shader.contains(sign) {
-            true => sampler.wgsl_module(group),
+            true => sampler.wgsl_module(*group),
             false => String::new(),
         }
     };
-    [
-        ("cube", "shadows_visibility", 1),
-        ("flat", "shadows_flat_", 2),
-    ]
-    .map(of)
-    .concat()
+    let samplers: &[_] = match shader.contains("shadows_visibility_flat(i,") {
+        true => &[("atlas", "shadows_visibility", 1)],
+        false => &[
+            ("cube", "shadows_visibility", 1),
+            ("flat", "shadows_flat_", 2),
+        ],
+    };
+    samplers.iter().map(of).collect()
 }
 
 /// The pages, the crate's documentation, and the examples.

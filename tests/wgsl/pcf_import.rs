@@ -1,14 +1,14 @@
 //! The receiver's WGSL as a naga_oil module: imported by a host's shader, for every kernel and map.
 
-use crate::common::noop;
-use crate::pcf::{descriptors, host_of, made, validate_arrays, visibility_name};
+use crate::common::{noop, validate};
+use crate::pcf::{descriptors, host_of, made, visibility_name};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor};
 use shadows::{Kernel, MapKind, PcfDescriptor, wgsl};
 
 /// Composes a host's shader with modules, writes the result out as WGSL, and validates that too.
 fn compose(modules: &[String], host: &str) -> Result<(), String> {
-    let mut composer = Composer::default().with_capabilities(Capabilities::CUBE_ARRAY_TEXTURES);
+    let mut composer = Composer::default();
     for source in modules {
         let added = composer.add_composable_module(ComposableModuleDescriptor {
             source,
@@ -26,12 +26,12 @@ fn compose(modules: &[String], host: &str) -> Result<(), String> {
             ..Default::default()
         })
         .map_err(|error| error.emit_to_string(&composer))?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::CUBE_ARRAY_TEXTURES)
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .map_err(|error| error.to_string())?;
     let flags = naga::back::wgsl::WriterFlags::empty();
     let text = naga::back::wgsl::write_string(&module, &info, flags).map_err(|e| e.to_string())?;
-    validate_arrays(&text).map(drop)
+    validate(&text).map(drop)
 }
 
 #[test]
@@ -52,8 +52,8 @@ fn every_module_is_imported_by_name_and_by_path() {
         let elsewhere = wgsl::import_module("shadows::other", &pasted);
         assert!(compose(&[elsewhere], &by_name).is_err());
         assert!(compose(std::slice::from_ref(&module), &host_of(&descriptor, "")).is_err());
-        assert!(validate_arrays(&module).is_err());
-        assert!(validate_arrays(&pasted).is_ok());
+        assert!(validate(&module).is_err());
+        assert!(validate(&pasted).is_ok());
     }
 }
 
@@ -62,17 +62,18 @@ fn functions_without_bindings_are_imported_too() {
     let (device, queue) = noop();
     for descriptor in descriptors() {
         if descriptor.many_lights {
-            continue; // a storage buffer and a cube array: the same functions, other types
+            continue; // a storage buffer: the same functions
         }
         let sampler = made(&device, &queue, &descriptor);
         let module = wgsl::import_module("shadows::functions", &sampler.wgsl());
-        let (kind, names, texture) = match descriptor.map {
-            MapKind::Flat => ("flat", "Flat", "2d"),
-            _ => ("cube", "Cube", "cube"),
+        let (kind, names) = match descriptor.map {
+            MapKind::Flat => ("flat", "Flat"),
+            MapKind::Atlas if !descriptor.light_kinds.point => ("flat", ""),
+            _ => ("cube", ""),
         };
         let (texture, sampled) = match descriptor.kernel {
-            Kernel::HardwareBilinear => (format!("texture_depth_{texture}"), "sampler_comparison"),
-            _ => (format!("texture_{texture}<f32>"), "sampler"),
+            Kernel::HardwareBilinear => ("texture_depth_2d_array", "sampler_comparison"),
+            _ => ("texture_2d_array<f32>", "sampler"),
         };
         let function = descriptor.kernel.function().replace("cube", kind);
         let (bindings, kernel, pixel) = match descriptor.kernel.uses_pixel() {
@@ -128,7 +129,7 @@ fn host(@builtin(position) pixel: vec4f, @location(0) at: vec3f) -> @location(0)
     ];
     compose(&modules, host).unwrap();
     // The broken twin: pasted, they share their names.
-    assert!(validate_arrays(&(near + &far)).is_err());
+    assert!(validate(&(near + &far)).is_err());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The receiver's WGSL: valid in every configuration, free of bindings, free of other kernels.
 
 use crate::common::{noop, to_glsl, to_webgl, validate, validation_error};
-use crate::pcf::{SQUARES, WAYS, descriptors, host, made, samplers, validate_arrays};
+use crate::pcf::{SQUARES, WAYS, descriptors, host, made, samplers, takes_light};
 use shadows::{DepthEncoding, Gather, Kernel, MapKind, PcfDescriptor, wgpu};
 
 const VERTEX: &str = "
@@ -15,14 +15,9 @@ fn corner() -> Corner {
 #[test]
 fn every_configuration_is_valid_as_functions_and_as_a_module_of_any_group() {
     for (descriptor, sampler) in samplers() {
-        if !descriptor.many_lights {
-            validate(&sampler.wgsl()).unwrap();
-        }
+        validate(&sampler.wgsl()).unwrap();
         for group in [0, 3] {
             let text = sampler.wgsl_module(group) + &host(&descriptor);
-            if descriptor.many_lights {
-                continue; // cube arrays are a capability; see the host's pipeline below
-            }
             let module = validate(&text).unwrap();
             assert!(
                 module
@@ -40,20 +35,15 @@ fn every_configuration_is_valid_as_functions_and_as_a_module_of_any_group() {
 
 #[test]
 fn the_functions_have_no_bindings() {
-    for (descriptor, sampler) in samplers() {
-        if !descriptor.many_lights {
-            let module = validate(&sampler.wgsl()).unwrap();
-            assert!(module.global_variables.is_empty());
-        }
+    for (_, sampler) in samplers() {
+        let module = validate(&sampler.wgsl()).unwrap();
+        assert!(module.global_variables.is_empty());
     }
 }
 
 #[test]
 fn every_name_has_the_prefix() {
-    for (descriptor, sampler) in samplers() {
-        if descriptor.many_lights {
-            continue;
-        }
+    for (_, sampler) in samplers() {
         let module = validate(&sampler.wgsl_module(1)).unwrap();
         let functions = module.functions.iter().filter_map(|(_, f)| f.name.clone());
         let globals = module
@@ -74,7 +64,7 @@ fn every_name_has_the_prefix() {
 fn a_kernel_carries_no_code_of_another() {
     for (descriptor, sampler) in samplers() {
         let text = sampler.wgsl();
-        let flat = descriptor.map == MapKind::Flat;
+        let flat = descriptor.map == MapKind::Flat || !descriptor.light_kinds.point;
         for other in Kernel::ALL {
             let name = match flat {
                 true => other.function().replace("cube", "flat"),
@@ -170,31 +160,29 @@ fn transcendental_taps(module: &naga::Module) -> Vec<naga::MathFunction> {
 fn no_tap_loop_runs_a_transcendental_function() {
     for (descriptor, sampler) in samplers() {
         let text = sampler.wgsl();
-        let module = validate_arrays(&text).unwrap();
+        let module = validate(&text).unwrap();
         assert_eq!(transcendental_taps(&module), [], "{descriptor:?}");
         // The broken twin: one in the function that every tap of a disk calls.
         if descriptor.kernel.uses_pixel() {
             let worse = text.replace("offset.x * disk.across", "cos(offset.x) * disk.across");
-            let module = validate_arrays(&worse).unwrap();
+            let module = validate(&worse).unwrap();
             assert!(!transcendental_taps(&module).is_empty());
         }
     }
 }
 
 #[test]
-fn every_kernel_of_one_light_translates_to_gl() {
+fn every_kernel_translates_to_gl() {
     for (descriptor, sampler) in samplers() {
-        if !descriptor.many_lights {
-            let text = sampler.wgsl_module(0) + &host(&descriptor);
-            to_glsl(&text, "host").unwrap();
-        }
+        let text = sampler.wgsl_module(0) + &host(&descriptor);
+        to_glsl(&text, "host").unwrap();
     }
 }
 
 /// Found 16: what WebGL 2 has no word for, in GLSL that naga wrote for it.
 fn beyond_webgl(glsl: &str) -> Option<&'static str> {
     assert!(glsl.starts_with("#version 300 es"), "{glsl}");
-    let missing = ["textureGather", "imageLoad", "buffer ", "samplerCubeArray"];
+    let missing = ["textureGather", "imageLoad", "buffer "];
     missing.into_iter().find(|word| glsl.contains(word))
 }
 
@@ -213,8 +201,8 @@ fn uniform_sizes(module: &naga::Module) -> Vec<u32> {
 fn every_kernel_of_one_light_without_gathers_is_webgl_2() {
     let mut squares = 0;
     for (descriptor, sampler) in samplers() {
-        if descriptor.many_lights {
-            continue; // a storage buffer and a cube array, neither of which is there
+        if takes_light(&descriptor) {
+            continue; // a storage buffer, which is not there
         }
         let text = sampler.wgsl_module(0) + &host(&descriptor);
         let glsl = to_webgl(&text, "host").unwrap();
@@ -228,7 +216,7 @@ fn every_kernel_of_one_light_without_gathers_is_webgl_2() {
     }
     let one_light = WAYS
         .iter()
-        .filter(|way| !way.many_lights && way.gather == Gather::Auto);
+        .filter(|way| !way.many_lights && way.map != MapKind::Atlas && way.gather == Gather::Auto);
     assert_eq!(squares, one_light.count() * SQUARES.len());
     // The broken twin: parameters of a disk without padding.
     let (_, disk) = samplers()
@@ -362,19 +350,14 @@ fn every_encoding_number_of_lights_and_method_is_valid() {
                 })
             };
             let text = sampler.wgsl_module(2) + &host(way.many_lights);
-            let module = validate_arrays(&text).unwrap();
+            let module = validate(&text).unwrap();
             for (_, function) in module.functions.iter() {
                 let name = function.name.as_deref().unwrap_or_default();
                 assert!(name.starts_with("shadows_"), "{name}");
             }
-            assert_eq!(
-                validate(&text).is_ok(),
-                !way.many_lights,
-                "arrays cost a capability"
-            );
             // The broken twin: a host that calls as for the other number of lights.
             let wrong = sampler.wgsl_module(2) + &host(!way.many_lights);
-            assert!(validate_arrays(&wrong).is_err());
+            assert!(validate(&wrong).is_err());
         }
     }
 }

@@ -148,6 +148,7 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         many_lights,
         textbook,
         flat_lights,
+        light_kinds: _, // of atlases, which are not swept
         gather,
     } = sampler;
     Literal::new("sampler", "PcfDescriptor")

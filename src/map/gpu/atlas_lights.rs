@@ -109,7 +109,7 @@ impl AtlasLights {
         for written in &mut self.written {
             // Of a place that held a light nothing is known; it must be told if it holds none.
             *written = written.map(|_| LightRecord {
-                padding: f32::NAN,
+                centre: f32::NAN,
                 ..LightRecord::DARK
             });
         }

@@ -1,6 +1,6 @@
 //! The layers that an atlas's tiles lie in.
 
-use super::texture::create_texture;
+use super::texture::{array_view, create_texture, layer_view};
 use crate::gl;
 use crate::map::encoding::texel_bytes;
 
@@ -196,20 +196,6 @@ fn make(
 ) -> (wgpu::Texture, wgpu::TextureView) {
     let layers = gl::array_layers(device, layers.max(1));
     let texture = create_texture(device, label, size, format, layers);
-    let view = texture.create_view(&wgpu::TextureViewDescriptor {
-        label: Some(label),
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    });
+    let view = array_view(&texture, label);
     (texture, view)
-}
-
-fn layer_view(texture: &wgpu::Texture, label: &str, layer: u32) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        label: Some(&format!("{label} layer {layer}")),
-        dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: layer,
-        array_layer_count: Some(1),
-        ..Default::default()
-    })
 }

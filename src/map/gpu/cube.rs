@@ -1,9 +1,10 @@
 //! All that a cube map has on the GPU.
 
-use super::cube_lights::{CubeLights, Depths, LightUniform};
+use super::cube_lights::CubeLights;
 use super::draws::{Draw, DrawLists};
 use super::encode::{Drawing, begin_depth_pass};
 use super::instances::{Instances, TooLarge};
+use super::light_record::{LightRecord, TilePlace, TileTexture, Tiles};
 use super::pipelines::{PipelineKind, Pipelines, can_pull_casters};
 use super::static_layers::StaticLayerTextures;
 use super::texture::CubeTextures;
@@ -180,25 +181,28 @@ impl CubeGpu {
     /// Stages what receivers are told of the lights. `marks_casterless`: whether they are told of
     /// lights without casters, whose texels then do not count.
     pub fn write_lights(&mut self, lights: &[PointLight], slots: &Slots, marks_casterless: bool) {
+        let texture = TileTexture {
+            side: self.size,
+            bias: self.bias,
+            format: self.format,
+        };
         for ((place, wanted), &index) in lights.iter().enumerate().zip(slots.order()) {
             let slot = &slots[index];
             let shown = shown_light(slot);
-            let depths = match (self.textures.slot(index), shown) {
-                (None, _) => Depths::NoCaster,
-                (Some(_), Some(shown))
-                    if marks_casterless && slot.casting == 0 && shown == *wanted =>
-                {
-                    Depths::NoCaster
-                }
-                (Some(_), Some(_)) if self.lights.all().is_some() => Depths::Cube(index as i32),
-                (Some(_), Some(_)) => Depths::Cube(0),
-                (Some(_), None) => Depths::NotYet,
-            };
             let light = shown.unwrap_or(*wanted);
             let near = self.near_plane.of_point(&light);
-            let (size, bias, format) = (self.size, &self.bias, self.format);
-            let uniform = LightUniform::new(&light, near, depths, size, bias, format);
-            self.lights.write(&mut self.uploads, place, uniform);
+            let casterless = marks_casterless && slot.casting == 0 && shown == Some(*wanted);
+            let record = |tiles| LightRecord::point(&light, near, tiles, &texture);
+            let record = match self.textures.slot(index) {
+                Some(_) if shown.is_none() => LightRecord::DARK,
+                Some(layers) if !casterless => record(Tiles::At {
+                    size: self.size,
+                    places: CubeFace::ALL
+                        .map(|face| TilePlace::layer(layers.first_layer + face.layer())),
+                }),
+                _ => record(Tiles::NoCaster),
+            };
+            self.lights.write(&mut self.uploads, place, record);
         }
     }
 

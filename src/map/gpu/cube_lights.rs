@@ -1,76 +1,16 @@
 //! What receivers are told of the lights of a cube map.
 
 use super::buffers::buffer;
+use super::light_record::LightRecord;
 use super::uniforms::UNIFORM_STRIDE;
-use crate::map::encoding::quantum;
+use crate::support::has_storage;
 use crate::uploads::Uploads;
-use crate::{Bias, PointLight};
 
-/// Where a light's depths are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Depths {
-    /// In this cube of the array (0 if each light has a texture of its own).
-    Cube(i32),
-    /// Nowhere: no caster is in range, so receivers in range are lit.
-    NoCaster,
-    /// Not drawn yet: receivers are unlit.
-    NotYet,
-}
+/// What a uniform buffer of lights holds on devices without storage buffers: all that WebGL 2 binds of one.
+const UNIFORM_BYTES: u64 = 16_384;
 
-/// `ShadowsCubeLight` in WGSL.
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-pub(crate) struct LightUniform {
-    pub position: [f32; 3],
-    pub near: f32,
-    pub range: f32,
-    pub size: f32,
-    pub normal_offset: f32,
-    pub scale: f32,
-    pub quantum: f32,
-    pub cube: i32,
-    pub rounding: f32,
-    pub centre: f32,
-    pub half_size: f32,
-    pub texel: f32,
-    pub range_squared: f32,
-    pub bound: f32,
-}
-
-impl LightUniform {
-    pub(crate) fn new(
-        light: &PointLight,
-        near: f32,
-        depths: Depths,
-        size: u32,
-        bias: &Bias,
-        format: wgpu::TextureFormat,
-    ) -> Self {
-        let texel = 2.0 / size as f32;
-        let half_size = 0.499_999_8 * size as f32;
-        let scale = near * (1.0 + bias.constant * texel) / half_size;
-        Self {
-            position: light.position.to_array(),
-            near,
-            range: light.range,
-            size: size as f32,
-            normal_offset: bias.normal_offset * texel,
-            scale,
-            quantum: quantum(format).unwrap_or(0.0),
-            cube: match depths {
-                Depths::Cube(index) => index,
-                Depths::NoCaster => -1,
-                Depths::NotYet => -2,
-            },
-            rounding: bias.rounding(),
-            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
-            half_size,
-            texel,
-            range_squared: light.range * light.range,
-            bound: 32.0 * scale,
-        }
-    }
-}
+/// The lights that such a buffer has room for.
+pub(crate) const UNIFORM_LIGHTS: u32 = (UNIFORM_BYTES / size_of::<LightRecord>() as u64) as u32;
 
 /// The lights one by one and all together.
 #[derive(Debug)]
@@ -78,7 +18,7 @@ pub(crate) struct CubeLights {
     label: String,
     buffers: Buffers,
     /// What they hold once the uploads are recorded, by place.
-    written: Vec<Option<LightUniform>>,
+    written: Vec<Option<LightRecord>>,
     /// The revision of the bind groups that they are in.
     revision: u64,
 }
@@ -87,17 +27,20 @@ pub(crate) struct CubeLights {
 struct Buffers {
     /// One every [`UNIFORM_STRIDE`] bytes.
     uniforms: wgpu::Buffer,
-    /// One after the other; only for maps that are cube arrays.
+    /// One after the other; only for maps whose lights share a texture.
     all: Option<wgpu::Buffer>,
 }
 
 impl Buffers {
     fn new(device: &wgpu::Device, label: &str, count: u64, array: bool) -> Self {
         let make = |stride, usage| buffer(device, label, count * stride, usage);
-        let size = size_of::<LightUniform>() as u64;
+        let size = size_of::<LightRecord>() as u64;
         Self {
             uniforms: make(UNIFORM_STRIDE, wgpu::BufferUsages::UNIFORM),
-            all: array.then(|| make(size, wgpu::BufferUsages::STORAGE)),
+            all: array.then(|| match has_storage(device) {
+                true => make(size, wgpu::BufferUsages::STORAGE),
+                false => buffer(device, label, UNIFORM_BYTES, wgpu::BufferUsages::UNIFORM),
+            }),
         }
     }
 }
@@ -136,7 +79,7 @@ impl CubeLights {
     }
 
     /// Uploads one, if it is not what it was.
-    pub fn write(&mut self, uploads: &mut Uploads, place: usize, uniform: LightUniform) {
+    pub fn write(&mut self, uploads: &mut Uploads, place: usize, uniform: LightRecord) {
         if self.written[place].replace(uniform) == Some(uniform) {
             return;
         }
@@ -157,11 +100,11 @@ impl CubeLights {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.buffers.uniforms,
             offset: place.min(self.written.len() - 1) as u64 * UNIFORM_STRIDE,
-            size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+            size: wgpu::BufferSize::new(size_of::<LightRecord>() as u64),
         })
     }
 
-    /// All of them, of a cube array.
+    /// All of them, where they share a texture.
     pub fn all(&self) -> Option<&wgpu::Buffer> {
         self.buffers.all.as_ref()
     }
@@ -169,35 +112,5 @@ impl CubeLights {
     pub fn bytes(&self) -> u64 {
         let all = self.all().map_or(0, wgpu::Buffer::size);
         self.buffers.uniforms.size() + all
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::LightUniform;
-    use crate::wgsl_layout::assert_layout;
-
-    #[test]
-    fn the_light_lies_in_memory_as_wgsl_has_it() {
-        let text = include_str!("../../../shaders/cube_light.wgsl");
-        assert_layout!(
-            text,
-            "ShadowsCubeLight",
-            LightUniform,
-            position,
-            near,
-            range,
-            size,
-            normal_offset,
-            scale,
-            quantum,
-            cube,
-            rounding,
-            centre,
-            half_size,
-            texel,
-            range_squared,
-            bound
-        );
     }
 }

@@ -16,6 +16,11 @@ pub(crate) struct TilePlace {
 }
 
 impl TilePlace {
+    /// A whole layer.
+    pub fn layer(layer: u32) -> Self {
+        Self { x: 0, y: 0, layer }
+    }
+
     /// Corners of tiles are at multiples of so many texels.
     pub const UNIT: u32 = 16;
     /// The side of the largest texture whose texels can be told.
@@ -58,7 +63,7 @@ pub(crate) struct LightRecord {
     pub forward: [f32; 3],
     pub texels: f32,
     pub right: [f32; 3],
-    pub size: f32,
+    pub middle: f32,
     pub down: [f32; 3],
     pub range_squared: f32,
     pub normal_offset: f32,
@@ -72,7 +77,7 @@ pub(crate) struct LightRecord {
     pub tiles: [u32; 4],
     pub last_tiles: [u32; 2],
     pub per_blend: f32,
-    pub padding: f32,
+    pub centre: f32,
 }
 
 impl LightRecord {
@@ -91,7 +96,7 @@ impl LightRecord {
         forward: [0.0; 3],
         texels: 0.0,
         right: [0.0; 3],
-        size: 0.0,
+        middle: 0.0,
         down: [0.0; 3],
         range_squared: -1.0,
         normal_offset: 0.0,
@@ -105,7 +110,7 @@ impl LightRecord {
         tiles: [0; 4],
         last_tiles: [0; 2],
         per_blend: 0.0,
-        padding: 0.0,
+        centre: 0.0,
     };
 
     /// A point light with its six tiles in the order of [`CubeFace::ALL`](crate::CubeFace::ALL); `near` is
@@ -124,12 +129,10 @@ impl LightRecord {
         let half_size = 0.499_999_8 * size as f32;
         let depth_bias = 1.0 + texture.bias.constant * texel;
         let scale = near * depth_bias / half_size;
-        let centre = if size.is_multiple_of(2) { 0.5 } else { 0.0 };
         let [a, b, c, d, e, f] = places.map(TilePlace::packed);
         Self {
             kind: Self::POINT,
-            forward: [scale, 32.0 * scale, centre],
-            right: [light.range / near, 0.0, 0.0],
+            forward: [scale, 32.0 * scale, light.range / near],
             texels: half_size,
             depth_bias,
             depth_per: near * depth_bias,
@@ -221,7 +224,8 @@ impl LightRecord {
     /// `texel`: the world width of one, at distance 1 of a light with a position.
     fn in_texture(self, texture: &TileTexture, size: u32, texel: f32) -> Self {
         Self {
-            size: size as f32,
+            middle: 0.5 * size as f32,
+            centre: if size.is_multiple_of(2) { 0.5 } else { 0.0 },
             texel,
             normal_offset: texture.bias.normal_offset * texel,
             quantum: quantum(texture.format).unwrap_or(0.0),
@@ -249,7 +253,7 @@ mod tests {
             forward,
             texels,
             right,
-            size,
+            middle,
             down,
             range_squared,
             normal_offset,
@@ -263,7 +267,7 @@ mod tests {
             tiles,
             last_tiles,
             per_blend,
-            padding
+            centre
         );
         assert!(size_of::<LightRecord>() <= 128);
     }

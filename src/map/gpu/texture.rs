@@ -9,7 +9,10 @@ use crate::map::projection::CubeFace;
 pub(crate) struct SlotTexture {
     pub texture: wgpu::Texture,
     pub first_layer: u32,
-    pub cube: wgpu::TextureView,
+    /// `None` where the device takes no layers for a cube.
+    cube: Option<wgpu::TextureView>,
+    /// All layers of the texture.
+    all: wgpu::TextureView,
     pub faces: [wgpu::TextureView; 6],
 }
 
@@ -20,24 +23,12 @@ pub(crate) struct CubeTextures {
     size: u32,
     format: wgpu::TextureFormat,
     slots: Vec<Option<SlotTexture>>,
-    array: Option<Array>,
+    /// Whether one texture is for all.
+    shared: bool,
     /// A texel for each face, bound as long as there is nothing else.
-    placeholder: wgpu::TextureView,
-    /// The faces of the placeholder, and whether they are clear.
-    blank: [wgpu::TextureView; 6],
-    blank_is_clear: bool,
-    blank_layers: u32,
+    placeholder: SlotTexture,
+    placeholder_is_clear: bool,
     revision: u64,
-}
-
-#[derive(Debug)]
-struct Array {
-    /// More than there are lights where the device would else take it for something else.
-    cubes: u32,
-    /// Whether a light's part of it can be read as a cube by itself.
-    has_cubes: bool,
-    placeholder: wgpu::TextureView,
-    view: Option<wgpu::TextureView>,
 }
 
 impl CubeTextures {
@@ -47,28 +38,17 @@ impl CubeTextures {
         size: u32,
         format: wgpu::TextureFormat,
         slots: usize,
-        array: bool,
+        shared: bool,
     ) -> Self {
-        let cubes = |lights| match array {
-            true => gl::array_cubes(device, lights),
-            false => 1,
-        };
-        let placeholder = create_texture(device, label, 1, format, 6 * cubes(1));
+        let placeholder = create_texture(device, label, 1, format, gl::array_layers(device, 6));
         Self {
             label: label.to_owned(),
             size,
             format,
             slots: (0..slots).map(|_| None).collect(),
-            array: array.then(|| Array {
-                cubes: cubes(slots as u32),
-                has_cubes: !gl::is_gl(device),
-                placeholder: array_view(&placeholder, label),
-                view: None,
-            }),
-            blank_layers: placeholder.depth_or_array_layers(),
-            blank: CubeFace::ALL.map(|face| face_view(&placeholder, label, 0, face)),
-            blank_is_clear: false,
-            placeholder: cube_view(&placeholder, label, 0),
+            shared,
+            placeholder: SlotTexture::new(device, placeholder, label, 0),
+            placeholder_is_clear: false,
             revision: 0,
         }
     }
@@ -79,28 +59,24 @@ impl CubeTextures {
             return 0..0;
         }
         self.revision += 1;
-        let label = self.label.clone();
-        let Some(array) = &mut self.array else {
-            let texture = create_texture(device, &label, self.size, self.format, 6);
-            self.slots[slot] = Some(SlotTexture::new(texture, &label, 0));
-            return slot..slot + 1;
+        let slots = match self.shared {
+            true => 0..self.slots.len(),
+            false => slot..slot + 1,
         };
-        let texture = create_texture(device, &label, self.size, self.format, 6 * array.cubes);
-        array.view = Some(array_view(&texture, &label));
-        for (slot, first_layer) in self.slots.iter_mut().zip((0..).step_by(6)) {
-            *slot = Some(SlotTexture::new(texture.clone(), &label, first_layer));
+        let layers = gl::array_layers(device, 6 * slots.len() as u32);
+        let texture = create_texture(device, &self.label, self.size, self.format, layers);
+        for (slot, first_layer) in self.slots[slots.clone()].iter_mut().zip((0..).step_by(6)) {
+            let texture = texture.clone();
+            *slot = Some(SlotTexture::new(device, texture, &self.label, first_layer));
         }
-        0..self.slots.len()
+        slots
     }
 
-    /// Gives a slot's texels back; false if it had none. An array goes with the first of its slots,
-    /// so all must be freed.
+    /// Gives a slot's texels back; false if it had none. A texture for all goes with the last of its
+    /// slots, so all must be freed.
     pub fn free(&mut self, slot: usize) -> bool {
         let had = self.slots[slot].take().is_some();
         self.revision += u64::from(had);
-        if let Some(array) = &mut self.array {
-            array.view = None;
-        }
         had
     }
 
@@ -108,35 +84,36 @@ impl CubeTextures {
         self.slots.get(slot)?.as_ref()
     }
 
-    /// A light's cube, or a placeholder; `None` if it cannot be read by itself.
+    /// A light's cube, or a placeholder; `None` if the device takes no layers for a cube.
     pub fn cube(&self, slot: usize) -> Option<&wgpu::TextureView> {
-        let cube = self.slot(slot).map_or(&self.placeholder, |slot| &slot.cube);
-        let readable = self.array.as_ref().is_none_or(|array| array.has_cubes);
-        readable.then_some(cube)
+        self.bound(slot).cube.as_ref()
+    }
+
+    /// All layers of the texture that a light is in, or of a placeholder.
+    pub fn layers(&self, slot: usize) -> &wgpu::TextureView {
+        &self.bound(slot).all
+    }
+
+    fn bound(&self, slot: usize) -> &SlotTexture {
+        self.slot(slot).unwrap_or(&self.placeholder)
     }
 
     /// The faces of the placeholder, until they are said to be clear.
     pub fn to_be_cleared(&self) -> &[wgpu::TextureView] {
-        match self.blank_is_clear {
+        match self.placeholder_is_clear {
             true => &[],
-            false => &self.blank,
+            false => &self.placeholder.faces,
         }
     }
 
     /// Learns that the placeholder is clear.
     pub fn placeholder_cleared(&mut self) {
-        self.blank_is_clear = true;
+        self.placeholder_is_clear = true;
     }
 
     /// Nothing is known of the placeholder's texels any more.
     pub fn doubt(&mut self) {
-        self.blank_is_clear = false;
-    }
-
-    /// All lights' cubes, or a placeholder; `None` if each has a texture of its own.
-    pub fn array(&self) -> Option<&wgpu::TextureView> {
-        let array = self.array.as_ref()?;
-        Some(array.view.as_ref().unwrap_or(&array.placeholder))
+        self.placeholder_is_clear = false;
     }
 
     pub fn revision(&self) -> u64 {
@@ -147,16 +124,17 @@ impl CubeTextures {
         let textures = self.slots.iter().flatten();
         let textures = textures.filter(|slot| slot.first_layer == 0);
         let layers: u32 = textures.map(|t| t.texture.depth_or_array_layers()).sum();
-        let blank = self.blank_layers;
+        let blank = self.placeholder.texture.depth_or_array_layers();
         (u64::from(layers) * u64::from(self.size).pow(2) + u64::from(blank))
             * texel_bytes(self.format)
     }
 }
 
 impl SlotTexture {
-    fn new(texture: wgpu::Texture, label: &str, first_layer: u32) -> Self {
+    fn new(device: &wgpu::Device, texture: wgpu::Texture, label: &str, first_layer: u32) -> Self {
         Self {
-            cube: cube_view(&texture, label, first_layer),
+            cube: (!gl::is_gl(device)).then(|| cube_view(&texture, label, first_layer)),
+            all: array_view(&texture, label),
             faces: CubeFace::ALL.map(|face| face_view(&texture, label, first_layer, face)),
             texture,
             first_layer,
@@ -204,10 +182,11 @@ fn cube_view(texture: &wgpu::Texture, label: &str, first_layer: u32) -> wgpu::Te
     })
 }
 
-fn array_view(texture: &wgpu::Texture, label: &str) -> wgpu::TextureView {
+/// All layers of a texture, for receivers.
+pub(crate) fn array_view(texture: &wgpu::Texture, label: &str) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         label: Some(label),
-        dimension: Some(wgpu::TextureViewDimension::CubeArray),
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     })
 }
@@ -218,10 +197,19 @@ fn face_view(
     first_layer: u32,
     face: CubeFace,
 ) -> wgpu::TextureView {
+    layer_view(
+        texture,
+        &format!("{label} {face:?}"),
+        first_layer + face.layer(),
+    )
+}
+
+/// One layer, to draw on.
+pub(crate) fn layer_view(texture: &wgpu::Texture, label: &str, layer: u32) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
-        label: Some(&format!("{label} {face:?}")),
+        label: Some(label),
         dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: first_layer + face.layer(),
+        base_array_layer: layer,
         array_layer_count: Some(1),
         ..Default::default()
     })

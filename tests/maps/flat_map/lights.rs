@@ -62,14 +62,17 @@ fn receivers_of_one_kind_see_what_those_of_any_do_and_another_kind_is_dark() {
 fn without_casters_receivers_of_every_kind_are_lit_and_before_the_first_frame_dark() {
     let Some(gpu) = Gpu::for_test() else { return };
     let blank = ShadowMap::new(&gpu.device, &of_size(64, Bias::default())).unwrap();
-    let empty = drawn(
-        &gpu,
-        &of_size(64, Bias::default()),
-        &ShadowFrame::new(sun(Vec3::Y), &[]),
-    );
-    for lights in [FlatLights::Any, FlatLights::Spot, FlatLights::Directional] {
+    let sun = ShadowFrame::new(sun(Vec3::Y), &[]);
+    let spot = ShadowFrame::new(spot(Vec3::Y * 9.0, Vec3::NEG_Y, 1.2, 1.0), &[]);
+    let [sun, spot] = [sun, spot].map(|frame| drawn(&gpu, &of_size(64, Bias::default()), &frame));
+    for (lights, empty) in [
+        (FlatLights::Any, &sun),
+        (FlatLights::Any, &spot),
+        (FlatLights::Spot, &spot),
+        (FlatLights::Directional, &sun),
+    ] {
         for kernel in Kernel::ALL {
-            let lit = seen(&gpu, &empty, kernel, lights);
+            let lit = seen(&gpu, empty, kernel, lights);
             assert!(lit.iter().all(|&lit| lit == 1.0), "{kernel:?} {lights:?}");
             let dark = seen(&gpu, &blank, kernel, lights);
             assert!(dark.iter().all(|&lit| lit == 0.0), "{kernel:?} {lights:?}");

@@ -33,7 +33,7 @@ light, blue false shadow.
 |---|---|---|---|
 | `bevy` | Bevy 0.20.1: `bevy_pbr` (`shadows.wesl`, `shadow_sampling.wesl`, `light.rs`), `bevy_light` | infinite reverse-Z from 0.1 m in 32-bit floats, sides that face the light, depth bias 0.08 m and normal bias 0.6 texels (point), 0.02 m and 1.8 texels (spot, directional), times the root of 2; `Hardware2x2`, and `Gaussian`, its default | cascades: a directional light has one map around the scene; the temporal filter; contact and soft shadows |
 | `three` | three.js r187: `shadowmap_pars_fragment.glsl.js`, `WebGLShadowMap.js`, `LightShadow.js` | `PCFShadowMap` at its defaults: no bias, no normal bias, radius 1, far sides, from 0.5 m to the light's end in 24 bits | its flat maps |
-| `wgpu-example` | wgpu 30: `examples/features/src/shadow` | depth bias 2 steps and 2 slopes when the map is drawn, sides that face the light, standard depth from 1 m to the light's end in 32-bit floats | its light's own place and angle |
+| `wgpu-example` | wgpu 30: `wgpu/examples/features/src/shadow` | depth bias 2 steps and 2 slopes when the map is drawn, sides that face the light, standard depth from 1 m to the light's end in 32-bit floats | its light's own place and angle |
 
 An open mesh (the teapot) casts as is better for each: by both sides in `bevy` and `wgpu-example`, as with a
 double-sided material, by its far sides in `three`, as with the single-sided one that is the default.
