@@ -67,6 +67,12 @@ pub const JOINED: &[&[&str]] = &[
     &["volume_screen", "volume_join"],
     &["volume_screen", "volume_join_samples"],
     &["volume_screen", "volume_exact", "volume_mark"],
+    &["volume_screen", "volume_exact", "volume_mask_counts"],
+    &[
+        "volume_screen",
+        "volume_exact_samples",
+        "volume_mask_counts_samples",
+    ],
     &[
         "volume_screen",
         "volume_exact_samples",

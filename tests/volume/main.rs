@@ -31,5 +31,6 @@ mod survey;
 mod truth;
 mod views;
 mod ways;
+mod without_stencil;
 
 use host::shapes;
