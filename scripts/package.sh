@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 target=${CARGO_TARGET_DIR:-$PWD/target}
 package=$target/package
-cargo package --no-verify --allow-dirty --quiet --target-dir "$target"
+cargo package -p shadows --no-verify --allow-dirty --quiet --target-dir "$target"
 archive=$(ls -t "$package"/shadows-*.crate | head -n 1)
 rm -rf "${archive%.crate}"
 # Times of now: those in the archive are all one, and cargo would take a change for none.

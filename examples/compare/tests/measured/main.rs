@@ -12,3 +12,4 @@ mod peers;
 #[path = "../../../../tests/common/receivers.rs"]
 mod receivers;
 mod temporal;
+mod timer;
