@@ -20,6 +20,14 @@ pub struct Lamps {
     means: Means,
 }
 
+/// A frame of several lights.
+pub struct Shown {
+    /// Of each light, 255 lit; rows from the top.
+    pub visibility: Vec<Vec<u8>>,
+    /// Under all of them.
+    pub shaded: Vec<[u8; 3]>,
+}
+
 enum Means {
     /// One at a time, each with a map and a bind group of its own.
     Each(Vec<Shadow>),
@@ -45,17 +53,9 @@ impl Lamps {
         let applies = |at: &usize| technique.config.applies_to(stage.scene.lights[*at].kind());
         let lights: Vec<usize> = all.filter(applies).collect();
         let means = match &technique.config {
-            Config::Cube { map, sampler }
-                if lights.len() > 1 && !sampler.textbook && gpu.support.cube_arrays =>
-            {
-                Means::Cubes(Box::new(Cubes::new(
-                    gpu,
-                    stage,
-                    lights.len(),
-                    map,
-                    sampler,
-                )?))
-            }
+            Config::Cube { map, sampler } if lights.len() > 1 && !sampler.textbook => Means::Cubes(
+                Box::new(Cubes::new(gpu, stage, lights.len(), map, sampler)?),
+            ),
             _ => {
                 let each = lights.iter();
                 let new = |_| Shadow::new(gpu, &stage.renderer, technique.clone());
@@ -130,7 +130,7 @@ impl Lamps {
     ///
     /// # Errors
     /// If the technique refuses a light.
-    pub fn picture(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(Vec<Vec<u8>>, Vec<[u8; 3]>)> {
+    pub fn picture(&mut self, gpu: &Gpu, stage: &Stage) -> Result<Shown> {
         self.prepare(gpu, stage)?;
         gpu.run(|encoder| stage.renderer.draw_ambient(encoder, &stage.scene_gpu));
         let mut all = Vec::new();
@@ -141,7 +141,10 @@ impl Lamps {
             });
             all.push(stage.renderer.read_visibility(gpu));
         }
-        Ok((all, stage.renderer.read_shaded(gpu)))
+        Ok(Shown {
+            visibility: all,
+            shaded: stage.renderer.read_shaded(gpu),
+        })
     }
 
     /// What the last prepared frame takes.
@@ -302,8 +305,9 @@ impl Truth {
 
     /// One picture of what is shown of some lights: the mean over those that a pixel faces. Of a single
     /// light it is what was shown.
-    pub fn picture(&self, lamps: &Lamps, shown: Vec<Vec<u8>>, shaded: Vec<[u8; 3]>) -> Picture {
-        let visibility = match <[Vec<u8>; 1]>::try_from(shown) {
+    pub fn picture(&self, lamps: &Lamps, shown: Shown) -> Picture {
+        let shaded = shown.shaded;
+        let visibility = match <[Vec<u8>; 1]>::try_from(shown.visibility) {
             Ok([only]) => only,
             Err(shown) => self.mean(&lamps.lights, &shown),
         };

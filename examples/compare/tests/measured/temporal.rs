@@ -70,7 +70,7 @@ fn around(gpu: &Gpu, stage: &mut Stage, path: Path, pixels: f32) -> Vec<[Vec<Cla
     let all = (0..=STEPS)
         .map(|step| std::array::from_fn(|direction| seen_from(step, direction)))
         .collect();
-    let back = stage.move_to(gpu, start.camera, start.light, [0.0; 2]);
+    let back = stage.move_to(gpu, start.camera, start.light().place, [0.0; 2]);
     back.unwrap();
     all
 }
