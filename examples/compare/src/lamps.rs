@@ -20,6 +20,14 @@ pub struct Lamps {
     means: Means,
 }
 
+/// A frame of several lights.
+pub struct Shown {
+    /// Of each light, 255 lit; rows from the top.
+    pub visibility: Vec<Vec<u8>>,
+    /// Under all of them.
+    pub shaded: Vec<[u8; 3]>,
+}
+
 enum Means {
     /// One at a time, each with a map and a bind group of its own.
     Each(Vec<Shadow>),
@@ -137,7 +145,7 @@ impl Lamps {
     ///
     /// # Errors
     /// If the technique refuses a light.
-    pub fn picture(&mut self, gpu: &Gpu, stage: &Stage) -> Result<(Vec<Vec<u8>>, Vec<[u8; 3]>)> {
+    pub fn picture(&mut self, gpu: &Gpu, stage: &Stage) -> Result<Shown> {
         self.prepare(gpu, stage)?;
         gpu.run(|encoder| stage.renderer.draw_ambient(encoder, &stage.scene_gpu));
         let mut all = Vec::new();
@@ -148,7 +156,10 @@ impl Lamps {
             });
             all.push(stage.renderer.read_visibility(gpu));
         }
-        Ok((all, stage.renderer.read_shaded(gpu)))
+        Ok(Shown {
+            visibility: all,
+            shaded: stage.renderer.read_shaded(gpu),
+        })
     }
 
     /// What the last prepared frame takes.
@@ -311,8 +322,9 @@ impl Truth {
 
     /// One picture of what is shown of some lights: the mean over those that a pixel faces. Of a single
     /// light it is what was shown.
-    pub fn picture(&self, lamps: &Lamps, shown: Vec<Vec<u8>>, shaded: Vec<[u8; 3]>) -> Picture {
-        let visibility = match <[Vec<u8>; 1]>::try_from(shown) {
+    pub fn picture(&self, lamps: &Lamps, shown: Shown) -> Picture {
+        let shaded = shown.shaded;
+        let visibility = match <[Vec<u8>; 1]>::try_from(shown.visibility) {
             Ok([only]) => only,
             Err(shown) => self.mean(&lamps.lights, &shown),
         };

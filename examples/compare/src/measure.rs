@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::{Context as _, Result};
 use shadows::reference::{Comparison, Interior, ReferenceImage};
 
-use crate::lamps::{Lamps, Truth};
+use crate::lamps::{Lamps, Shown, Truth};
 use crate::shadow::{Cost, Shadow};
 use crate::soft::Soft;
 use crate::stage::{Picture, Stage};
@@ -106,8 +106,7 @@ pub fn percent(pixels: usize, error: &Comparison) -> f64 {
 
 struct Contestant {
     lamps: Lamps,
-    /// Each light's visibility, and what is seen under all of them.
-    shown: (Vec<Vec<u8>>, Vec<[u8; 3]>),
+    shown: Shown,
     prepare: Times,
     generate: Times,
     shade: Times,
@@ -228,13 +227,12 @@ impl Contestant {
     }
 
     fn judged(self, truth: &Truth) -> Result<Measured> {
-        let (shown, shaded) = self.shown;
         Ok(Measured {
             technique: self.lamps.technique().clone(),
             cost: self.lamps.cost(),
-            error: truth.judge(&self.lamps, &shown)?,
+            error: truth.judge(&self.lamps, &self.shown.visibility)?,
             lights: self.lamps.lights().len(),
-            picture: truth.picture(&self.lamps, shown, shaded),
+            picture: truth.picture(&self.lamps, self.shown),
             soft: None,
             prepare: self.prepare,
             generate: self.generate,

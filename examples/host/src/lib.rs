@@ -22,3 +22,4 @@ pub mod shapes;
 mod targets;
 pub mod terminal;
 pub mod timer;
+mod uniforms;

@@ -5,6 +5,7 @@
 //! all its detail; far houses are the same without sills, frames and railings.
 
 mod car;
+mod church;
 mod furniture;
 mod house;
 mod lights;

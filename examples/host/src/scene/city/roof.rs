@@ -122,8 +122,7 @@ fn dormer([x, y, z]: [f64; 3], roof: &mut Surface, stone: &mut Surface, panes: &
     let corners = [(-0.42, 0.1), (0.42, 0.1), (0.42, 1.3), (-0.42, 1.3)];
     let corners = corners.map(|(dx, dy)| panes.corner(dvec3(x + dx, y + dy, at)));
     panes.quad(corners);
-    for dx in [-0.5, -0.03, 0.42] {
-        let wide = if dx < -0.4 || dx > 0.4 { 0.08 } else { 0.06 };
+    for (dx, wide) in [(-0.5, 0.08), (-0.03, 0.06), (0.42, 0.08)] {
         stone.block(
             dvec3(x + dx, y + 0.02, z - 0.02),
             dvec3(x + dx + wide, y + 1.38, z + 0.04),

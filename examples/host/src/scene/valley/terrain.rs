@@ -160,16 +160,21 @@ fn block(first_x: u32, first_z: u32, centre: DVec2) -> Mesh {
         }
     }
     // Walls below the four edges, then the floor: vertices of their own, for their normals.
-    let edges: [(fn(u32) -> (u32, u32), [f32; 3]); 4] = [
-        (|k| (k, QUADS), [0.0, 0.0, 1.0]),
-        (|k| (QUADS, QUADS - k), [1.0, 0.0, 0.0]),
-        (|k| (QUADS - k, 0), [0.0, 0.0, -1.0]),
-        (|k| (0, k), [-1.0, 0.0, 0.0]),
+    let normals = [
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 0.0, -1.0],
+        [-1.0, 0.0, 0.0],
     ];
-    for (corner, normal) in edges {
+    for (edge, normal) in normals.into_iter().enumerate() {
         let first = mesh.positions.len() as u32;
         for k in 0..SIDE {
-            let (i, j) = corner(k);
+            let (i, j) = match edge {
+                0 => (k, QUADS),
+                1 => (QUADS, QUADS - k),
+                2 => (QUADS - k, 0),
+                _ => (0, k),
+            };
             let top = mesh.positions[at(i, j) as usize];
             mesh.positions.extend([top, [top[0], FLOOR, top[2]]]);
             mesh.normals.extend([normal; 2]);
