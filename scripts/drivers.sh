@@ -107,7 +107,7 @@ on() {
 }
 
 # Where each module is a suite of its own.
-folders='tests/maps tests/receivers examples/compare/tests/measured examples/host/tests/host'
+folders='tests/maps tests/receivers examples/compare/tests/measured'
 
 # The test binary that a suite is in.
 home() {

@@ -25,7 +25,7 @@ suites() {
     for binary in "$root"/deps/*; do
         binary=${binary##*/}
         case $binary in
-        maps | receivers | measured | host)
+        maps | receivers | measured)
             "$root/deps/$binary" --list --format terse 2>/dev/null | sed -n "s/::.*: test$//p" | sort -u |
                 sed "s/^/$binary /"
             ;;

@@ -13,7 +13,7 @@ use super::names::names;
 pub enum ShadowVolumeError {
     /// The depth-stencil format is none of the two that have what shadow volumes need.
     #[error(
-        "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
+        "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth), or with Counter::Exact Depth32Float or Depth24Plus"
     )]
     Format(wgpu::TextureFormat),
     /// The device was created without the depth-stencil format.
@@ -208,6 +208,16 @@ pub enum ScreenPassError {
         /// What would read them, e.g. `"LightJoin"`.
         what: &'static str,
     },
+    /// The stencil is asked for, and the buffer has none.
+    #[error(
+        "{0:?} has no stencil to mark what is in shadow in; read the counts in the lighting shader (wgsl::EXACT), or fill a mask by ShadowMask::encode_counts"
+    )]
+    NoStencil(wgpu::TextureFormat),
+    /// A mask is to be filled from another counter than it was made for.
+    #[error(
+        "this mask was made for Counter::{0:?}; encode fills those of Counter::Stencil, encode_counts those of Counter::Exact"
+    )]
+    Counter(crate::Counter),
     /// The device was created without a feature that this needs.
     #[error(
         "{needed_by} needs {}; ask for it when the device is created (see Support)",

@@ -4,7 +4,9 @@ use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
 use crate::volume::decide::method::{Caps, Extrusion, Method};
 use crate::volume::gpu::counter;
-use crate::volume::light_pass::targets::{DEPTH_STENCIL, bytes_a_sample, is_drawable};
+use crate::volume::light_pass::targets::{
+    DEPTH_STENCIL, bytes_a_sample, has_depth_alone, has_stencil, is_drawable,
+};
 use crate::volume::plan::limits;
 use crate::volume::{Counter, Silhouettes, StartFrom};
 
@@ -15,6 +17,7 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub label: Option<&'a str>,
     /// Format of the depth-stencil attachment, which is the host's own:
     /// [`Support::depth_stencil_format`](crate::Support::depth_stencil_format) says which to make it of.
+    /// With [`Counter::Exact`] it needs no stencil: `Depth32Float` and `Depth24Plus` will do.
     ///
     /// `Depth32FloatStencil8` (the default, and what this crate's figures are of) needs the
     /// [feature of that name](wgpu::Features::DEPTH32FLOAT_STENCIL8). `Depth24PlusStencil8` is there
@@ -114,10 +117,8 @@ impl ShadowVolumeDescriptor<'_> {
     /// Whether the device can do what the descriptor asks for.
     pub(crate) fn validate(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
         let format = self.depth_stencil_format;
-        if !matches!(
-            format,
-            wgpu::TextureFormat::Depth24PlusStencil8 | wgpu::TextureFormat::Depth32FloatStencil8
-        ) {
+        let counts_beside = self.counter == Counter::Exact;
+        if !(has_stencil(format) || (counts_beside && has_depth_alone(format))) {
             return Err(ShadowVolumeError::Format(format));
         }
         if !matches!(self.sample_count, 1 | 4) {

@@ -32,9 +32,11 @@ use crate::volume::{
 /// 1. for each view, a depth prepass: all surfaces into the depth-stencil buffer;
 /// 2. [`prepare`](Self::prepare) with lights, views and casters, then [`encode`](Self::encode)
 ///    outside of any pass, once each;
-/// 3. for each view and light, a pass with the view's depth-stencil buffer, its stencil cleared to 0
-///    and its depth loaded: [`render`](Self::render) with the places of light and view, then the
-///    host's own light pass with [`light_pass_stencil`](Self::light_pass_stencil).
+/// 3. for each view, a pass with the view's depth-stencil buffer, its stencil cleared to 0 and its depth
+///    loaded, and in it for each light: [`reset`](Self::reset) unless it is the first,
+///    [`render`](Self::render) with the places of light and view, then the host's own light pass with
+///    [`light_pass_stencil`](Self::light_pass_stencil). Or a pass for each light, with its stencil
+///    cleared.
 ///
 /// What is found of a volume depends on the light, and is found once for all views. What did not
 /// change costs nothing: a frame in which lights, views and casters are as they were takes one
@@ -306,6 +308,20 @@ impl ShadowVolumeRenderer {
         Ok(())
     }
 
+    /// Sets the counts of the whole viewport back to 0 within the host's pass, so that the next light's
+    /// volumes can be counted in the same pass: the stencil, or with
+    /// [`Counter::Exact`](crate::Counter::Exact) the count's target. On GPUs that work in tiles this
+    /// saves the depth and the colour their way to memory and back, which a pass a light takes.
+    ///
+    /// Whatever a light pass has left in the stencil is gone, the guard of
+    /// [`light_pass_stencil`](Self::light_pass_stencil) included. Depth and the host's colours stay.
+    /// Changes the pass's pipeline, nothing else; the scissor rectangle is the host's and has to hold
+    /// all that was drawn to.
+    pub fn reset(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipelines.reset);
+        pass.draw(0..3, 0..1);
+    }
+
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, drawn: &Drawn<'_>, place: [usize; 2]) {
         let mut current = None;
         for draw in &drawn.pair.draws {
@@ -340,8 +356,8 @@ impl ShadowVolumeRenderer {
     /// light is never added twice. The depth comparison is the host's: `Equal` if it draws the
     /// scene again, `Always` for a triangle that covers the screen.
     ///
-    /// The pass needs write access to the stencil. Between lights, clear the stencil to 0 and keep
-    /// the depth.
+    /// The pass needs write access to the stencil. Between lights, [`reset`](Self::reset) it in the same
+    /// pass, or clear it to 0 in another and keep the depth.
     pub fn light_pass_stencil() -> wgpu::StencilState {
         draw_pipelines::light_pass()
     }

@@ -62,10 +62,17 @@ pub const JOINED: &[&[&str]] = &[
     EDGES,
     &["volume_count"],
     &["volume_screen"],
+    &["volume_screen", "volume_reset"],
     &["volume_screen", "volume_debug"],
     &["volume_screen", "volume_join"],
     &["volume_screen", "volume_join_samples"],
     &["volume_screen", "volume_exact", "volume_mark"],
+    &["volume_screen", "volume_exact", "volume_mask_counts"],
+    &[
+        "volume_screen",
+        "volume_exact_samples",
+        "volume_mask_counts_samples",
+    ],
     &[
         "volume_screen",
         "volume_exact_samples",

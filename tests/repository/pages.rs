@@ -11,7 +11,11 @@ fn flush_left(text: &str) -> String {
 }
 
 fn is_excerpt(block: &str) -> bool {
-    let examples = ["examples/first_shadow.rs", "examples/egui/src/shadow.rs"];
+    let examples = [
+        "examples/first_shadow.rs",
+        "examples/egui/src/shadow.rs",
+        "tests/volume/one_pass.rs",
+    ];
     let block = flush_left(block);
     examples
         .iter()

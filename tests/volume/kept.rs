@@ -16,7 +16,7 @@ use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use host::gpu::Gpu;
 
-const SIDE: u32 = 48;
+pub const SIDE: u32 = 48;
 /// What is visible: a wall behind the casters.
 pub const WALL: f32 = 0.009;
 /// The ways that keep something.

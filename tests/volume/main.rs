@@ -17,6 +17,7 @@ mod light_pass;
 mod many;
 mod near_light;
 mod near_plane;
+mod one_pass;
 mod passes;
 mod pictures;
 mod pipelines;
@@ -30,5 +31,6 @@ mod survey;
 mod truth;
 mod views;
 mod ways;
+mod without_stencil;
 
 use host::shapes;

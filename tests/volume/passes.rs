@@ -101,7 +101,7 @@ pub fn attach(
             load: wgpu::LoadOp::Clear(depth),
             store: wgpu::StoreOp::Store,
         }),
-        stencil_ops: Some(wgpu::Operations {
+        stencil_ops: (view.texture().format().has_stencil_aspect()).then_some(wgpu::Operations {
             load: match clear {
                 Some(_) => wgpu::LoadOp::Clear(0),
                 None => wgpu::LoadOp::Load,
@@ -236,6 +236,9 @@ impl HostPipelines {
                 })
         };
         let mut guard = ShadowVolumeRenderer::light_pass_stencil();
+        if !stage.format.has_stencil_aspect() {
+            guard = wgpu::StencilState::default();
+        }
         if stage.light_pass.is_unguarded() {
             guard.front.pass_op = wgpu::StencilOperation::Keep;
             guard.back.pass_op = wgpu::StencilOperation::Keep;

@@ -73,7 +73,7 @@ fn a_second_renderer_compiles_nothing() {
         };
         assert!(modules(|| make(&pipelines, &descriptor)) > 0);
         let count = pipelines.count();
-        assert!(count >= 12, "{count}");
+        assert!(count >= 13, "{count}");
         let other_choices = ShadowVolumeDescriptor {
             label: Some("second"),
             method: Method::ZFail,

@@ -24,7 +24,7 @@ pub enum Counter {
     /// target instead of the stencil's.
     ///
     /// The pass has this target (`R32Float`, cleared to 0) after those of `color_formats`, and its
-    /// stencil is neither read nor written. [`ExactCount`](crate::ExactCount) makes the target, the
+    /// stencil is neither read nor written, and need not be there. [`ExactCount`](crate::ExactCount) makes the target, the
     /// pass, and what light passes need. Needs the feature
     /// [`FLOAT32_BLENDABLE`](wgpu::Features::FLOAT32_BLENDABLE).
     Exact,

@@ -7,4 +7,5 @@ pub(crate) mod draw_calls;
 pub(crate) mod draw_pipelines;
 pub(crate) mod layout;
 pub(crate) mod pipelines;
+pub(crate) mod reset;
 pub(crate) mod staged;

@@ -7,6 +7,7 @@ use crate::error::ShadowVolumeError;
 use crate::volume::ShadowVolumeDescriptor;
 use crate::volume::gpu::counter::Counter;
 use crate::volume::gpu::draw_pipelines::{DrawPipelines, Feed};
+use crate::volume::gpu::reset;
 use crate::volume::silhouette::{Extraction, Way, Ways};
 
 /// The compiled shaders of shadow volumes: made once, shared by any number of
@@ -44,6 +45,7 @@ pub struct VolumePipelines {
 struct Compiled {
     extraction: Option<Extraction>,
     draws: Vec<(Kind, DrawPipelines)>,
+    resets: Vec<(Kind, wgpu::RenderPipeline)>,
 }
 
 /// What pipelines of all faces have in common.
@@ -66,6 +68,8 @@ pub(crate) struct OwnPipelines {
     pub pulled: Option<DrawPipelines>,
     /// They are fed all triangles and edges.
     pub fed: Option<DrawPipelines>,
+    /// Sets counts back to 0.
+    pub reset: wgpu::RenderPipeline,
 }
 
 impl VolumePipelines {
@@ -101,7 +105,7 @@ impl VolumePipelines {
         let compiled = self.lock();
         let extraction = compiled.extraction.as_ref().map_or(0, |_| 2);
         let draws = compiled.draws.iter().map(|(_, draws)| draws.len());
-        extraction + draws.sum::<usize>()
+        extraction + draws.sum::<usize>() + compiled.resets.len()
     }
 
     /// The device that they are compiled for.
@@ -125,7 +129,25 @@ impl VolumePipelines {
             pulled: pulls.then(|| self.draws(&mut compiled, descriptor, Feed::Pulled)),
             fed: (ways.contain(Way::Vertex))
                 .then(|| self.draws(&mut compiled, descriptor, Feed::Records)),
+            reset: self.reset(&mut compiled, descriptor),
         }
+    }
+
+    fn reset(
+        &self,
+        compiled: &mut Compiled,
+        descriptor: &ShadowVolumeDescriptor<'_>,
+    ) -> wgpu::RenderPipeline {
+        let kind = Kind {
+            cap_bias_ulps: 0,
+            ..Kind::of(descriptor, Feed::Pulled)
+        };
+        if let Some((_, known)) = compiled.resets.iter().find(|(known, _)| *known == kind) {
+            return known.clone();
+        }
+        let new = reset::pipeline(&self.device, self.cache.as_ref(), descriptor);
+        compiled.resets.push((kind, new.clone()));
+        new
     }
 
     fn draws(

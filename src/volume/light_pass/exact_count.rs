@@ -4,10 +4,10 @@ use crate::error::ScreenPassError;
 use crate::volume::gpu::counter::{FEATURE, FORMAT};
 use crate::volume::light_pass::join::{bind, layout};
 use crate::volume::light_pass::mask::{
-    check_buffer, check_readable_samples, check_size, check_target,
+    check_buffer, check_readable_samples, check_samples, check_size, check_target,
 };
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
-use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_depth_alone, has_stencil};
 use crate::wgsl::{EXACT, EXACT_SAMPLES};
 
 const MARK: &str = include_str!("../../../shaders/volume_mark.wgsl");
@@ -21,7 +21,9 @@ pub struct ExactCountDescriptor<'a> {
     /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
     /// the device's `max_texture_dimension_2d`. Default 1 x 1.
     pub size: [u32; 2],
-    /// Format of the host's depth-stencil buffer. Default `Depth32FloatStencil8`.
+    /// Format of the host's depth-stencil buffer, or of its depth buffer: `Depth32Float` and
+    /// `Depth24Plus` will do where nobody asks for [`ExactCount::encode`]. Default
+    /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Its samples per pixel, 1 (default) or 4; on wgpu's GL back end, whose shaders read no
     /// multisampled texture, 1. Each sample is counted by itself.
@@ -45,7 +47,7 @@ impl Default for ExactCountDescriptor<'_> {
 /// For each light:
 /// 1. [`begin`](Self::begin) a pass and draw
 ///    [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render) into it;
-/// 2. either [`encode`](Self::encode), which marks in the stencil what is in shadow: every form of
+/// 2. either, if the buffer has a stencil, [`encode`](Self::encode), which marks in the stencil what is in shadow: every form of
 ///    light pass then goes on as after counting in the stencil
 ///    ([`light_pass_stencil`](crate::ShadowVolumeRenderer::light_pass_stencil) with its guard,
 ///    [`LightJoin`](crate::LightJoin), [`ShadowMask`](crate::ShadowMask));
@@ -53,12 +55,14 @@ impl Default for ExactCountDescriptor<'_> {
 ///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as
 ///    `texture_multisampled_2d<f32>`, by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES).
 ///    (Both are bound as floats that cannot be filtered.)
+/// 4. or [`ShadowMask::encode_counts`](crate::ShadowMask::encode_counts), for any later pass.
 ///
 /// GPU memory: four bytes a sample.
 #[derive(Debug)]
 pub struct ExactCount {
     label: String,
-    pipeline: wgpu::RenderPipeline,
+    /// Marks the stencil, if there is one.
+    pipeline: Option<wgpu::RenderPipeline>,
     group: wgpu::BindGroup,
     view: wgpu::TextureView,
     depth_stencil_format: wgpu::TextureFormat,
@@ -83,7 +87,10 @@ impl ExactCount {
         }
         check_size(descriptor.size, &device.limits())?;
         let format = descriptor.depth_stencil_format;
-        check_target(device, format, descriptor.sample_count)?;
+        match has_depth_alone(format) {
+            true => check_samples(descriptor.sample_count)?,
+            false => check_target(device, format, descriptor.sample_count)?,
+        }
         check_readable_samples(device, descriptor.sample_count, "ExactCount")?;
         let label = match descriptor.label {
             Some(name) => format!("shadows count {name}"),
@@ -98,12 +105,12 @@ impl ExactCount {
             fragment: "shadowed",
             layout: &[Some(&layout)],
             target: None,
-            depth_stencil_format: format,
+            depth_stencil_format: Some(format),
             sample_count: descriptor.sample_count,
             on: On::Marked,
         };
         Ok(Self {
-            pipeline: pipeline.make(device),
+            pipeline: has_stencil(format).then(|| pipeline.make(device)),
             group: bind(device, &label, &layout, &view),
             view,
             depth_stencil_format: format,
@@ -143,14 +150,16 @@ impl ExactCount {
     /// depth is only read.
     ///
     /// # Errors
-    /// [`ScreenPassError::Buffer`] if the buffer is not as the descriptor said. Nothing is then
-    /// recorded.
+    /// [`ScreenPassError::Buffer`] if the buffer is not as the descriptor said,
+    /// [`ScreenPassError::NoStencil`] if it has no stencil. Nothing is then recorded.
     pub fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         depth_stencil: &wgpu::TextureView,
     ) -> Result<(), ScreenPassError> {
         self.check(depth_stencil)?;
+        let no_stencil = ScreenPassError::NoStencil(self.depth_stencil_format);
+        let pipeline = self.pipeline.as_ref().ok_or(no_stencil)?;
         let cleared = wgpu::Operations {
             load: wgpu::LoadOp::Clear(0),
             store: wgpu::StoreOp::Store,
@@ -160,7 +169,7 @@ impl ExactCount {
             depth_stencil_attachment: Some(attachment(depth_stencil, Some(cleared))),
             ..Default::default()
         });
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.group, &[]);
         pass.set_stencil_reference(1);
         pass.draw(0..3, 0..1);
@@ -176,6 +185,11 @@ impl ExactCount {
     /// The texture itself, which may also be copied from where it has one sample a pixel.
     pub fn texture(&self) -> &wgpu::Texture {
         self.view.texture()
+    }
+
+    /// Binds the counts, where shaders of the light passes read them.
+    pub(crate) fn group(&self) -> &wgpu::BindGroup {
+        &self.group
     }
 
     fn check(&self, depth_stencil: &wgpu::TextureView) -> Result<(), ScreenPassError> {

@@ -86,7 +86,7 @@ impl LightJoin {
                     blend,
                     write_mask: wgpu::ColorWrites::ALL,
                 }),
-                depth_stencil_format: descriptor.depth_stencil_format,
+                depth_stencil_format: Some(descriptor.depth_stencil_format),
                 sample_count: descriptor.sample_count,
                 on,
             }
@@ -234,6 +234,14 @@ mod tests {
             ),
             (
                 crate::volume::light_pass::exact_count::source(true),
+                Capabilities::empty(),
+            ),
+            (
+                crate::volume::light_pass::mask::counts_source(false),
+                Capabilities::empty(),
+            ),
+            (
+                crate::volume::light_pass::mask::counts_source(true),
                 Capabilities::empty(),
             ),
         ] {

@@ -2,9 +2,15 @@
 
 use crate::error::ScreenPassError;
 use crate::gl;
+use crate::volume::gpu::counter::{self, Counter};
+use crate::volume::light_pass::exact_count::ExactCount;
+use crate::volume::light_pass::join::layout;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
-use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_stencil};
+use crate::wgsl::{EXACT, EXACT_SAMPLES};
 
+const COUNTS: &str = include_str!("../../../shaders/volume_mask_counts.wgsl");
+const COUNTS_SAMPLES: &str = include_str!("../../../shaders/volume_mask_counts_samples.wgsl");
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// What a [`ShadowMask`] is like.
@@ -23,6 +29,11 @@ pub struct ShadowMaskDescriptor<'a> {
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Its samples per pixel, 1 (default) or 4. With 4, the mask holds the share that is lit.
     pub sample_count: u32,
+    /// What the volumes were counted in. Default [`Counter::Stencil`]: the mask is filled by
+    /// [`encode`](ShadowMask::encode). With [`Counter::Exact`] it is filled by
+    /// [`encode_counts`](ShadowMask::encode_counts), `depth_stencil_format` is not looked at, and nobody
+    /// needs a stencil.
+    pub counter: Counter,
 }
 
 impl Default for ShadowMaskDescriptor<'_> {
@@ -33,6 +44,7 @@ impl Default for ShadowMaskDescriptor<'_> {
             lights: 1,
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            counter: Counter::Stencil,
         }
     }
 }
@@ -62,6 +74,8 @@ pub struct ShadowMask {
     /// Between stencil and layer, if there are several samples.
     samples: Option<Samples>,
     depth_stencil_format: wgpu::TextureFormat,
+    counter: Counter,
+    sample_count: u32,
 }
 
 /// Where samples are drawn and resolved. Not into the layer itself: resolved into layers, the mask of
@@ -87,11 +101,17 @@ impl ShadowMask {
         check_size(descriptor.size, &limits)?;
         let most = most_lights(device, &limits);
         check_range("number of lights", descriptor.lights, most)?;
-        check_target(
-            device,
-            descriptor.depth_stencil_format,
+        let (samples, by_stencil) = (
             descriptor.sample_count,
-        )?;
+            descriptor.counter == Counter::Stencil,
+        );
+        match by_stencil {
+            true => check_target(device, descriptor.depth_stencil_format, samples)?,
+            false => {
+                check_samples(samples)?;
+                check_readable_samples(device, samples, "ShadowMask of Counter::Exact")?;
+            }
+        }
         let label = match descriptor.label {
             Some(name) => format!("shadows mask {name}"),
             None => "shadows mask".to_owned(),
@@ -115,22 +135,15 @@ impl ShadowMask {
         use wgpu::TextureUsages as U;
         let readable = U::TEXTURE_BINDING | U::COPY_SRC | U::COPY_DST;
         let mask = texture(gl::array_layers(device, descriptor.lights), 1, readable);
-        let samples = (descriptor.sample_count > 1).then(|| Samples {
+        let samples = (samples > 1 && by_stencil).then(|| Samples {
             drawn: layer_of(&texture(1, descriptor.sample_count, U::empty()), &label, 0),
             resolved: layer_of(&texture(1, 1, U::COPY_SRC), &label, 0),
         });
         Ok(Self {
-            pipeline: ScreenPipeline {
-                label: &label,
-                source: SCREEN.to_owned(),
-                fragment: "one",
-                layout: &[],
-                target: Some(FORMAT.into()),
-                depth_stencil_format: descriptor.depth_stencil_format,
-                sample_count: descriptor.sample_count,
-                on: On::Lit,
-            }
-            .make(device),
+            pipeline: match by_stencil {
+                true => by_stencil_pipeline(device, &label, descriptor),
+                false => by_counts_pipeline(device, &label, descriptor.sample_count),
+            },
             view: mask.create_view(&wgpu::TextureViewDescriptor {
                 label: Some(&label),
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
@@ -143,6 +156,8 @@ impl ShadowMask {
             samples,
             texture: mask,
             depth_stencil_format: descriptor.depth_stencil_format,
+            counter: descriptor.counter,
+            sample_count: descriptor.sample_count,
             label,
         })
     }
@@ -159,9 +174,7 @@ impl ShadowMask {
         light: u32,
         depth_stencil: &wgpu::TextureView,
     ) -> Result<(), ScreenPassError> {
-        let lights = self.layers.len() as u32;
-        let no_layer = ScreenPassError::Layer { light, lights };
-        let layer = self.layers.get(light as usize).ok_or(no_layer)?;
+        let layer = self.layer(Counter::Stencil, light)?;
         let samples = self.samples.as_ref();
         let samples = samples.map_or(1, |s| s.drawn.texture().sample_count());
         let needed = [self.texture.width(), self.texture.height(), samples];
@@ -198,6 +211,51 @@ impl ShadowMask {
         Ok(())
     }
 
+    /// Records a pass that writes what the exact counts say of one light into the light's layer: 1
+    /// where the count is 0, else 0; of several samples, the share that is lit.
+    ///
+    /// # Errors
+    /// [`ScreenPassError`] if there is no such layer, the mask was made for another counter, or the
+    /// counts are of another size or number of samples. Nothing is then recorded.
+    pub fn encode_counts(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        light: u32,
+        counts: &ExactCount,
+    ) -> Result<(), ScreenPassError> {
+        let layer = self.layer(Counter::Exact, light)?;
+        let [width, height] = [self.texture.width(), self.texture.height()];
+        let needed = [width, height, self.sample_count];
+        check_buffer(counts.view(), needed, counter::FORMAT)?;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: layer,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, counts.group(), &[]);
+        pass.draw(0..3, 0..1);
+        Ok(())
+    }
+
+    /// A light's layer, if the mask is filled in this way.
+    fn layer(&self, by: Counter, light: u32) -> Result<&wgpu::TextureView, ScreenPassError> {
+        if by != self.counter {
+            return Err(ScreenPassError::Counter(self.counter));
+        }
+        let lights = self.layers.len() as u32;
+        let no_layer = ScreenPassError::Layer { light, lights };
+        self.layers.get(light as usize).ok_or(no_layer)
+    }
+
     fn copy(&self, encoder: &mut wgpu::CommandEncoder, resolved: &wgpu::Texture, light: u32) {
         let mut to = self.texture.as_image_copy();
         to.origin.z = light;
@@ -213,6 +271,48 @@ impl ShadowMask {
     /// more than there are lights, which nothing is drawn into.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.texture
+    }
+}
+
+/// Copies where the stencil's count is 0.
+fn by_stencil_pipeline(
+    device: &wgpu::Device,
+    label: &str,
+    descriptor: &ShadowMaskDescriptor<'_>,
+) -> wgpu::RenderPipeline {
+    ScreenPipeline {
+        label,
+        source: SCREEN.to_owned(),
+        fragment: "one",
+        layout: &[],
+        target: Some(FORMAT.into()),
+        depth_stencil_format: Some(descriptor.depth_stencil_format),
+        sample_count: descriptor.sample_count,
+        on: On::Lit,
+    }
+    .make(device)
+}
+
+/// Reads exact counts of so many samples.
+fn by_counts_pipeline(device: &wgpu::Device, label: &str, samples: u32) -> wgpu::RenderPipeline {
+    ScreenPipeline {
+        label,
+        source: counts_source(samples > 1),
+        fragment: "counted",
+        layout: &[Some(&layout(device, label, samples > 1))],
+        target: Some(FORMAT.into()),
+        depth_stencil_format: None,
+        sample_count: 1,
+        on: On::Everything,
+    }
+    .make(device)
+}
+
+/// The shader that reads them.
+pub(crate) fn counts_source(multisampled: bool) -> String {
+    match multisampled {
+        false => [SCREEN, EXACT, COUNTS].join("\n"),
+        true => [SCREEN, EXACT_SAMPLES, COUNTS_SAMPLES].join("\n"),
     }
 }
 
@@ -288,14 +388,15 @@ pub(crate) fn check_target(
     format: wgpu::TextureFormat,
     samples: u32,
 ) -> Result<(), ScreenPassError> {
-    let has_stencil = matches!(
-        format,
-        wgpu::TextureFormat::Depth24PlusStencil8 | wgpu::TextureFormat::Depth32FloatStencil8
-    );
     let usable = device.features().contains(format.required_features());
-    if !has_stencil || !usable {
+    if !has_stencil(format) || !usable {
         return Err(ScreenPassError::Format(format));
     }
+    check_samples(samples)
+}
+
+/// The pass's sample count.
+pub(crate) fn check_samples(samples: u32) -> Result<(), ScreenPassError> {
     match samples {
         1 | 4 => Ok(()),
         _ => Err(ScreenPassError::SampleCount(samples)),

@@ -10,7 +10,8 @@ pub(crate) struct ScreenPipeline<'a> {
     pub fragment: &'a str,
     pub layout: &'a [Option<&'a wgpu::BindGroupLayout>],
     pub target: Option<wgpu::ColorTargetState>,
-    pub depth_stencil_format: wgpu::TextureFormat,
+    /// `None` if the pass has no such buffer.
+    pub depth_stencil_format: Option<wgpu::TextureFormat>,
     pub sample_count: u32,
     pub on: On,
 }
@@ -46,13 +47,15 @@ impl ScreenPipeline<'_> {
                 buffers: &[],
             },
             primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: self.depth_stencil_format,
-                depth_write_enabled: Some(false),
-                depth_compare: Some(wgpu::CompareFunction::Always),
-                stencil: stencil(self.on),
-                bias: wgpu::DepthBiasState::default(),
-            }),
+            depth_stencil: self
+                .depth_stencil_format
+                .map(|format| wgpu::DepthStencilState {
+                    format,
+                    depth_write_enabled: Some(false),
+                    depth_compare: Some(wgpu::CompareFunction::Always),
+                    stencil: stencil(self.on),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
             multisample: wgpu::MultisampleState {
                 count: self.sample_count,
                 ..Default::default()

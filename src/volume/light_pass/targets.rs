@@ -3,6 +3,18 @@
 /// Of depth-stencil buffers, where a descriptor names no other.
 pub(crate) const DEPTH_STENCIL: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
 
+/// Whether a depth-stencil buffer of this format has what volumes need: depth, and a stencil of 8 bits.
+pub(crate) fn has_stencil(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(format, F::Depth24PlusStencil8 | F::Depth32FloatStencil8)
+}
+
+/// Whether it is one of depth alone, as fine as theirs.
+pub(crate) fn has_depth_alone(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(format, F::Depth24Plus | F::Depth32Float)
+}
+
 /// Whether pictures of this format can be drawn into with so many samples a pixel, and are `also` what
 /// is asked for. A device that goes by its adapter's own formats does not say which they are; there,
 /// every uncompressed colour format is believed to be one.

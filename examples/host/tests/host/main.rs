@@ -1,5 +1,4 @@
-//! The example host: its scenes, its file loader and its clock.
+//! The example host: its scenes and its file loader.
 
 mod scene_files;
 mod scenes;
-mod timer;
