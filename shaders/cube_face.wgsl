@@ -61,6 +61,5 @@ fn shadows_cube_to_world(face: ShadowsCubeFace, v: vec3f) -> vec3f {
 
 // The tile of one of the faces.
 fn shadows_cube_tile(light: ShadowsLight, face: ShadowsCubeFace) -> ShadowsTile {
-    let pair = select(select(4, 2, face.y_major), 0, face.x_major);
-    return shadows_tile_of(light, pair, !face.forward);
+    return shadows_tile_of(light, face.x_major, face.y_major, face.forward);
 }

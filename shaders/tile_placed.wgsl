@@ -17,12 +17,15 @@ fn shadows_tile(light: ShadowsLight) -> ShadowsTile {
     return shadows_tile_at(light, light.tiles.x);
 }
 
-// By a face's number in the order of the tiles, which is `pair`, or one more if the face is `behind`.
-fn shadows_tile_of(light: ShadowsLight, pair: i32, behind: bool) -> ShadowsTile {
-    let x = select(light.tiles.x, light.tiles.y, behind);
-    let y = select(light.tiles.z, light.tiles.w, behind);
-    let z = select(light.last_tiles.x, light.last_tiles.y, behind);
-    return shadows_tile_at(light, select(select(z, y, pair == 2), x, pair == 0));
+// Of the face that lies along x, along y or else along z, `forward` or against it. Each is selected by itself:
+// a GPU has no vector instruction that selects one of two scalars.
+fn shadows_tile_of(light: ShadowsLight, x: bool, y: bool, forward: bool) -> ShadowsTile {
+    var packed = select(light.last_tiles.y, light.last_tiles.x, forward);
+    packed = select(packed, light.tiles.w, y);
+    packed = select(packed, light.tiles.z, y & forward);
+    packed = select(packed, light.tiles.y, x);
+    packed = select(packed, light.tiles.x, x & forward);
+    return shadows_tile_at(light, packed);
 }
 
 // A place on the tile, in texels from its middle, for samplers that blend: no nearer to its edge than the

@@ -11,9 +11,11 @@ fn shadows_tile(light: ShadowsLight) -> ShadowsTile {
     return ShadowsTile(vec2f(0.0), vec2f(0.5), i32(light.tiles.x >> 20u));
 }
 
-// By a face's number in the order of the tiles, which is `pair`, or one more if the face is `behind`.
-fn shadows_tile_of(light: ShadowsLight, pair: i32, behind: bool) -> ShadowsTile {
-    return ShadowsTile(vec2f(0.0), vec2f(0.5), i32(light.tiles.x >> 20u) + pair + i32(behind));
+// Of the face that lies along x, along y or else along z, `forward` or against it.
+fn shadows_tile_of(light: ShadowsLight, x: bool, y: bool, forward: bool) -> ShadowsTile {
+    let pair = select(select(4, 2, y), 0, x);
+    let layer = i32(light.tiles.x >> 20u) + pair + i32(!forward);
+    return ShadowsTile(vec2f(0.0), vec2f(0.5), layer);
 }
 
 // A place on the tile, in texels from its middle, for samplers that blend: they end where the layer does.
