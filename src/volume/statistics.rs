@@ -53,7 +53,7 @@ pub struct VolumeStatistics {
     /// Those of them that are counted behind the visible surfaces.
     pub casters_z_fail: u32,
     /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
-    /// as [`StartFrom::AwayFacing`] asks; 0 where it is not asked for.
+    /// as [`StartFrom::AwayFacing`](crate::StartFrom::AwayFacing) asks; 0 where it is not asked for.
     pub casters_away_facing: u32,
     /// Casters left out, for any of the next four reasons.
     pub casters_skipped: u32,

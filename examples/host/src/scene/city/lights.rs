@@ -51,8 +51,8 @@ impl Candidate {
     }
 }
 
-/// The lights that are lit: first the street lamps around what the camera looks at, then all the
-/// others by their distance from the eye.
+/// The lights that are lit: first the street lamps around what the camera looks at, then all other lamps,
+/// then as many windows as are left, both by their distance from the eye.
 pub fn chosen(mut all: Vec<Candidate>, camera: &Camera) -> Vec<Light> {
     let place = |candidate: &Candidate| candidate.light.place.truncate();
     let ahead = camera.eye + 0.45 * (camera.target - camera.eye);
@@ -64,7 +64,9 @@ pub fn chosen(mut all: Vec<Candidate>, camera: &Camera) -> Vec<Light> {
     let first = FIRST.min(streets);
     all[first..].sort_by(|a, b| {
         let distance = |c: &Candidate| place(c).distance(camera.eye);
-        distance(a).total_cmp(&distance(b))
+        let window = |c: &Candidate| c.lamp == Lamp::Window;
+        let order = window(a).cmp(&window(b));
+        order.then(distance(a).total_cmp(&distance(b)))
     });
     all.truncate(MOST);
     all.into_iter().map(|candidate| candidate.light).collect()

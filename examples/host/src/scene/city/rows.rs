@@ -305,21 +305,15 @@ fn put_house(city: &mut City, kind: &Kind, place: Affine3A, fittings: &Fittings)
     }
 }
 
-/// Spots out of a few of its lit windows.
+/// Spots out of its lit windows that are near enough to the street.
 fn light_windows(city: &mut City, kind: &Kind, place: &Affine3A) {
-    let low = kind.windows.iter().filter(|[middle, _]| middle.y < 9.5);
-    let low: Vec<_> = low.collect();
-    for _ in 0..4.min(low.len()) {
-        let [middle, out] = *low[city.random.below(low.len())];
-        let (middle, out) = (place.transform_point3(middle), place.transform_vector3(out));
-        let known = city
-            .lights
-            .iter()
-            .any(|c| c.light.place.truncate() == middle);
-        if !known {
-            city.lights
-                .push(Candidate::new(Lamp::Window, middle, out.normalize()));
-        }
+    for [middle, out] in kind.windows.iter().filter(|[middle, _]| middle.y < 9.5) {
+        let (middle, out) = (
+            place.transform_point3(*middle),
+            place.transform_vector3(*out),
+        );
+        let light = Candidate::new(Lamp::Window, middle, out.normalize());
+        city.lights.push(light);
     }
 }
 
