@@ -48,6 +48,10 @@ override host_premultiplied: bool = false;
 
 @vertex
 fn host_vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> HostVaryings {
+    return host_placed(position, normal);
+}
+
+fn host_placed(position: vec3f, normal: vec3f) -> HostVaryings {
     var out: HostVaryings;
     out.clip = shadows_clip_position(
         host_frame.clip_from_world,

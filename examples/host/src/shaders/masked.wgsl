@@ -19,7 +19,7 @@ fn host_masked_vertex(
     @location(1) normal: vec3f,
     @location(2) mask: vec2f,
 ) -> HostMaskedVaryings {
-    let own = host_vertex(position, normal);
+    let own = host_placed(position, normal);
     return HostMaskedVaryings(own.clip, own.world, own.normal, mask);
 }
 
