@@ -102,7 +102,7 @@ fn frame(gpu: &Gpu, map: &mut CubeShadowMap, light: PointLight, casters: &[Caste
 
 fn spheres(gpu: &Gpu, rounds: u32) {
     let scene = spheres_moving(0.0);
-    let light = PointLight::new(scene.light.truncate(), scene.range);
+    let light = PointLight::new(scene.light().place.truncate(), scene.light().range);
     let mut casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
     let mut textbook = new_map(gpu, &CubeShadowMapDescriptor::textbook());
     let mut map = new_map(gpu, &CubeShadowMapDescriptor::default());

@@ -126,7 +126,7 @@ impl Yard {
         let scene_gpu = SceneGpu::new(&gpu, &scene)?;
         let renderer = Renderer::new(&gpu, SIZE, &scene, &scene_gpu)?;
         let mut map = CubeShadowMap::new(&gpu.device, &CubeShadowMapDescriptor::default())?;
-        let light = PointLight::new(scene.light.truncate(), scene.range);
+        let light = PointLight::new(scene.light().place.truncate(), scene.light().range);
         let frame = CubeFrame {
             lights: &[light],
             casters: &scene_gpu.casters,

@@ -79,7 +79,7 @@ fn frame(
 
 fn one_light(gpu: &Gpu, rounds: u32) {
     let scene = spheres_moving(0.0);
-    let light = PointLight::new(scene.light.truncate(), scene.range);
+    let light = PointLight::new(scene.light().place.truncate(), scene.light().range);
     let mut casters = SceneGpu::new(gpu, &scene).expect("the scene fits").casters;
     let mut map = CubeShadowMap::new(&gpu.device, &Default::default()).expect("it is in range");
     let mut atlas = new_atlas(gpu, &ShadowAtlasDescriptor::default());

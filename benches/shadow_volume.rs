@@ -74,7 +74,7 @@ impl Studio {
     fn new(gpu: Gpu) -> anyhow::Result<Self> {
         let scene = host::scene::spheres();
         let scene_gpu = SceneGpu::new(&gpu, &scene)?;
-        let light = HomogeneousLight(scene.light);
+        let light = HomogeneousLight(scene.light().place);
         let all = scene.bounds();
         let receivers = Bounds {
             min: all.min.as_vec3(),
@@ -84,7 +84,7 @@ impl Studio {
             timer: Timer::new(&gpu),
             host: Renderer::new(&gpu, SIZE, &scene, &scene_gpu)?,
             view: renderer::view(&scene, SIZE)?,
-            range: (!light.is_directional()).then_some(scene.range),
+            range: (!light.is_directional()).then_some(scene.light().range),
             receivers,
             walk: walk(&scene)?,
             scene: scene_gpu,

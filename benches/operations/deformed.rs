@@ -84,7 +84,7 @@ impl Shown for ShadowMap {
 impl Shown for ShadowVolumeRenderer {
     fn prepare(&mut self, stage: &Stage<'_>, casters: &[Caster]) {
         let frame = OneLight {
-            range: Some(stage.scene.range),
+            range: Some(stage.scene.light().range),
             target_size: Some(SIZE),
             receivers: Some(stage.receivers),
             ..OneLight::new(&stage.view, stage.light(), casters)

@@ -31,7 +31,7 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         ReferenceScene::new(&objects)
     });
     let scene = ReferenceScene::new(&objects)?;
-    let range = Some(stage.scene.range);
+    let range = Some(stage.scene.light().range);
     let render = || scene.render(&stage.view, WIDTH, HEIGHT, stage.light(), range);
     bench.plain("reference/render", render);
     bench.plain("reference/render_spot", || {

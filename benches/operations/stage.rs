@@ -50,11 +50,14 @@ impl<'a> Stage<'a> {
     }
 
     pub fn light(&self) -> HomogeneousLight {
-        HomogeneousLight(self.scene.light)
+        HomogeneousLight(self.scene.light().place)
     }
 
     pub fn point(&self) -> PointLight {
-        PointLight::new(self.scene.light.truncate(), self.scene.range)
+        PointLight::new(
+            self.scene.light().place.truncate(),
+            self.scene.light().range,
+        )
     }
 
     /// From the scene's light at what the camera looks at.

@@ -78,7 +78,7 @@ fn with_formats<'a>(
 
 fn told<'a>(stage: &'a Stage<'_>, light: HomogeneousLight, casters: &'a [Caster]) -> OneLight<'a> {
     OneLight {
-        range: Some(stage.scene.range),
+        range: Some(stage.scene.light().range),
         target_size: Some(SIZE),
         receivers: Some(stage.receivers),
         ..OneLight::new(&stage.view, light, casters)

@@ -1,11 +1,14 @@
 //! World-space triangles in f64 and the two questions asked of them: what is seen, what is blocked.
 
+use std::fmt;
+use std::sync::Arc;
+
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
-use super::ray::Ray;
+use super::ray::{Meeting, Ray};
 
 /// How far a point computed here may lie from where it ought to, relative to its coordinates.
 ///
@@ -70,10 +73,44 @@ pub(super) struct SurfacePoint {
     pub(super) size: f64,
 }
 
+/// A place of a triangle that a ray comes through, for
+/// [`ReferenceScene::with_opacity`](super::ReferenceScene::with_opacity).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Crossing {
+    /// Place of the object in the list given to [`ReferenceScene::new`](super::ReferenceScene::new).
+    pub object: u32,
+    /// Triangle of that object, counted as its indices are.
+    pub triangle: u32,
+    /// Weights of the triangle's corners, in the order of its indices; they add up to 1.
+    pub weights: [f64; 3],
+}
+
+/// Whether a triangle is there at a place.
+pub(super) type Opacity = dyn Fn(&Crossing) -> bool + Send + Sync;
+
+/// The triangles, with what is cut out of them. A clone shares the triangles.
+#[derive(Clone)]
 pub(super) struct Geometry {
+    shared: Arc<Shared>,
+    opacity: Option<Arc<Opacity>>,
+}
+
+struct Shared {
     triangles: Vec<Triangle>,
     seen: Bvh,
     casting: Bvh,
+}
+
+impl fmt::Debug for Geometry {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let triangles = self.shared.triangles.len();
+        formatter
+            .debug_struct("Geometry")
+            .field("triangles", &triangles)
+            .field("has_opacity", &self.opacity.is_some())
+            .finish_non_exhaustive()
+    }
 }
 
 impl Geometry {
@@ -91,24 +128,52 @@ impl Geometry {
         // parry numbers leaves by their place, so the casters come first in both.
         let hierarchy = |boxes| Bvh::from_leaves(BvhBuildStrategy::Binned, boxes);
         Self {
-            seen: hierarchy(&boxes),
-            casting: hierarchy(&boxes[..casters]),
-            triangles,
+            shared: Arc::new(Shared {
+                seen: hierarchy(&boxes),
+                casting: hierarchy(&boxes[..casters]),
+                triangles,
+            }),
+            opacity: None,
+        }
+    }
+
+    /// The same triangles, there only where this says so.
+    pub(super) fn with_opacity(&self, opacity: Arc<Opacity>) -> Self {
+        Self {
+            shared: Arc::clone(&self.shared),
+            opacity: Some(opacity),
         }
     }
 
     pub(super) fn triangle(&self, index: u32) -> &Triangle {
-        &self.triangles[index as usize]
+        &self.shared.triangles[index as usize]
+    }
+
+    /// Where a ray meets a triangle, and the triangle is there.
+    fn meets(&self, ray: &Ray, index: u32) -> Option<Meeting> {
+        let triangle = self.triangle(index);
+        let meeting = ray.meets(&triangle.corners)?;
+        let [object, place] = triangle.source;
+        let crossing = Crossing {
+            object,
+            triangle: place,
+            weights: meeting.weights,
+        };
+        let opacity = self.opacity.as_ref();
+        opacity
+            .is_none_or(|opacity| opacity(&crossing))
+            .then_some(meeting)
     }
 
     /// The nearest triangle along a ray, up to parameter `end`, and the ray's parameter there.
     pub(super) fn nearest(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(u32, f64)> {
         let ray = Ray::new(origin, direction, end);
-        self.seen.find_best(
+        self.shared.seen.find_best(
             f64::MAX,
             |node, best| enters(&ray, node, best).min(f64::MAX),
             |index, _| {
-                ray.meets(&self.triangle(index).corners)
+                self.meets(&ray, index)
+                    .map(|meeting| meeting.t)
                     .filter(|t| (0.0..=end).contains(t))
             },
         )
@@ -130,10 +195,11 @@ impl Geometry {
         let separates = |index: u32| {
             let triangle = self.triangle(index);
             index != surface.triangle
-                && ray.meets(&triangle.corners).is_some()
+                && self.meets(&ray, index).is_some()
                 && triangle.side(point, size) * triangle.side(light, size) < 0.0
         };
-        self.casting
+        self.shared
+            .casting
             .leaves(|node| enters(&ray, node, f64::MAX) < f64::INFINITY)
             .any(separates)
     }

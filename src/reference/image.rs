@@ -1,12 +1,15 @@
 //! A reference picture: what each pixel sees and whether the light reaches it.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
+use std::time::Instant;
 
 use glam::{DVec3, DVec4, Vec4Swizzles};
+use rayon::prelude::*;
 
 use super::camera::{Camera, PixelRay};
 use super::geometry::{Geometry, SurfacePoint};
+use crate::error::{LightError, ReferenceError};
 use crate::{HomogeneousLight, SpotLight};
 
 /// What a pixel of the reference shows. Exhaustive: every pixel is one of these.
@@ -57,6 +60,18 @@ pub(super) struct Lighting {
 }
 
 impl Lighting {
+    /// As [`new`](Self::new), of numbers that make sense.
+    pub(super) fn checked(
+        light: HomogeneousLight,
+        range: Option<f32>,
+    ) -> Result<Self, ReferenceError> {
+        light.validate()?;
+        if let Some(range) = range.filter(|range| !(range.is_finite() && *range > 0.0)) {
+            return Err(LightError::Range(range).into());
+        }
+        Ok(Self::new(light, range))
+    }
+
     pub(super) fn new(light: HomogeneousLight, range: Option<f32>) -> Self {
         let range = match range {
             Some(range) if !light.is_directional() => f64::from(range),
@@ -171,7 +186,7 @@ pub(super) type InteriorCache = Mutex<HashMap<(u64, usize), bool>>;
 ///
 /// Lists of pixels are row-major from the top left.
 pub struct ReferenceImage {
-    pub(super) geometry: Arc<Geometry>,
+    pub(super) geometry: Geometry,
     pub(super) camera: Camera,
     pub(super) lighting: Lighting,
     pub(super) width: u32,
@@ -182,6 +197,53 @@ pub struct ReferenceImage {
 }
 
 impl ReferenceImage {
+    /// The same picture under another light: what each pixel sees is known, so only the light's own rays
+    /// are cast. `range` as in [`ReferenceScene::render`](super::ReferenceScene::render).
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if the light or the range is not valid.
+    pub fn relit(
+        &self,
+        light: HomogeneousLight,
+        range: Option<f32>,
+    ) -> Result<Self, ReferenceError> {
+        Ok(self.lit_by(Lighting::checked(light, range)?))
+    }
+
+    /// The same picture under a spot.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if the light is not valid.
+    pub fn relit_by_spot(&self, light: &SpotLight) -> Result<Self, ReferenceError> {
+        light.validate()?;
+        Ok(self.lit_by(Lighting::of_spot(light)))
+    }
+
+    fn lit_by(&self, lighting: Lighting) -> Self {
+        let start = Instant::now();
+        let relit = |number: usize| {
+            let [x, y] = [number as u32 % self.width, number as u32 / self.width];
+            let class = match self.seen(x, y) {
+                Some(seen) => lighting.class(&self.geometry, &seen.surface, seen.side),
+                None => Class::Background,
+            };
+            Pixel {
+                class,
+                ..self.pixels[number]
+            }
+        };
+        Self {
+            geometry: self.geometry.clone(),
+            camera: self.camera,
+            lighting,
+            width: self.width,
+            height: self.height,
+            pixels: (0..self.pixels.len()).into_par_iter().map(relit).collect(),
+            seconds: start.elapsed().as_secs_f64(),
+            interiors: Default::default(),
+        }
+    }
+
     /// Width in pixels.
     pub fn width(&self) -> u32 {
         self.width

@@ -59,6 +59,7 @@ use rayon::prelude::*;
 
 pub use self::compare::{Comparison, Verdict, Visibility};
 pub use self::flips::Flips;
+pub use self::geometry::Crossing;
 pub use self::image::{Class, Hit, ReferenceImage};
 pub use self::interior::Interior;
 pub use self::survey::{Candidate, Survey};
@@ -66,7 +67,7 @@ pub use self::survey::{Candidate, Survey};
 use self::camera::Camera;
 use self::geometry::{Geometry, Triangle};
 use self::image::{Lighting, Pixel};
-use crate::error::{LightError, ReferenceError};
+use crate::error::ReferenceError;
 use crate::{HomogeneousLight, SpotLight, View};
 
 /// A mesh as the reference takes it: triangles of any kind, open, inconsistently wound, degenerate.
@@ -85,7 +86,7 @@ pub struct ReferenceObject<'a> {
 /// Triangles in world space, ready for rays. A clone shares them.
 #[derive(Clone)]
 pub struct ReferenceScene {
-    geometry: Arc<Geometry>,
+    geometry: Geometry,
     progress: Option<Arc<dyn Fn(f64) + Send + Sync>>,
 }
 
@@ -110,9 +111,25 @@ impl ReferenceScene {
         }
         number(casting.len() + others.len())?;
         Ok(Self {
-            geometry: Arc::new(Geometry::new(casting, others)),
+            geometry: Geometry::new(casting, others),
             progress: None,
         })
+    }
+
+    /// The same scene, with holes: a triangle is there, to be seen and to block light, only where
+    /// `opacity` says so. For what hosts cut out with a mask (alpha-tested leaves, fences of wire), which
+    /// they must evaluate as their own shaders do.
+    ///
+    /// It is asked for every triangle that a ray meets, of whatever object, from any thread, and must
+    /// always say the same. An edge that only the mask makes is an edge like any other: an error beside it
+    /// is none in the interior.
+    #[must_use]
+    pub fn with_opacity(
+        mut self,
+        opacity: impl Fn(&Crossing) -> bool + Send + Sync + 'static,
+    ) -> Self {
+        self.geometry = self.geometry.with_opacity(Arc::new(opacity));
+        self
     }
 
     /// The same scene, which tells `progress` during [`render`](Self::render), from any thread, what
@@ -140,11 +157,7 @@ impl ReferenceScene {
         light: HomogeneousLight,
         range: Option<f32>,
     ) -> Result<ReferenceImage, ReferenceError> {
-        light.validate()?;
-        if let Some(range) = range.filter(|range| !(range.is_finite() && *range > 0.0)) {
-            return Err(LightError::Range(range).into());
-        }
-        self.render_lit(view, width, height, Lighting::new(light, range))
+        self.render_lit(view, width, height, Lighting::checked(light, range)?)
     }
 
     /// The same for a spot. What lies outside its cone is [`Class::OutOfRange`]: there is none of
@@ -188,7 +201,7 @@ impl ReferenceScene {
         };
         let pixels = (0..height).into_par_iter().map(row).flatten_iter();
         Ok(ReferenceImage {
-            geometry: Arc::clone(&self.geometry),
+            geometry: self.geometry.clone(),
             camera,
             lighting,
             width,

@@ -2,6 +2,15 @@
 
 use glam::DVec3;
 
+/// Where a ray's line meets a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// The ray's parameter.
+    pub(super) t: f64,
+    /// Of the triangle's corners; they add up to 1.
+    pub(super) weights: [f64; 3],
+}
+
 /// A ray prepared for many intersection tests.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray {
@@ -69,7 +78,7 @@ impl Ray {
     /// The edge functions of two triangles that share an edge are exact negatives of each other, so
     /// no ray slips through between them (Woop, Benthin and Wald, "Watertight Ray/Triangle
     /// Intersection", 2013). `None` also for a triangle seen edge-on.
-    pub(super) fn meets(&self, triangle: &[DVec3; 3]) -> Option<f64> {
+    pub(super) fn meets(&self, triangle: &[DVec3; 3]) -> Option<Meeting> {
         let [x, y, z] = self.axes;
         let [a, b, c] = triangle.map(|corner| {
             let v = corner - self.origin;
@@ -87,6 +96,9 @@ impl Ray {
         }
         let determinant = u + v + w;
         let t = (u * a.z + v * b.z + w * c.z) / determinant;
-        t.is_finite().then_some(t)
+        t.is_finite().then(|| Meeting {
+            t,
+            weights: [u, v, w].map(|area| area / determinant),
+        })
     }
 }

@@ -3,6 +3,7 @@
 mod comparison;
 mod flips;
 mod input;
+mod opacity;
 mod published;
 mod robustness;
 mod scene;

@@ -83,7 +83,7 @@ fn coarse_spheres() -> Scene {
     let mut scene = scene::spheres();
     scene.meshes[1] = coarse_sphere(6);
     scene.objects.truncate(3);
-    scene.light = Vec4::new(-4.0, 5.0, 1.5, 1.0);
+    scene.light_mut().place = Vec4::new(-4.0, 5.0, 1.5, 1.0);
     scene.camera.eye = Vec3::new(0.0, 3.0, 6.5);
     scene.camera.target = Vec3::new(0.0, 0.9, 0.0);
     let places = [Vec3::new(-1.3, 1.2, 0.0), Vec3::new(1.6, 1.2, -0.5)];
@@ -114,6 +114,7 @@ fn coarse_sphere(rings: u32) -> Mesh {
         name: "coarse sphere".into(),
         normals: positions.clone(),
         indices: (0..rings * columns).flat_map(quad).collect(),
+        mask: Vec::new(),
         positions,
     }
 }
@@ -121,10 +122,10 @@ fn coarse_sphere(rings: u32) -> Mesh {
 /// A few spheres around a light of short range, one of them between the eye and the light.
 fn scene() -> Scene {
     let mut scene = scene::spheres();
-    scene.range = 7.5;
+    scene.light_mut().range = 7.5;
     scene.camera.eye = Vec3::new(0.0, 8.0, 14.0);
     scene.camera.target = Vec3::new(0.0, 0.2, 0.5);
-    let light = scene.light.truncate();
+    let light = scene.light().place.truncate();
     scene.objects[1].transform = Affine3A::from_translation(scene.camera.eye.lerp(light, 0.5));
     scene
 }
@@ -161,9 +162,13 @@ impl<'a> Panels<'a> {
         )?;
         let view = view(scene, SIZE)?;
         let frame = OneLight {
-            range: Some(scene.range),
+            range: Some(scene.light().range),
             target_size: Some(SIZE),
-            ..OneLight::new(&view, HomogeneousLight(scene.light), &scene_gpu.casters)
+            ..OneLight::new(
+                &view,
+                HomogeneousLight(scene.light().place),
+                &scene_gpu.casters,
+            )
         };
         volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
         frame.with(|frame| debug.prepare(&gpu.device, frame, &volumes, 0, 0))?;

@@ -9,7 +9,7 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser};
 use shadows::glam::{Vec3, Vec4};
 
 use crate::table::{ROWS, Row};
-use host::scene::LightKind;
+use host::scene::{LightKind, Time};
 use host::terminal::note;
 
 // By their paths, as a test takes this file for itself.
@@ -19,9 +19,11 @@ mod mode;
 mod values;
 
 use values::{
-    MAX_SIDE, camera, light, light_kind, milliseconds, part, range, scene_name, size, times,
+    MAX_SIDE, camera, light, light_kind, milliseconds, part, range, scene_name, size, time, times,
 };
 
+/// The most lights that are compared where nothing else is asked for.
+pub const LIGHTS: usize = 16;
 /// What `--technique` calls the few that are compared where nothing else is asked for.
 pub const USUAL: &str = "usual";
 /// Renders scenes with each shadow technique, measures the error against exact ray casting and the
@@ -29,7 +31,7 @@ pub const USUAL: &str = "usual";
 #[derive(Clone, Debug, PartialEq, Parser)]
 #[command(name = "compare", disable_help_subcommand = true)]
 pub struct Args {
-    /// spheres, courtyard, teapot, or an .obj, .gltf or .glb file; may be given several times.
+    /// spheres, courtyard, teapot, city, valley, or an .obj, .gltf or .glb file; may be given several times.
     #[arg(long = "scene", value_name = "NAME|FILE", value_parser = scene_name, default_value = "spheres")]
     pub scenes: Vec<String>,
 
@@ -37,7 +39,16 @@ pub struct Args {
     #[arg(long, value_enum, default_value = "auto")]
     pub ground: Ground,
 
-    /// Light in metres, world space; w = 0 makes x,y,z the direction to the light.
+    /// When it is, in scenes that have days and nights (city): day or night.
+    #[arg(long, value_name = "WHEN", value_parser = time)]
+    pub time: Option<Time>,
+
+    /// How many of the scene's lights are lit, the first of its list; without it up to 16.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000))]
+    pub lights: Option<u32>,
+
+    /// One light instead of the scene's, in metres, world space; w = 0 makes x,y,z the direction to the
+    /// light.
     #[arg(long, value_name = "X,Y,Z[,W]", value_parser = light, allow_hyphen_values = true)]
     pub light: Option<Vec4>,
 
@@ -220,6 +231,11 @@ pub struct CameraArg {
 }
 
 impl Args {
+    /// Whether a few techniques are compared, which is the only mode that takes several lights.
+    pub fn compares(&self) -> bool {
+        mode::compares(self)
+    }
+
     /// `--camera` as eye, target and field of view in radians.
     pub fn camera_override(&self) -> Option<(Vec3, Vec3, Option<f32>)> {
         self.camera.map(|c| (c.eye, c.target, c.fovy))

@@ -2,10 +2,12 @@
 
 pub mod args;
 pub mod arithmetic;
+pub mod atlas;
 pub mod cost;
 pub mod date;
 pub mod growth;
 pub mod hard;
+pub mod lamps;
 pub mod measure;
 pub mod output;
 pub mod plot;

@@ -15,6 +15,7 @@ use compare::{
 use shadows::reference::ReferenceImage;
 
 use compare::args::{self, Args};
+use compare::lamps::Truth;
 use compare::measure::Plan;
 use compare::output::{File, Results};
 use compare::progress::progress;
@@ -177,7 +178,8 @@ fn cost(args: &Args, counts: &Path) -> Result<()> {
 /// A scene with what the command line replaces in it.
 fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
     let ground = args.ground == args::Ground::Auto;
-    let mut scene = scene::load(name, ground)?;
+    let loaded = scene::load(name, ground, args.time);
+    let mut scene = loaded.with_context(|| format!("scene {name}"))?;
     if !scene.left_out.is_empty() {
         note(&format!(
             "{name}: left out are {}",
@@ -189,16 +191,28 @@ fn asked_scene(args: &Args, name: &str, size: [u32; 2]) -> Result<Scene> {
         let made = scene.shine_as(kind);
         made.with_context(|| format!("scene {name}: --light-kind"))?;
     }
-    if args.range.is_some() && scene.light_kind() == LightKind::Directional {
+    if args.range.is_some() && scene.light().kind() == LightKind::Directional {
         bail!("scene {name}: --range is of no use, a directional light has none");
     }
+    // Who replaces the light has that one alone.
+    let replaced = args.light.is_some() || args.range.is_some() || args.light_kind.is_some();
+    let most = if replaced { 1 } else { scene.lights.len() };
+    let wanted = match args.lights {
+        Some(wanted) => wanted as usize,
+        None if args.compares() => most.min(args::LIGHTS),
+        None => 1,
+    };
+    if wanted > most {
+        bail!("scene {name}: --lights {wanted} is too many, it has {most}");
+    }
+    scene.lights.truncate(wanted);
     host::renderer::view(&scene, size).with_context(|| format!("scene {name}: camera"))?;
     Ok(scene)
 }
 
 fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     let scene = asked_scene(args, name, args.size)?;
-    let light = scene.light_kind();
+    let lights: Vec<LightKind> = scene.lights.iter().map(|light| light.kind()).collect();
     let asked: Vec<Technique> = match args.sweep {
         true => sweep::techniques(&args.techniques),
         false => args
@@ -210,7 +224,7 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
     };
     let (techniques, others): (Vec<_>, Vec<_>) = asked
         .into_iter()
-        .partition(|technique| technique.config.applies_to(light));
+        .partition(|technique| lights.iter().any(|kind| technique.config.applies_to(*kind)));
     if techniques.is_empty() {
         let reasons: Vec<&str> = others.iter().map(|other| other.config.limit()).collect();
         bail!("no technique is left: {}", reasons[0]);
@@ -244,11 +258,13 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<(Results, Option<Report>)
 
     let bar = progress(1000, &format!("{name}: reference"));
     let shared = bar.clone();
-    let reference = stage.reference(move |part| shared.set_position((part * 1000.0) as u64))?;
+    let truth = Truth::new(&stage, move |part| {
+        shared.set_position((part * 1000.0) as u64)
+    })?;
     bar.finish_and_clear();
 
     if args.sweep {
-        let results = swept(args, gpu, &stage, &reference, job.techniques)?;
+        let results = swept(args, gpu, &stage, truth.first(), job.techniques)?;
         let dir = job.dir;
         return Ok((Results { dir, ..results }, None));
     }
@@ -259,11 +275,13 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<(Results, Option<Report>)
     };
     let steps = u64::from(plan.frames) * plan.techniques.len() as u64;
     let bar = progress(steps, &format!("{name}: frames"));
-    let mut measured = measure::measure(gpu, &stage, &reference, &plan, &|| bar.inc(1))?;
+    let mut measured = measure::measure(gpu, &stage, &truth, &plan, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    soft::judge(gpu, &stage, &reference, &mut measured)?;
+    if truth.images.len() == 1 {
+        soft::judge(gpu, &stage, truth.first(), &mut measured)?;
+    }
 
-    let report = Report::new(gpu, &stage, &reference, &measured, &job.left_out);
+    let report = Report::new(gpu, &stage, &truth, &measured, &job.left_out);
     let mut files = vec![
         File::new("report.json", report.json()?),
         File::new("report.md", report.markdown(gpu, args.export)),
@@ -272,7 +290,7 @@ fn compare(args: &Args, gpu: &Gpu, job: Job) -> Result<(Results, Option<Report>)
             plot::speed_vs_error(&format!("{name}, {}", gpu.info.name), &measured)?,
         ),
     ];
-    files.extend(output::pictures(args.size, &reference, &measured)?);
+    files.extend(output::pictures(args.size, &truth, &measured)?);
     let results = Results {
         dir: job.dir,
         files,

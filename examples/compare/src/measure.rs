@@ -5,6 +5,7 @@ use std::time::Instant;
 use anyhow::{Context as _, Result};
 use shadows::reference::{Comparison, Interior, ReferenceImage};
 
+use crate::lamps::{Lamps, Shown, Truth};
 use crate::shadow::{Cost, Shadow};
 use crate::soft::Soft;
 use crate::stage::{Picture, Stage};
@@ -71,6 +72,8 @@ pub struct Measured {
     pub shade: Times,
     pub cost: Cost,
     pub error: Comparison,
+    /// How many of the scene's lights it shadows.
+    pub lights: usize,
     pub picture: Picture,
     /// Of kernels that make soft edges, once they are judged by them.
     pub soft: Option<Soft>,
@@ -102,8 +105,8 @@ pub fn percent(pixels: usize, error: &Comparison) -> f64 {
 }
 
 struct Contestant {
-    shadow: Shadow,
-    picture: Picture,
+    lamps: Lamps,
+    shown: Shown,
     prepare: Times,
     generate: Times,
     shade: Times,
@@ -116,7 +119,7 @@ struct Contestant {
 pub fn measure(
     gpu: &Gpu,
     stage: &Stage,
-    reference: &ReferenceImage,
+    truth: &Truth,
     plan: &Plan<'_>,
     step: &dyn Fn(),
 ) -> Result<Vec<Measured>> {
@@ -138,7 +141,7 @@ pub fn measure(
     }
     contestants
         .into_iter()
-        .map(|contestant| contestant.judged(reference))
+        .map(|contestant| contestant.judged(truth))
         .collect()
 }
 
@@ -184,11 +187,11 @@ pub fn error(
 
 impl Contestant {
     fn new(gpu: &Gpu, stage: &Stage, technique: &Technique, clock: Clock) -> Result<Self> {
-        let mut shadow = Shadow::new(gpu, &stage.renderer, technique.clone())?;
-        let picture = stage.picture(gpu, &mut shadow, &stage.inputs)?;
+        let mut lamps = Lamps::new(gpu, stage, technique)?;
+        let shown = lamps.picture(gpu, stage)?;
         Ok(Self {
-            shadow,
-            picture,
+            lamps,
+            shown,
             prepare: Times::new(Clock::Wall),
             generate: Times::new(clock),
             shade: Times::new(clock),
@@ -197,18 +200,25 @@ impl Contestant {
 
     fn time(&mut self, gpu: &Gpu, stage: &Stage, timer: &Timer) -> Result<()> {
         let (renderer, scene) = (&stage.renderer, &stage.scene_gpu);
+        let lights = self.lamps.lights().to_vec();
         gpu.run(|encoder| renderer.draw_ambient(encoder, scene));
-        let without = timer.time(gpu, |encoder| {
-            renderer.draw_lit(encoder, scene, renderer.unshadowed(), None);
+        let unshadowed = lights.iter().map(|&light| {
+            timer.time(gpu, |encoder| {
+                renderer.draw_lit_by(encoder, scene, light, renderer.unshadowed(), None);
+            })
         });
+        let without: f64 = unshadowed.sum();
         gpu.run(|encoder| renderer.draw_ambient(encoder, scene));
 
         let start = Instant::now();
-        self.shadow.prepare(gpu, &stage.inputs)?;
+        self.lamps.prepare(gpu, stage)?;
         let prepare = start.elapsed().as_secs_f64() * 1e3;
-        let shadow = &mut self.shadow;
-        let generate = timer.time(gpu, |encoder| shadow.generate(renderer, scene, encoder));
-        let with = timer.time(gpu, |encoder| shadow.shade(renderer, scene, encoder));
+        let lamps = &mut self.lamps;
+        let (mut generate, mut with) = (0.0, 0.0);
+        for light in 0..lights.len() {
+            generate += timer.time(gpu, |encoder| lamps.generate(stage, light, encoder));
+            with += timer.time(gpu, |encoder| lamps.shade(stage, light, encoder));
+        }
 
         self.prepare.samples.push(prepare);
         self.generate.samples.push(generate);
@@ -216,13 +226,13 @@ impl Contestant {
         Ok(())
     }
 
-    fn judged(self, reference: &ReferenceImage) -> Result<Measured> {
-        let interior = self.shadow.interior();
+    fn judged(self, truth: &Truth) -> Result<Measured> {
         Ok(Measured {
-            technique: self.shadow.technique().clone(),
-            cost: self.shadow.cost(),
-            error: reference.compare(&self.picture.visibility, interior)?,
-            picture: self.picture,
+            technique: self.lamps.technique().clone(),
+            cost: self.lamps.cost(),
+            error: truth.judge(&self.lamps, &self.shown.visibility)?,
+            lights: self.lamps.lights().len(),
+            picture: truth.picture(&self.lamps, self.shown),
             soft: None,
             prepare: self.prepare,
             generate: self.generate,

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, bail};
-use shadows::reference::{ReferenceImage, Verdict};
+use shadows::reference::Verdict;
 
+use crate::lamps::Truth;
 use crate::measure::Measured;
 use host::image::{grey_png, luma, rgb_png};
 use host::ply::write_ply;
@@ -43,17 +44,13 @@ pub struct Results {
 ///
 /// # Errors
 /// If one cannot be encoded.
-pub fn pictures(
-    size: [u32; 2],
-    reference: &ReferenceImage,
-    measured: &[Measured],
-) -> Result<Vec<File>> {
+pub fn pictures(size: [u32; 2], truth: &Truth, measured: &[Measured]) -> Result<Vec<File>> {
     let mut files = vec![
         File::new(
             "reference.visibility.png",
-            grey_png(size, &reference.visibility())?,
+            grey_png(size, &truth.visibility())?,
         ),
-        File::new("coverage.png", grey_png(size, &reference.coverage())?),
+        File::new("coverage.png", grey_png(size, &truth.coverage())?),
     ];
     for technique in measured {
         let name = &technique.technique.name;

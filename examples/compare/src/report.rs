@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use serde::Serialize;
 use serde_json::Value;
 use shadows::mesh::MeshKind;
-use shadows::reference::ReferenceImage;
 use shadows::wgpu;
 
 use crate::date::{date, now};
+use crate::lamps::Truth;
 use crate::measure::{self, Measured};
 use crate::soft::{self, Soft};
 use crate::stage::Stage;
@@ -23,13 +23,8 @@ pub struct Report {
     /// Pixels: width, height.
     pub size: [u32; 2],
     pub camera: Camera,
-    /// Homogeneous, world space.
-    pub light: [f32; 4],
-    /// Of a spot, else null.
-    pub cone: Option<Cone>,
-    pub range: f32,
-    /// Where the cube maps' frusta begin.
-    pub shadow_near: Option<f32>,
+    /// Those that the techniques shadow, each as far as it can.
+    pub lights: Vec<Light>,
     pub scene_name: String,
     pub scene: Vec<Object>,
     /// What the scene's file holds besides.
@@ -58,6 +53,17 @@ pub struct Camera {
     /// Column-major.
     pub clip_from_world: [f32; 16],
     pub depth: &'static str,
+}
+
+#[derive(Serialize)]
+pub struct Light {
+    /// Homogeneous, world space.
+    pub place: [f32; 4],
+    /// Of a spot, else null.
+    pub cone: Option<Cone>,
+    pub range: f32,
+    /// Where its map's frusta begin.
+    pub shadow_near: Option<f32>,
 }
 
 #[derive(Serialize)]
@@ -95,6 +101,8 @@ pub struct Times {
 #[derive(Serialize)]
 pub struct Technique {
     pub name: String,
+    /// How many of the lights it shadows.
+    pub lights: usize,
     pub settings: Value,
     /// Whether what did not move was kept from frame to frame, as all of it did not.
     pub keeps: bool,
@@ -129,7 +137,7 @@ impl Report {
     pub fn new(
         gpu: &Gpu,
         stage: &Stage,
-        reference: &ReferenceImage,
+        truth: &Truth,
         measured: &[Measured],
         left_out: &[LeftOut],
     ) -> Self {
@@ -139,13 +147,7 @@ impl Report {
             unix_time: now(),
             size,
             camera: camera(stage),
-            light: stage.scene.light.to_array(),
-            cone: stage.scene.cone.map(|cone| Cone {
-                direction: cone.direction.to_array(),
-                half_angle: cone.half_angle,
-            }),
-            range: stage.scene.range,
-            shadow_near: stage.scene.shadow_near,
+            lights: stage.scene.lights.iter().map(Light::new).collect(),
             scene_name: stage.scene.name.clone(),
             scene: objects(stage),
             left_out_of_file: stage.scene.left_out.clone(),
@@ -153,8 +155,8 @@ impl Report {
             techniques: measured.iter().map(Technique::new).collect(),
             reference: Reference {
                 pixels: size[0] as usize * size[1] as usize,
-                lit_facing: reference.lit_facing(),
-                seconds: reference.seconds(),
+                lit_facing: truth.lit_facing(),
+                seconds: truth.seconds(),
             },
         }
     }
@@ -207,17 +209,9 @@ impl Report {
         let casters: Vec<&Object> = self.scene.iter().filter(|object| object.casts).collect();
         let casting: usize = casters.iter().map(|object| object.triangles).sum();
         let closed = casters.iter().filter(|c| c.kind == "closed").count();
-        let [x, y, z, w] = self.light;
-        let light = match (&self.cone, w) {
-            (_, 0.0) => format!("Directional light from ({x}, {y}, {z})"),
-            (None, _) => format!("Point light at ({x}, {y}, {z}), range {}", self.range),
-            (Some(cone), _) => format!(
-                "Spot at ({x}, {y}, {z}), range {}, {:.0} degrees to each side of the direction \
-                 {:?}; what is outside its cone does not count",
-                self.range,
-                cone.half_angle.to_degrees(),
-                cone.direction
-            ),
+        let light = match self.lights.as_slice() {
+            [only] => only.described(),
+            many => described(many),
         };
         writeln!(
             out,
@@ -245,9 +239,13 @@ impl Report {
         for t in &self.techniques {
             writeln!(
                 out,
-                "| `{}` | {:.2} | {:.3} | {:.2} | {:.2} | {:.4} % ({}) | {:.4} % ({}) | {} + {} \
+                "| `{}`{} | {:.2} | {:.3} | {:.2} | {:.2} | {:.4} % ({}) | {:.4} % ({}) | {} + {} \
                  | {:.4} | {:.2} MiB | {} | {} |",
                 t.name,
+                match t.lights {
+                    all if all == self.lights.len() => String::new(),
+                    some => format!(" ({some} lights)"),
+                },
                 t.total_ms,
                 t.prepare_ms.median,
                 t.generate_ms.median,
@@ -282,11 +280,20 @@ impl Report {
         )?;
         writeln!(
             out,
-            "Errors are in per cent (and pixels) of the {} pixels whose surface faces the light, \
+            "Errors are in per cent (and pixels) of the {} {}, \
              against rays cast in f64 ({:.1} s). *Interior errors* (false lit + false shadow) are \
              those that resolution cannot excuse: a pixel, and for maps 1.5 texels and the \
              kernel's radius, away from any edge.\n",
-            self.reference.lit_facing, self.reference.seconds
+            self.reference.lit_facing,
+            match self.lights.len() {
+                1 => "pixels whose surface faces the light",
+                _ => {
+                    "pairs of a pixel and a light that its surface faces within range: a pixel counts \
+                     once for each such light, right or wrong (a technique that cannot do all lights \
+                     is judged by those it can)"
+                }
+            },
+            self.reference.seconds
         )?;
         for t in &self.techniques {
             let settings = t.settings.as_object().into_iter().flatten();
@@ -333,6 +340,7 @@ impl Technique {
         let error = &measured.error;
         Self {
             name: measured.technique.name.to_string(),
+            lights: measured.lights,
             settings: measured.technique.settings(),
             keeps: measured.technique.config.keeps(),
             prepare_ms: Times::new(&measured.prepare),
@@ -409,4 +417,49 @@ fn objects(stage: &Stage) -> Vec<Object> {
             casts: object.casts,
         })
         .collect()
+}
+
+impl Light {
+    fn new(light: &host::scene::Light) -> Self {
+        Self {
+            place: light.place.to_array(),
+            cone: light.cone.map(|cone| Cone {
+                direction: cone.direction.to_array(),
+                half_angle: cone.half_angle,
+            }),
+            range: light.range,
+            shadow_near: light.near,
+        }
+    }
+
+    fn described(&self) -> String {
+        let [x, y, z, w] = self.place;
+        match (&self.cone, w) {
+            (_, 0.0) => format!("Directional light from ({x}, {y}, {z})"),
+            (None, _) => format!("Point light at ({x}, {y}, {z}), range {}", self.range),
+            (Some(cone), _) => format!(
+                "Spot at ({x}, {y}, {z}), range {}, {:.0} degrees to each side of the direction \
+                 {:?}; what is outside its cone does not count",
+                self.range,
+                cone.half_angle.to_degrees(),
+                cone.direction
+            ),
+        }
+    }
+}
+
+/// How many lights of which kind.
+fn described(lights: &[Light]) -> String {
+    let spots = lights.iter().filter(|light| light.cone.is_some()).count();
+    let suns = lights.iter().filter(|light| light.place[3] == 0.0).count();
+    let counted = [
+        (lights.len() - spots - suns, "points"),
+        (spots, "spots"),
+        (suns, "directional"),
+    ];
+    let counted = counted.iter().filter(|(count, _)| *count > 0);
+    let counted: Vec<String> = counted
+        .map(|(count, kind)| format!("{count} {kind}"))
+        .collect();
+    format!("{} lights: {}", lights.len(), counted.join(", "))
 }

@@ -12,6 +12,7 @@ use shadows::{
     ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
+use crate::atlas::Atlas;
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::interior::{self, radius_in_texels};
@@ -45,7 +46,8 @@ impl ShadowInputs {
         (!self.light.is_directional()).then_some(self.range)
     }
 
-    fn point_light(&self) -> PointLight {
+    /// As a point light, whatever a cone leaves of it.
+    pub fn point_light(&self) -> PointLight {
         PointLight {
             near: self.near,
             ..PointLight::new(self.light.0.truncate(), self.range)
@@ -98,6 +100,7 @@ enum Means {
         map: Box<ShadowMap>,
         group: wgpu::BindGroup,
     },
+    Atlas(Box<Atlas>),
     Volume {
         volumes: Box<ShadowVolumeRenderer>,
         /// Where they are counted, if not in the stencil.
@@ -158,6 +161,16 @@ impl Shadow {
                 let lit = sampled(gpu, renderer, &sampler, module);
                 (Means::Flat { map, group }, lit)
             }
+            Config::Atlas {
+                size,
+                kept,
+                sampler,
+            } => {
+                let sampler = make_sampler(gpu, label, sampler)?;
+                let lit = sampled(gpu, renderer, &sampler, module);
+                let atlas = Atlas::new(gpu, renderer, (*size, *kept), sampler)?;
+                (Means::Atlas(Box::new(atlas)), lit)
+            }
             Config::Volume(descriptor) => {
                 let descriptor = ShadowVolumeDescriptor {
                     label,
@@ -212,6 +225,7 @@ impl Shadow {
     pub fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()> {
         let casters = &inputs.casters;
         match &mut self.means {
+            Means::Atlas(atlas) => atlas.prepare(gpu, std::slice::from_ref(inputs))?,
             Means::Cube {
                 map,
                 sampler,
@@ -257,6 +271,17 @@ impl Shadow {
         Ok(())
     }
 
+    /// The same for several lights that one atlas shadows, of one view and with the same casters.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare); and if it is no atlas.
+    pub fn prepare_all(&mut self, gpu: &Gpu, lights: &[ShadowInputs]) -> Result<()> {
+        match &mut self.means {
+            Means::Atlas(atlas) => atlas.prepare(gpu, lights),
+            _ => anyhow::bail!("only an atlas shadows several lights at once"),
+        }
+    }
+
     /// Records what finds the shadows: the map, or the volumes and their stencil pass.
     pub fn generate(
         &mut self,
@@ -267,6 +292,7 @@ impl Shadow {
         match &mut self.means {
             Means::Cube { map, .. } => map.encode(encoder),
             Means::Flat { map, .. } => map.encode(encoder),
+            Means::Atlas(atlas) => atlas.encode(encoder),
             Means::Volume { volumes, counts } => {
                 volumes.encode(encoder);
                 let Some(counts) = counts else {
@@ -287,20 +313,32 @@ impl Shadow {
 
     /// Records the lit pass.
     pub fn shade(&self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
+        self.shade_by(host, scene, 0, encoder);
+    }
+
+    /// Records the lit pass of one of the scene's lights, which it was prepared for.
+    pub fn shade_by(
+        &self,
+        host: &Renderer,
+        scene: &SceneGpu,
+        light: usize,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
         let group = match &self.means {
             Means::Cube { group, .. } => Some(&group.1),
             Means::Flat { group, .. } => Some(group),
+            Means::Atlas(atlas) => Some(atlas.group()),
             Means::Volume { .. } => None,
             Means::Peer(map) => Some(map.bind_group()),
         };
-        host.draw_lit(encoder, scene, &self.lit, group);
+        host.draw_lit_by(encoder, scene, light, &self.lit, group);
     }
 
     /// Whether 8-bit counts of volumes may be wrong in the last prepared frame.
     pub fn may_wrap(&mut self) -> bool {
         match &mut self.means {
             Means::Volume { volumes, .. } => volumes.may_wrap(0, 0),
-            Means::Cube { .. } | Means::Flat { .. } | Means::Peer(_) => false,
+            Means::Cube { .. } | Means::Flat { .. } | Means::Atlas(_) | Means::Peer(_) => false,
         }
     }
 
@@ -313,6 +351,10 @@ impl Shadow {
             }
             Means::Flat { map, .. } => {
                 let taken = map.statistics();
+                (taken.bytes, taken.draws, taken.triangles)
+            }
+            Means::Atlas(atlas) => {
+                let taken = atlas.statistics();
                 (taken.bytes, taken.draws, taken.triangles)
             }
             Means::Volume { volumes, counts } => {
@@ -336,12 +378,21 @@ impl Shadow {
         }
     }
 
+    /// The same of one of the lights that an atlas was prepared for.
+    pub fn interior_of(&self, light: usize) -> Interior {
+        match &self.means {
+            Means::Atlas(atlas) => atlas.interior(light),
+            _ => self.interior(),
+        }
+    }
+
     /// Where resolution is no excuse for this technique's errors in the last prepared frame.
     pub fn interior(&self) -> Interior {
         let kernel = self.technique.config.kernel().unwrap_or_default();
         match &self.means {
             Means::Cube { map, .. } => interior::of_cube(map, kernel),
             Means::Flat { map, .. } => interior::of_flat(map, kernel),
+            Means::Atlas(atlas) => atlas.interior(0),
             Means::Volume { .. } => Interior::Screen,
             Means::Peer(map) => map.interior(),
         }
@@ -364,6 +415,14 @@ impl Technique {
             Config::Flat { map, sampler } => (
                 json!({ "map_texels": map.size, "cache": map.cache }),
                 (sampler, map.bias),
+            ),
+            Config::Atlas {
+                size,
+                kept,
+                sampler,
+            } => (
+                json!({ "tile_texels": size, "cache": kept }),
+                (sampler, Bias::default()),
             ),
             Config::Peer { peer, size } => {
                 return json!({

@@ -15,6 +15,7 @@ pub fn of(config: &Config) -> String {
     match config.kept() {
         Config::Cube { map, sampler } => cube(&map) + &pcf(&sampler),
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
+        Config::Atlas { sampler, .. } => pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",

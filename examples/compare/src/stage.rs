@@ -47,10 +47,10 @@ impl Stage {
         let renderer = Renderer::with_look(gpu, size, &scene, &scene_gpu, look)?;
         let inputs = ShadowInputs {
             view,
-            light: HomogeneousLight(scene.light),
-            cone: scene.cone,
-            near: scene.shadow_near,
-            range: scene.range,
+            light: HomogeneousLight(scene.light().place),
+            cone: scene.light().cone,
+            near: scene.light().near,
+            range: scene.light().range,
             casters: scene_gpu.casters.clone(),
             receivers: receivers(&scene),
             seen: seen(&scene),
@@ -61,6 +61,18 @@ impl Stage {
             renderer,
             inputs,
         })
+    }
+
+    /// What a technique is told of one of the scene's lights.
+    pub fn inputs_of(&self, light: usize) -> ShadowInputs {
+        let light = &self.scene.lights[light];
+        ShadowInputs {
+            light: HomogeneousLight(light.place),
+            cone: light.cone,
+            near: light.near,
+            range: light.range,
+            ..self.inputs.clone()
+        }
     }
 
     /// One frame of a technique, told `inputs` (which a test may have falsified).
@@ -97,7 +109,8 @@ impl Stage {
         light: Vec4,
         shift: [f32; 2],
     ) -> Result<()> {
-        (self.scene.camera, self.scene.light) = (camera, light);
+        self.scene.camera = camera;
+        self.scene.light_mut().place = light;
         let (size, look) = (self.renderer.size(), self.renderer.look());
         let [right, down] = [0, 1].map(|axis| 2.0 * shift[axis] / size[axis] as f32);
         let shifted = Mat4::from_translation(Vec3::new(right, -down, 0.0));
@@ -139,6 +152,20 @@ impl Stage {
         }
         let (light, range) = (self.inputs.light, self.inputs.light_range());
         Ok(scene.render(&self.inputs.view, width, height, light, range)?)
+    }
+}
+
+impl Stage {
+    /// The exact answer for one of the scene's lights, from the picture under another.
+    ///
+    /// # Errors
+    /// If the light is none.
+    pub fn relit(&self, other: &ReferenceImage, light: usize) -> Result<ReferenceImage> {
+        let inputs = self.inputs_of(light);
+        Ok(match inputs.spot_light() {
+            Some(spot) => other.relit_by_spot(&spot)?,
+            None => other.relit(inputs.light, inputs.light_range())?,
+        })
     }
 }
 

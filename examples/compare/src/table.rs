@@ -78,6 +78,9 @@ pub static ROWS: &[Row] = &[
     row("flat-disk-full", |side| flat(side, disk(false))),
     row("flat-vogel", |side| flat(side, vogel())),
     row("flat-pcss", |side| flat(side, contact())),
+    row("atlas-hard", |side| atlas(side, Kernel::Hard)),
+    row("atlas-2x2", |side| atlas(side, Kernel::Bilinear)),
+    row("atlas-5x5", |side| atlas(side, Kernel::Weighted5)),
     usual("volume", |_| Config::Volume(volume())),
     row("volume-auto", |_| {
         Config::Volume(ShadowVolumeDescriptor::default())
@@ -180,6 +183,19 @@ pub fn flat(side: u32, kernel: Kernel) -> Config {
         sampler: PcfDescriptor {
             kernel,
             map: MapKind::Flat,
+            ..Default::default()
+        },
+    }
+}
+
+/// All lights in one atlas, every tile drawn every frame.
+fn atlas(size: u32, kernel: Kernel) -> Config {
+    Config::Atlas {
+        size,
+        kept: false,
+        sampler: PcfDescriptor {
+            kernel,
+            map: MapKind::Atlas,
             ..Default::default()
         },
     }

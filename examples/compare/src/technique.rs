@@ -30,6 +30,13 @@ pub enum Config {
         map: ShadowMapDescriptor<'static>,
         sampler: PcfDescriptor<'static>,
     },
+    /// Lights of any kind in one atlas, which is drawn anew every frame unless `kept`.
+    Atlas {
+        /// Texels along a tile: of a single light; of many at most.
+        size: u32,
+        kept: bool,
+        sampler: PcfDescriptor<'static>,
+    },
     Volume(ShadowVolumeDescriptor<'static>),
     /// Another engine's map and receiver in our rendition, for comparison: no part of the library.
     Peer {
@@ -44,7 +51,7 @@ impl Config {
         match self {
             Self::Cube { .. } => light != LightKind::Directional,
             Self::Flat { .. } => light != LightKind::Point,
-            Self::Volume(_) => true,
+            Self::Volume(_) | Self::Atlas { .. } => true,
             Self::Peer { peer, .. } => match peer.light {
                 PeerLight::Point => light == LightKind::Point,
                 PeerLight::Spot => light == LightKind::Spot,
@@ -64,7 +71,7 @@ impl Config {
                 "flat shadow maps need a spot or directional light, and this one is a point \
                  (--light-kind makes it another)"
             }
-            Self::Volume(_) => "",
+            Self::Volume(_) | Self::Atlas { .. } => "",
             Self::Peer { peer, .. } => match peer.light {
                 PeerLight::Point => "it is for point lights, and this one is none",
                 PeerLight::Spot => "it is for spots, and this light is none (--light-kind spot)",
@@ -84,6 +91,7 @@ impl Config {
         match self {
             Self::Cube { map, .. } => map.cache,
             Self::Flat { map, .. } => map.cache,
+            Self::Atlas { kept, .. } => *kept,
             Self::Volume(volume) => volume.keep_between_frames,
             Self::Peer { .. } => false,
         }
@@ -95,6 +103,7 @@ impl Config {
         match &mut kept {
             Self::Cube { map, .. } => map.cache = true,
             Self::Flat { map, .. } => map.cache = true,
+            Self::Atlas { kept, .. } => *kept = true,
             Self::Volume(volume) => volume.keep_between_frames = true,
             Self::Peer { .. } => {}
         }
@@ -105,7 +114,9 @@ impl Config {
     pub fn kernel(&self) -> Option<Kernel> {
         match self {
             Self::Cube { sampler, .. } if sampler.textbook => Some(Kernel::Hard),
-            Self::Cube { sampler, .. } | Self::Flat { sampler, .. } => Some(sampler.kernel),
+            Self::Cube { sampler, .. }
+            | Self::Flat { sampler, .. }
+            | Self::Atlas { sampler, .. } => Some(sampler.kernel),
             Self::Volume(_) | Self::Peer { .. } => None,
         }
     }

@@ -55,7 +55,7 @@ impl App {
             .clone()
             .context("egui runs without wgpu")?;
         let size = scene.bounds().size();
-        controls.light = scene.light.truncate();
+        controls.light = scene.light().place.truncate();
         let (jobs, answers) = measure::start(scene.clone(), creation.egui_ctx.clone())?;
         let viewport = Viewport::new(&state, scene)?;
         state.renderer.write().callback_resources.insert(viewport);

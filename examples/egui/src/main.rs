@@ -66,7 +66,7 @@ fn size(wanted: &str) -> Result<u32, String> {
 
 fn main() -> anyhow::Result<()> {
     let args = Args::parse();
-    let scene = host::scene::load(&args.scene, true)?;
+    let scene = host::scene::load(&args.scene, true, None)?;
     if !scene.left_out.is_empty() {
         let left_out = scene.left_out.join(", ");
         host::terminal::note(&format!("{}: left out are {left_out}", args.scene));

@@ -103,7 +103,7 @@ impl Judge {
             Some(known) => known,
             None => {
                 let light = HomogeneousLight(job.light);
-                let range = (!light.is_directional()).then_some(self.scene.range);
+                let range = (!light.is_directional()).then_some(self.scene.light().range);
                 // The view of the whole picture: the same rays, fewer of them.
                 let view = renderer::view(&self.scene, job.size)?;
                 let image = self

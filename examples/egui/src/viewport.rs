@@ -170,7 +170,7 @@ impl Viewport {
 
     fn prepare(&mut self, paint: &Paint) -> Result<()> {
         let resized = paint.size != self.renderer.size();
-        self.scene.light = paint.light;
+        self.scene.light_mut().place = paint.light;
         self.renderer.update(&self.gpu, paint.size, &self.scene)?;
         if resized {
             self.blit.bind(&self.gpu.device, &self.renderer);
@@ -186,7 +186,7 @@ impl Viewport {
         let frame = Frame {
             view: renderer::view(&self.scene, paint.size)?,
             light: HomogeneousLight(paint.light),
-            range: self.scene.range,
+            range: self.scene.light().range,
             casters: &self.scene_gpu.casters,
             size: paint.size,
             debug: paint.show.debug(),

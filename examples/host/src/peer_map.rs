@@ -176,7 +176,7 @@ fn host_visibility(at: HostReceiver) -> f32 {
             ..Default::default()
         });
         for casting in &scene.casting {
-            let mesh = &scene.meshes[scene.objects[casting.place]];
+            let mesh = &scene.meshes[scene.objects[casting.place].mesh];
             if mesh.index_count == 0 {
                 continue;
             }

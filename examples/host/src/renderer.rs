@@ -8,35 +8,12 @@ use shadows::{DepthConvention, View, wgpu};
 
 use super::gpu::Gpu;
 use super::image;
+use super::pipelines::{self, Drawing, Shared};
 pub use super::pipelines::{DEPTH, LitPipeline, Look, Orthographic, SHADED, ShadowAccess};
-use super::pipelines::{ambient_pipeline, lit_pipeline};
-use super::scene::Scene;
+use super::scene::{Light, Scene};
 use super::scene_gpu::SceneGpu;
 use super::targets::{Targets, color};
-
-/// Share of the light that comes from everywhere.
-const AMBIENT: f32 = 0.1;
-/// Linear colour where there is no surface.
-const SKY: wgpu::Color = wgpu::Color {
-    r: 0.012,
-    g: 0.018,
-    b: 0.032,
-    a: 1.0,
-};
-
-/// `HostFrame` in host.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct FrameUniform {
-    clip_from_world: [[f32; 4]; 4],
-    eye: [f32; 4],
-    light: [f32; 4],
-    cone: [f32; 4],
-    range: f32,
-    intensity: f32,
-    ambient: f32,
-    padding: u32,
-}
+use super::uniforms::Uniforms;
 
 /// Targets and pipelines for one scene seen by one camera.
 pub struct Renderer {
@@ -45,9 +22,15 @@ pub struct Renderer {
     depth_stencil_format: wgpu::TextureFormat,
     targets: Targets,
     host_layout: wgpu::BindGroupLayout,
-    host_group: wgpu::BindGroup,
-    frame: wgpu::Buffer,
-    ambient: wgpu::RenderPipeline,
+    /// One for each light.
+    host_groups: Vec<wgpu::BindGroup>,
+    uniforms: Uniforms,
+    /// As they were last shown.
+    lights: Vec<Light>,
+    horizon: [f32; 3],
+    masks: bool,
+    sky: Option<wgpu::RenderPipeline>,
+    ambient: Drawing,
     unshadowed: LitPipeline,
 }
 
@@ -74,33 +57,43 @@ impl Renderer {
         let best = gpu.support.depth_stencil_format();
         let depth_stencil_format = look.depth_stencil.unwrap_or(best);
         let targets = Targets::new(gpu, size, depth_stencil_format, look.samples)?;
-        let frame = frame_buffer(gpu, scene, size, look);
+        let uniforms = Uniforms::new(gpu, scene);
+        uniforms.write(gpu, scene, matrix(scene, size, look));
         let host_layout = host_layout(&gpu.device);
-        let host_group = host_group(gpu, &host_layout, &frame, scene_gpu);
+        let lights = 0..scene.lights.len();
+        let host_groups = lights
+            .map(|light| host_group(gpu, &host_layout, &uniforms, scene_gpu, light))
+            .collect();
+        let shared = Shared {
+            device: &gpu.device,
+            layout: &host_layout,
+            format: depth_stencil_format,
+            look,
+            masks: scene_gpu.has_masks(),
+        };
+        let gradient = scene.sky.horizon != scene.sky.zenith;
         Ok(Self {
             size,
             look,
             depth_stencil_format,
             targets,
-            frame,
-            ambient: ambient_pipeline(&gpu.device, &host_layout, depth_stencil_format, look),
-            unshadowed: lit_pipeline(
-                &gpu.device,
-                &host_layout,
-                depth_stencil_format,
-                look,
-                &ShadowAccess::default(),
-            ),
+            uniforms,
+            lights: scene.lights.clone(),
+            horizon: scene.sky.horizon,
+            masks: shared.masks,
+            sky: gradient.then(|| pipelines::sky(&shared)),
+            ambient: pipelines::ambient(&shared),
+            unshadowed: pipelines::lit(&shared, &ShadowAccess::default()),
             host_layout,
-            host_group,
+            host_groups,
         })
     }
 
-    /// Draws from now on what the scene's camera and light have become, through a matrix of its own.
-    pub fn show(&self, gpu: &Gpu, scene: &Scene, clip_from_world: Mat4) {
-        let frame = frame_uniform(scene, clip_from_world);
-        gpu.queue
-            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+    /// Draws from now on what the scene's camera and lights have become, through a matrix of its own.
+    /// The lights are as many as at first.
+    pub fn show(&mut self, gpu: &Gpu, scene: &Scene, clip_from_world: Mat4) {
+        self.lights.clone_from(&scene.lights);
+        self.uniforms.write(gpu, scene, clip_from_world);
     }
 
     /// Takes over another light or camera of the scene, and another size: what a window needs.
@@ -149,13 +142,14 @@ impl Renderer {
 
     /// The lit pass's pipeline for one way to find shadows.
     pub fn lit_pipeline(&self, gpu: &Gpu, access: &ShadowAccess<'_>) -> LitPipeline {
-        lit_pipeline(
-            &gpu.device,
-            &self.host_layout,
-            self.depth_stencil_format,
-            self.look,
-            access,
-        )
+        let shared = Shared {
+            device: &gpu.device,
+            layout: &self.host_layout,
+            format: self.depth_stencil_format,
+            look: self.look,
+            masks: self.masks,
+        };
+        pipelines::lit(&shared, access)
     }
 
     /// The lit pass's pipeline without shadows.
@@ -166,9 +160,11 @@ impl Renderer {
     /// Clears, then draws depth and ambient light.
     pub fn draw_ambient(&self, encoder: &mut wgpu::CommandEncoder, scene: &SceneGpu) {
         let (shaded, _) = self.targets.shaded.views();
+        let [r, g, b] = self.horizon.map(f64::from);
+        let sky = wgpu::Color { r, g, b, a: 1.0 };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("ambient"),
-            color_attachments: &[Some(color(&shaded, None, wgpu::LoadOp::Clear(SKY)))],
+            color_attachments: &[Some(color(&shaded, None, wgpu::LoadOp::Clear(sky)))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.targets.depth_stencil,
                 depth_ops: Some(wgpu::Operations {
@@ -182,8 +178,12 @@ impl Renderer {
             }),
             ..Default::default()
         });
-        pass.set_pipeline(&self.ambient);
-        self.draw_objects(&mut pass, scene);
+        if let Some(sky) = &self.sky {
+            pass.set_pipeline(sky);
+            pass.set_bind_group(0, &self.host_groups[0], &[0]);
+            pass.draw(0..3, 0..1);
+        }
+        self.draw_objects(&mut pass, scene, &self.ambient, 0, None);
     }
 
     /// A pass that may count in the stencil buffer, cleared to 0, against the scene's depth.
@@ -216,11 +216,24 @@ impl Renderer {
         })
     }
 
-    /// Adds the light where it is not shadowed, and writes its visibility.
+    /// Adds the first light where it is not shadowed, and writes its visibility.
     pub fn draw_lit(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         scene: &SceneGpu,
+        lit: &LitPipeline,
+        shadow_group: Option<&wgpu::BindGroup>,
+    ) {
+        self.draw_lit_by(encoder, scene, 0, lit, shadow_group);
+    }
+
+    /// Adds one of the lights where it is not shadowed, and writes its visibility, over that of any
+    /// light before it.
+    pub fn draw_lit_by(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &SceneGpu,
+        light: usize,
         lit: &LitPipeline,
         shadow_group: Option<&wgpu::BindGroup>,
     ) {
@@ -243,12 +256,12 @@ impl Renderer {
             depth_stencil_attachment: Some(depth_stencil),
             ..Default::default()
         });
-        pass.set_pipeline(&lit.pipeline);
         pass.set_stencil_reference(0);
         if let Some(group) = shadow_group {
             pass.set_bind_group(1, group, &[]);
         }
-        self.draw_objects(&mut pass, scene);
+        let reach = Some(&self.lights[light]);
+        self.draw_objects(&mut pass, scene, &lit.drawing, light, reach);
     }
 
     /// The shaded picture, sRGB.
@@ -275,16 +288,37 @@ impl Renderer {
         }
     }
 
-    fn draw_objects(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneGpu) {
-        for (place, &mesh) in scene.objects.iter().enumerate() {
-            let mesh = &scene.meshes[mesh];
-            if mesh.index_count == 0 {
+    /// Draws the objects, or those that a light reaches.
+    fn draw_objects(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        scene: &SceneGpu,
+        drawing: &Drawing,
+        light: usize,
+        reach: Option<&Light>,
+    ) {
+        let group = &self.host_groups[light];
+        let mut masked = None;
+        for (place, object) in scene.objects.iter().enumerate() {
+            let mesh = &scene.meshes[object.mesh];
+            let seen = reach.is_none_or(|light| object.is_reached(light));
+            if mesh.index_count == 0 || !seen {
                 continue;
             }
+            if masked != Some(mesh.mask.is_some()) {
+                masked = Some(mesh.mask.is_some());
+                pass.set_pipeline(match (&mesh.mask, &drawing.masked) {
+                    (Some(_), Some(masked)) => masked,
+                    _ => &drawing.solid,
+                });
+            }
             let offset = place as u32 * scene.object_stride;
-            pass.set_bind_group(0, &self.host_group, &[offset]);
+            pass.set_bind_group(0, group, &[offset]);
             pass.set_vertex_buffer(0, mesh.positions.slice(..));
             pass.set_vertex_buffer(1, mesh.normals.slice(..));
+            if let Some(mask) = &mesh.mask {
+                pass.set_vertex_buffer(2, mask.slice(..));
+            }
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..mesh.index_count, 0, 0..1);
         }
@@ -329,43 +363,6 @@ pub fn matrix(scene: &Scene, size: [u32; 2], look: Look) -> Mat4 {
     }
 }
 
-fn frame_uniform(scene: &Scene, clip_from_world: Mat4) -> FrameUniform {
-    let camera = &scene.camera;
-    // A surface that faces the light at the picture's middle gets 1 - exp(-2.2) of full light,
-    // whatever the scene's scale.
-    let reach = scene.light.truncate().distance(camera.target);
-    let intensity = 2.2
-        * if scene.light.w == 0.0 {
-            1.0
-        } else {
-            reach * reach
-        };
-    FrameUniform {
-        clip_from_world: clip_from_world.to_cols_array_2d(),
-        eye: camera.eye.extend(1.0).to_array(),
-        light: scene.light.to_array(),
-        // Direction and cosine; without a cone every angle's cosine is above the -1.
-        cone: scene.cone.map_or([0.0, 0.0, 0.0, -1.0], |cone| {
-            let axis = cone.direction.normalize();
-            axis.extend(cone.half_angle.cos()).to_array()
-        }),
-        range: scene.range,
-        intensity,
-        ambient: AMBIENT,
-        padding: 0,
-    }
-}
-
-fn frame_buffer(gpu: &Gpu, scene: &Scene, size: [u32; 2], look: Look) -> wgpu::Buffer {
-    use wgpu::util::DeviceExt as _;
-    gpu.device
-        .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("frame"),
-            contents: bytemuck::bytes_of(&frame_uniform(scene, matrix(scene, size, look))),
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        })
-}
-
 fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let entry = |binding, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
         binding,
@@ -386,25 +383,28 @@ fn host_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 fn host_group(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
-    frame: &wgpu::Buffer,
+    uniforms: &Uniforms,
     scene: &SceneGpu,
+    light: usize,
 ) -> wgpu::BindGroup {
+    let one_of = |buffer, stride: u32, place: usize| {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer,
+            offset: place as u64 * u64::from(stride),
+            size: wgpu::BufferSize::new(u64::from(stride)),
+        })
+    };
+    let resources = [
+        one_of(&uniforms.frames, uniforms.stride, light),
+        one_of(&scene.object_uniforms, scene.object_stride, 0),
+    ];
+    let entries = (0..).zip(resources);
+    let entries: Vec<_> = entries
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("host"),
         layout,
-        entries: &[
-            wgpu::BindGroupEntry {
-                binding: 0,
-                resource: frame.as_entire_binding(),
-            },
-            wgpu::BindGroupEntry {
-                binding: 1,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &scene.object_uniforms,
-                    offset: 0,
-                    size: wgpu::BufferSize::new(u64::from(scene.object_stride)),
-                }),
-            },
-        ],
+        entries: &entries,
     })
 }

@@ -1,13 +1,13 @@
 //! A scene on the GPU: what the host draws and what casts shadows.
 
 use anyhow::{Context as _, Result, ensure};
-use shadows::glam::{Mat3, Mat4};
+use shadows::glam::{Mat3, Mat4, Vec3};
 use shadows::mesh::{Adjacency, MeshKind};
 use shadows::wgpu::{self, util::DeviceExt as _};
 use shadows::{Caster, CasterMesh};
 
 use super::gpu::Gpu;
-use super::scene::{Mesh, Object, Scene};
+use super::scene::{Bounds, Light, Mesh, Object, Scene};
 
 /// A mesh as the host draws it.
 pub struct MeshGpu {
@@ -15,6 +15,8 @@ pub struct MeshGpu {
     pub normals: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     pub index_count: u32,
+    /// Each vertex's place in the leaf mask, if it has one.
+    pub mask: Option<wgpu::Buffer>,
     pub kind: MeshKind,
     caster: CasterMesh,
 }
@@ -22,14 +24,23 @@ pub struct MeshGpu {
 /// Buffers of a scene's meshes, the objects' uniforms and the casters.
 pub struct SceneGpu {
     pub meshes: Vec<MeshGpu>,
-    /// For each object, the place of its mesh.
-    pub objects: Vec<usize>,
+    pub objects: Vec<Drawn>,
     /// One [`ObjectUniform`] every [`Self::object_stride`] bytes.
     pub object_uniforms: wgpu::Buffer,
     pub object_stride: u32,
+    /// What the library draws: all that casts but what has a mask.
     pub casters: Vec<Caster>,
     /// The objects that cast, for a host that draws them itself.
     pub casting: Vec<Casting>,
+}
+
+/// An object as it is drawn.
+pub struct Drawn {
+    /// Place of its mesh.
+    pub mesh: usize,
+    /// Of a ball around it, world space.
+    centre: Vec3,
+    radius: f32,
 }
 
 /// An object that casts.
@@ -47,6 +58,7 @@ pub struct ObjectUniform {
     world_from_object: [[f32; 4]; 4],
     normal_from_object: [[f32; 4]; 3],
     albedo: [f32; 4],
+    glow: [f32; 4],
 }
 
 impl SceneGpu {
@@ -63,7 +75,7 @@ impl SceneGpu {
         let casters = scene
             .objects
             .iter()
-            .filter(|object| object.casts)
+            .filter(|object| object.casts && meshes[object.mesh].mask.is_none())
             .map(|object| Caster::new(meshes[object.mesh].caster.clone(), object.transform))
             .collect();
         let casting = (0..).zip(&scene.objects).filter(|(_, object)| object.casts);
@@ -75,12 +87,41 @@ impl SceneGpu {
         let (object_uniforms, object_stride) = upload_objects(gpu, &scene.objects)?;
         Ok(Self {
             meshes,
-            objects: scene.objects.iter().map(|object| object.mesh).collect(),
+            objects: scene
+                .objects
+                .iter()
+                .map(|object| Drawn::new(scene, object))
+                .collect(),
             object_uniforms,
             object_stride,
             casters,
             casting,
         })
+    }
+}
+
+impl SceneGpu {
+    /// Whether any mesh has a mask.
+    pub fn has_masks(&self) -> bool {
+        self.meshes.iter().any(|mesh| mesh.mask.is_some())
+    }
+}
+
+impl Drawn {
+    fn new(scene: &Scene, object: &Object) -> Self {
+        let bounds = Bounds::of(scene.world_points(object));
+        Self {
+            mesh: object.mesh,
+            centre: bounds.centre().as_vec3(),
+            // A little more, for what rounding takes.
+            radius: 0.5001 * bounds.size().length() as f32,
+        }
+    }
+
+    /// Whether a light may reach it.
+    pub fn is_reached(&self, light: &Light) -> bool {
+        let reach = light.range + self.radius;
+        light.place.w == 0.0 || self.centre.distance(light.place.truncate()) <= reach
     }
 }
 
@@ -112,6 +153,10 @@ impl MeshGpu {
                 wgpu::BufferUsages::INDEX,
             )?,
             index_count: mesh.indices.len() as u32,
+            mask: match mesh.mask.as_slice() {
+                [] => None,
+                mask => Some(buffer("mask", bytemuck::cast_slice(mask), vertex)?),
+            },
             kind: adjacency.kind(),
             caster: CasterMesh::new(&gpu.device, &mesh.positions, &adjacency)?,
         })
@@ -149,9 +194,11 @@ fn uniform(object: &Object) -> ObjectUniform {
     let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
     let normal = [y.cross(z), z.cross(x), x.cross(y)];
     let [r, g, b] = object.albedo;
+    let glow = Vec3::from(object.glow);
     ObjectUniform {
         world_from_object: Mat4::from(object.transform).to_cols_array_2d(),
         normal_from_object: normal.map(|column| column.extend(0.0).to_array()),
         albedo: [r, g, b, 1.0],
+        glow: glow.extend(0.0).to_array(),
     }
 }

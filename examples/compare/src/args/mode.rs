@@ -24,9 +24,11 @@ use Mode::{Arithmetic, Compare, Cost, Growth, HardCases, Sweep, Temporal};
 
 /// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
 /// Options that are not here are of use to all.
-const USES: [(&str, &[Mode]); 16] = [
+const USES: [(&str, &[Mode]); 18] = [
     ("scenes", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
     ("ground", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("time", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
+    ("lights", &[Compare]),
     ("light", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
     ("light_kind", &[Compare, Sweep, Temporal, Arithmetic]),
     ("range", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
@@ -68,6 +70,11 @@ impl Mode {
             Cost => Some("--cost"),
         }
     }
+}
+
+/// Whether that is a few techniques, side by side.
+pub fn compares(args: &Args) -> bool {
+    Mode::of(args) == Compare
 }
 
 /// Nothing that is given may be ignored. (By hand, as clap forgets that an option `requires` one that

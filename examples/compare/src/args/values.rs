@@ -5,7 +5,7 @@ use std::path::Path;
 use shadows::glam::{Vec3, Vec4};
 
 use super::CameraArg;
-use host::scene::{self, LightKind};
+use host::scene::{self, LightKind, Time};
 
 /// Textures wider than this are refused by many devices (WebGPU's default limit).
 pub const MAX_SIDE: u32 = 8192;
@@ -73,6 +73,14 @@ pub fn light_kind(text: &str) -> Result<LightKind, String> {
         "spot" => Ok(LightKind::Spot),
         "directional" => Ok(LightKind::Directional),
         _ => Err("it must be point, spot or directional".into()),
+    }
+}
+
+pub fn time(text: &str) -> Result<Time, String> {
+    match text {
+        "day" => Ok(Time::Day),
+        "night" => Ok(Time::Night),
+        _ => Err("it must be day or night".into()),
     }
 }
 

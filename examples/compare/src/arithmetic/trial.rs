@@ -120,7 +120,7 @@ impl<'a> Trials<'a> {
         let stage = Stage::new(self.gpu, scene.clone(), self.plan.size)?;
         let mut kinds = Kinds::default();
         for technique in &self.plan.techniques {
-            if !technique.config.applies_to(scene.light_kind()) || is_textbook(technique) {
+            if !technique.config.applies_to(scene.light().kind()) || is_textbook(technique) {
                 continue;
             }
             let mut shadow = Shadow::new(self.gpu, &stage.renderer, technique.clone())?;

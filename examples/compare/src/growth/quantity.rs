@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use shadows::PointLight;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 
-use host::scene::{Object, Scene, square};
+use host::scene::{Light, Object, Scene, square};
 use host::shapes::{self, Shape};
 
 /// Half the side of the ground, in metres.
@@ -193,11 +193,8 @@ impl Quantity {
 
 fn ground() -> Scene {
     let light = Vec4::new(0.5, 6.0, 0.3, 1.0);
-    let mut scene = Scene {
-        light,
-        range: RANGE,
-        ..Scene::empty("growth")
-    };
+    let mut scene = Scene::empty("growth");
+    *scene.light_mut() = Light::new(light, RANGE);
     scene.camera.eye = Vec3::new(0.0, 10.0, 18.0);
     scene.meshes = vec![square("ground", Vec3::ZERO, GROUND)];
     scene.objects = vec![Object {
@@ -206,6 +203,7 @@ fn ground() -> Scene {
         transform: Affine3A::IDENTITY,
         casts: false,
         albedo: [0.6; 3],
+        glow: [0.0; 3],
     }];
     scene
 }

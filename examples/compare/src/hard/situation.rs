@@ -4,7 +4,7 @@ use shadows::glam::{Affine3A, DVec3, Vec3, Vec4};
 
 use host::random::Random;
 use host::renderer::Look;
-use host::scene::{Camera, Cone, Mesh, Object, Scene};
+use host::scene::{Camera, Cone, Light, Mesh, Object, Scene};
 use host::shapes::{self, Shape};
 
 /// One thing to try.
@@ -53,7 +53,7 @@ pub fn at(x: f32, y: f32, z: f32) -> Affine3A {
 pub fn with_spots(mut situations: Vec<Situation>, target: Vec3, degrees: f32) -> Vec<Situation> {
     let lamps = situations
         .iter()
-        .filter(|situation| situation.scene.light.w != 0.0);
+        .filter(|situation| situation.scene.light().place.w != 0.0);
     let spots: Vec<Situation> = lamps
         .map(|lamp| lamp.clone().spot(target, degrees))
         .collect();
@@ -65,15 +65,13 @@ impl Situation {
     /// A large ground under a light, seen from the front and above, a little differently each time.
     pub fn new(what: impl Into<String>, light: Vec4, random: &mut Random) -> Self {
         let scene = Scene {
-            light,
+            lights: vec![Light::new(light, 100.0)],
             camera: Camera {
                 eye: Vec3::new(1.0, 5.0, 9.0) + random.point(0.8),
                 target: Vec3::new(0.0, 0.5, 0.0),
                 fovy: 0.9,
                 near: 0.1,
             },
-            range: 100.0,
-            shadow_near: None,
             ..Scene::empty("hard case")
         };
         let ground = Affine3A::IDENTITY;
@@ -121,8 +119,8 @@ impl Situation {
     /// Under a spot at the lamp's place, that shines at a point, so many degrees to each side.
     pub fn spot(mut self, target: Vec3, degrees: f32) -> Self {
         self.what = format!("{}, spot of {degrees} degrees", self.what);
-        self.scene.cone = Some(Cone {
-            direction: target - self.scene.light.truncate(),
+        self.scene.light_mut().cone = Some(Cone {
+            direction: target - self.scene.light().place.truncate(),
             half_angle: degrees.to_radians(),
         });
         self
@@ -141,6 +139,7 @@ impl Situation {
             transform,
             casts,
             albedo: if casts { [0.8, 0.5, 0.3] } else { [0.6; 3] },
+            glow: [0.0; 3],
         });
     }
 
@@ -164,8 +163,8 @@ impl Situation {
             meshes.push(mesh);
         }
         scene.meshes = meshes;
-        if scene.light.w != 0.0 {
-            scene.light = round(scene.light.truncate().as_dvec3()).extend(1.0);
+        if scene.light().place.w != 0.0 {
+            scene.light_mut().place = round(scene.light().place.truncate().as_dvec3()).extend(1.0);
         }
         scene.camera.eye = round(scene.camera.eye.as_dvec3());
         scene.camera.target = round(scene.camera.target.as_dvec3());
@@ -185,15 +184,16 @@ impl Situation {
         for object in &mut self.scene.objects {
             object.transform.translation *= factor;
         }
-        if self.scene.light.w != 0.0 {
-            self.scene.light = (self.scene.light.truncate() * factor).extend(1.0);
+        if self.scene.light().place.w != 0.0 {
+            self.scene.light_mut().place =
+                (self.scene.light().place.truncate() * factor).extend(1.0);
         }
         let camera = &mut self.scene.camera;
         camera.eye *= factor;
         camera.target *= factor;
         camera.near *= factor;
-        self.scene.range *= factor;
-        self.scene.shadow_near = self.scene.shadow_near.map(|near| near * factor);
+        self.scene.light_mut().range *= factor;
+        self.scene.light_mut().near = self.scene.light().near.map(|near| near * factor);
         self
     }
 }
@@ -215,5 +215,6 @@ fn smooth(shape: &Shape) -> Mesh {
             .map(|normal| normal.normalize_or(Vec3::Y).to_array())
             .collect(),
         indices: shape.indices.clone(),
+        mask: Vec::new(),
     }
 }

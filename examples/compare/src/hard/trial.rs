@@ -126,7 +126,7 @@ impl Trial<'_> {
             let mut found = judge(what, &reference, &frame, expect)?;
             if self.case.seams && matches!(technique.config, Config::Cube { .. }) {
                 let scene = &situation.scene;
-                let [light, camera] = [scene.light.truncate(), scene.camera.eye];
+                let [light, camera] = [scene.light().place.truncate(), scene.camera.eye];
                 let places = [light, camera].map(|place| place.as_dvec3());
                 found.rates = Some(Rates::of(&reference, &picture.visibility, places));
             }
@@ -158,7 +158,7 @@ impl Situation {
 
     /// An interior that is as far from edges as f32 positions let them be from where they are.
     fn beside_leak(&self, interior: Interior) -> Interior {
-        let light = &self.scene.light;
+        let light = &self.scene.light().place;
         // No receiver is nearer to a lamp than this part of its distance from the middle.
         let away = match light.w == 0.0 {
             true => 1.0,
@@ -191,8 +191,14 @@ impl Situation {
     /// Where the light is and how far it reaches, for a technique that knows; the light pass of
     /// volumes is the host's.
     pub fn reach(&self, technique: &Technique) -> Option<(DVec3, f32)> {
-        let knows = !matches!(technique.config, Config::Volume(_)) && self.scene.light.w != 0.0;
-        knows.then(|| (self.scene.light.truncate().as_dvec3(), self.scene.range))
+        let knows =
+            !matches!(technique.config, Config::Volume(_)) && self.scene.light().place.w != 0.0;
+        knows.then(|| {
+            (
+                self.scene.light().place.truncate().as_dvec3(),
+                self.scene.light().range,
+            )
+        })
     }
 }
 
@@ -201,7 +207,7 @@ impl Situation {
 pub fn applies(gpu: &Gpu, technique: &Technique, situation: &Situation) -> bool {
     let clamps = wgpu::Features::DEPTH_CLIP_CONTROL;
     let config = &technique.config;
-    config.applies_to(situation.scene.light_kind())
+    config.applies_to(situation.scene.light().kind())
         && (situation.look.depth == DepthConvention::InfiniteReverse
             || !matches!(config, Config::Volume(_))
             || gpu.device.features().contains(clamps))
@@ -222,9 +228,9 @@ fn placed(situation: &Situation, stage: &Stage) -> Scene {
             object.transform = Caster::placed(mesh, place, origin).world_from_object;
         }
     }
-    if scene.light.w != 0.0 {
-        let position = scene.light.truncate().as_dvec3() + situation.offset;
-        scene.light = HomogeneousLight::placed(position, origin).0;
+    if scene.light().place.w != 0.0 {
+        let position = scene.light().place.truncate().as_dvec3() + situation.offset;
+        scene.light_mut().place = HomogeneousLight::placed(position, origin).0;
     }
     scene.camera.eye = moved(scene.camera.eye);
     scene.camera.target = moved(scene.camera.target);

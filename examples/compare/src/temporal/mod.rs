@@ -86,7 +86,7 @@ impl Shimmer {
 /// If no technique can shadow the scene's light, the device cannot do what one needs, or a file cannot
 /// be written.
 pub fn run(gpu: &Gpu, scene: &Scene, plan: &Plan<'_>, out: &Directory) -> Result<()> {
-    let kinds = kinds(scene.light_kind(), plan)?;
+    let kinds = kinds(scene.light().kind(), plan)?;
     let mut watched = Vec::new();
     for kind in kinds {
         let mut scene = scene.clone();
@@ -139,7 +139,7 @@ fn kinds(own: LightKind, plan: &Plan<'_>) -> Result<Vec<LightKind>> {
 
 /// Every technique that can shadow the scene's light.
 fn watch_all(gpu: &Gpu, scene: Scene, plan: &Plan<'_>) -> Result<Vec<Watched>> {
-    let kind = scene.light_kind();
+    let kind = scene.light().kind();
     let techniques = plan.techniques.0.iter().map(|row| row.at(plan.side));
     let techniques: Vec<Technique> = techniques
         .filter(|technique| technique.config.applies_to(kind))

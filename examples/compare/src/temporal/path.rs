@@ -58,7 +58,7 @@ impl Path {
     pub fn place(self, scene: &Scene, rows: u32, step: u32, steps: u32) -> Place {
         let mut place = Place {
             camera: scene.camera,
-            light: scene.light,
+            light: scene.light().place,
             shift: [0.0; 2],
         };
         match self {
@@ -72,7 +72,7 @@ impl Path {
 
 /// On an arc sideways: from a point light's place, or by a directional light's angle.
 fn moved_light(scene: &Scene, step: u32) -> Vec4 {
-    let light = scene.light;
+    let light = scene.light().place;
     let from_target = light.truncate() - light.w * scene.camera.target;
     // The side of a texel of a face that spans 90 degrees, at the light's distance.
     let texel = 2.0 * from_target.length() / TEXELS;

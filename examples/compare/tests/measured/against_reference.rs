@@ -214,7 +214,7 @@ fn move_light_far(inputs: &mut ShadowInputs) {
 /// A 2x2 flat map on the spheres, lit by another kind of light; and each broken twin.
 fn a_flat_map_is_wrong_only_at_edges(kind: LightKind, limit: f64) {
     let mut scene = host::scene::spheres();
-    scene.light += Vec4::new(1.3, 3.0, 0.9, 0.0);
+    scene.light_mut().place += Vec4::new(1.3, 3.0, 0.9, 0.0);
     scene.shine_as(kind).unwrap();
     let Some(studio) = Studio::new(scene) else {
         return;

@@ -89,6 +89,7 @@ impl Model {
             positions: self.positions.clone(),
             normals: vec![[0.0, 1.0, 0.0]; self.positions.len()],
             indices: self.indices.clone(),
+            mask: Vec::new(),
         }
     }
 
@@ -313,11 +314,12 @@ fn box_at(place: Vec3) -> Scene {
             transform: Affine3A::IDENTITY,
             casts,
             albedo: [0.7; 3],
+            glow: [0.0; 3],
         });
         scene.meshes.push(mesh);
     }
-    scene.light = (place + Vec3::new(1.3, 2.35, 1.43)).extend(1.0);
-    scene.range = 10.0;
+    scene.light_mut().place = (place + Vec3::new(1.3, 2.35, 1.43)).extend(1.0);
+    scene.light_mut().range = 10.0;
     scene.camera.eye = place + Vec3::new(-0.5, 1.9, 3.3);
     scene.camera.target = place + Vec3::new(0.5, 0.4, 0.5);
     scene.camera.near = 0.02;
@@ -334,7 +336,7 @@ fn errors_by_derivatives(
 ) -> [usize; 2] {
     let stage = Stage::new(gpu, scene, [320, 180]).unwrap();
     let reference = stage.reference(|_| ()).unwrap();
-    let place = stage.scene.light.truncate();
+    let place = stage.scene.light().place.truncate();
     let light = PointLight::new(place, 10.0);
     let map = cube_map(gpu, 1024, light, &stage.scene_gpu.casters);
     let descriptor = PcfDescriptor {

@@ -125,6 +125,7 @@ fn kind(technique: &Technique) -> u32 {
         Config::Flat { .. } => 1,
         Config::Volume(_) => 2,
         Config::Peer { .. } => 3,
+        Config::Atlas { .. } => 4,
     }
 }
 
@@ -291,7 +292,10 @@ fn only_false_light_in_stacks_of_256_is_put_down_to_wrapping() {
 fn edges_that_are_worse_at_seams_than_in_the_middle_fail() {
     let Some(gpu) = Gpu::for_test() else { return };
     let situation = (case("Cube seams").situations)(&mut Random(0)).remove(0);
-    let places = [situation.scene.light.truncate(), situation.scene.camera.eye];
+    let places = [
+        situation.scene.light().place.truncate(),
+        situation.scene.camera.eye,
+    ];
     let places = places.map(|place| place.as_dvec3());
     let reference = seen(&gpu, &situation);
     let right = reference.visibility();
@@ -336,7 +340,7 @@ fn a_square_without_a_t_junction_is_not_reported_as_one() {
 fn flat_maps_are_tried_under_spots() {
     let spots = cases::all().filter(|case| {
         let situations = (case.situations)(&mut Random(0));
-        let mut kinds = situations.iter().map(|one| one.scene.light_kind());
+        let mut kinds = situations.iter().map(|one| one.scene.light().kind());
         kinds.any(|kind| kind == LightKind::Spot)
     });
     let names: Vec<&str> = spots.map(|case| case.name).collect();

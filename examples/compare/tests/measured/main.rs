@@ -8,6 +8,7 @@ mod common;
 mod far_from_origin;
 mod growth;
 mod hard_cases;
+mod leaves;
 mod peers;
 #[path = "../../../../tests/common/receivers.rs"]
 mod receivers;

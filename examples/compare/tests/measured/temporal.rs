@@ -70,7 +70,7 @@ fn around(gpu: &Gpu, stage: &mut Stage, path: Path, pixels: f32) -> Vec<[Vec<Cla
     let all = (0..=STEPS)
         .map(|step| std::array::from_fn(|direction| seen_from(step, direction)))
         .collect();
-    let back = stage.move_to(gpu, start.camera, start.light, [0.0; 2]);
+    let back = stage.move_to(gpu, start.camera, start.light().place, [0.0; 2]);
     back.unwrap();
     all
 }
@@ -207,7 +207,7 @@ fn nothing_flips_in_a_picture_that_stands_still() {
     // The twin: the same picture, taken for one that moved.
     assert!(flips(&now, [1, 0]).excess > 20);
     // Moving there and back is standing still, too.
-    let (camera, light) = (stage.scene.camera, stage.scene.light);
+    let (camera, light) = (stage.scene.camera, stage.scene.light().place);
     stage.move_to(&gpu, camera, light, [3.0, -2.0]).unwrap();
     let moved = stage.picture(&gpu, &mut shadow, &stage.inputs).unwrap();
     assert_ne!(moved.visibility, before);

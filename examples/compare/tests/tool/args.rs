@@ -7,7 +7,7 @@ use shadows::glam::{Vec3, Vec4};
 use compare::args::{Args, Ground};
 use compare::table::ROWS;
 use compare::technique::Config;
-use host::scene::LightKind;
+use host::scene::{LightKind, Time};
 
 fn read(line: &str) -> Args {
     let items = std::iter::once("compare").chain(line.split_whitespace());
@@ -138,6 +138,17 @@ fn shimmer_and_growth_take_a_size_and_a_limit_or_none() {
     assert_refused("--temporal --sweep", "--sweep");
 }
 
+#[test]
+fn a_time_is_day_or_night_and_lights_are_counted() {
+    assert_eq!((read("").time, read("").lights), (None, None));
+    let night = read("--scene city --time night --lights 16");
+    assert_eq!((night.time, night.lights), (Some(Time::Night), Some(16)));
+    assert_eq!(read("--time day").time, Some(Time::Day));
+    assert_refused("--time noon", "day or night");
+    assert_refused("--lights 0", "1..=1000");
+    assert_refused("--lights 1001", "1..=1000");
+}
+
 /// Each mode as it is asked for, and the options that it has a use for beyond those of all.
 const MODES: [(&str, &[&str]); 7] = [
     (
@@ -145,6 +156,8 @@ const MODES: [(&str, &[&str]); 7] = [
         &[
             "scene",
             "ground",
+            "time",
+            "lights",
             "light",
             "light-kind",
             "range",
@@ -162,6 +175,7 @@ const MODES: [(&str, &[&str]); 7] = [
         &[
             "scene",
             "ground",
+            "time",
             "light",
             "light-kind",
             "range",
@@ -179,6 +193,7 @@ const MODES: [(&str, &[&str]); 7] = [
         &[
             "scene",
             "ground",
+            "time",
             "light",
             "light-kind",
             "range",
@@ -194,6 +209,7 @@ const MODES: [(&str, &[&str]); 7] = [
         &[
             "scene",
             "ground",
+            "time",
             "light",
             "light-kind",
             "range",
@@ -207,7 +223,7 @@ const MODES: [(&str, &[&str]); 7] = [
     (
         "--cost counts.json",
         &[
-            "scene", "ground", "light", "range", "camera", "size", "face",
+            "scene", "ground", "time", "light", "range", "camera", "size", "face",
         ],
     ),
 ];
@@ -218,9 +234,11 @@ fn bare(mode: &str) -> &str {
 }
 
 /// A value that each option takes.
-const VALUES: [(&str, &str); 18] = [
+const VALUES: [(&str, &str); 20] = [
     ("scene", "--scene x.obj"),
     ("ground", "--ground none --scene x.obj"),
+    ("time", "--time night"),
+    ("lights", "--lights 3"),
     ("light", "--light 1,2,3"),
     ("light-kind", "--light-kind spot"),
     ("range", "--range 9"),
@@ -308,7 +326,7 @@ fn techniques_may_be_named_by_how_they_begin() {
     assert!(cubes >= 12 && cubes < ROWS.len());
     assert_eq!(names("--technique cube-*,cube-hard"), cubes);
     assert_eq!(
-        names("--technique cube-*,flat-*,volume*,peer-*"),
+        names("--technique cube-*,flat-*,atlas-*,volume*,peer-*"),
         ROWS.len()
     );
     let usual = names("--technique usual");
@@ -337,6 +355,7 @@ fn every_name_stands_for_another_technique() {
             Config::Cube { .. } => "cube",
             Config::Flat { .. } => "flat",
             Config::Volume(_) => "volume",
+            Config::Atlas { .. } => "atlas",
             Config::Peer { .. } => "peer",
         };
         assert!(row.name.starts_with(kind), "{}", row.name);

@@ -137,6 +137,20 @@ fn maps_alone_are_refused_for_lights_of_the_other_kind() {
 }
 
 #[test]
+fn times_and_lights_that_a_scene_has_not_are_refused() {
+    assert_refused(
+        &["--time", "night"],
+        "scene spheres: it has no day and no night",
+    );
+    assert_refused(&["--scene", "valley", "--time", "night"], "it has no night");
+    assert_refused(&["--lights", "2"], "--lights 2 is too many, it has 1");
+    let one = [
+        "--scene", "city", "--time", "night", "--light", "0,5,0", "--lights", "3",
+    ];
+    assert_refused(&one, "--lights 3 is too many, it has 1");
+}
+
+#[test]
 fn an_adapter_that_is_not_there_is_named() {
     assert_refused(&["--adapter", "no such adapter"], "adapter");
 }
@@ -265,7 +279,10 @@ fn check_report(report: &Value) {
     let matrix = scene.camera.clip_from_world(160.0 / 90.0).to_cols_array();
     let written: Vec<f32> = floats(&report["camera"]["clip_from_world"]);
     assert_eq!(written, matrix, "not the same f32 numbers");
-    assert_eq!(floats(&report["light"]), scene.light.to_array());
+    assert_eq!(
+        floats(&report["lights"][0]["place"]),
+        scene.light().place.to_array()
+    );
     assert_eq!(
         floats(&report["camera"]["eye"]),
         scene.camera.eye.to_array()
@@ -446,7 +463,9 @@ fn instructions_are_set_against_error_for_every_receiver_that_is_counted() {
     let rows: Value = serde_json::from_str(&counts).unwrap();
     let names = rows.as_array().unwrap().iter();
     let names = names.map(|row| row["name"].as_str().unwrap().to_owned());
+    // An atlas's receivers get wrong what those of its lights' own maps do.
     let names: Vec<String> = names
+        .filter(|name| !name.starts_with("atlas-"))
         .filter_map(|name| match name.strip_suffix("/normal") {
             Some(kernel) if !kernel.starts_with("cube-") && !kernel.starts_with("flat-") => {
                 Some(kernel.to_owned())

@@ -10,7 +10,7 @@ use super::masonry::{
     ARCADE_HEIGHT, BAY, COLUMN_HEIGHT, GOING, RISE, STEPS, arcade, archivolt, block, column,
     dentils, stairs, urn,
 };
-use super::{Camera, Mesh, Object, Scene};
+use super::{Camera, Light, Mesh, Object, Scene, Sky};
 
 const STONE: [f32; 3] = [0.72, 0.66, 0.55];
 const PALE: [f32; 3] = [0.78, 0.74, 0.66];
@@ -48,10 +48,8 @@ impl Yard {
             name: "courtyard".into(),
             meshes: Vec::new(),
             objects: Vec::new(),
-            light: Vec4::new(0.43, 4.07, 0.86, 1.0),
-            cone: None,
-            range: 40.0,
-            shadow_near: None,
+            lights: vec![Light::new(Vec4::new(0.43, 4.07, 0.86, 1.0), 40.0)],
+            sky: Sky::default(),
             camera: Camera {
                 eye: vec3(-4.6, 5.9, 13.7),
                 target: vec3(0.75, 0.95, -1.2),
@@ -74,6 +72,7 @@ impl Yard {
             transform,
             casts: true,
             albedo,
+            glow: [0.0; 3],
         });
     }
 

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use shadows::glam::{Affine3A, DVec3, Vec3, dvec3};
 
 use super::surface::Surface;
-use super::{Bounds, Camera, Mesh, Object, Scene, square};
+use super::{Bounds, Camera, Light, Mesh, Object, Scene, Sky, square};
 
 mod glb;
 mod obj;
@@ -80,6 +80,7 @@ impl Model {
             transform,
             casts: true,
             albedo: CLAY,
+            glow: [0.0; 3],
         });
     }
 }
@@ -115,6 +116,7 @@ fn checked(
             positions,
             normals,
             indices,
+            mask: Vec::new(),
         },
         None => welded(&positions, &indices).finish(name, crease),
     })
@@ -160,10 +162,8 @@ fn around(name: &str, model: Model) -> Result<Scene> {
         left_out: model.told(),
         meshes: model.meshes,
         objects: model.objects,
-        light: shadows::glam::Vec4::W,
-        cone: None,
-        range: 1.0,
-        shadow_near: None,
+        lights: vec![Light::new(shadows::glam::Vec4::W, 1.0)],
+        sky: Sky::default(),
         camera: Camera {
             eye: Vec3::Z,
             target: Vec3::ZERO,
@@ -176,7 +176,7 @@ fn around(name: &str, model: Model) -> Result<Scene> {
     let radius = 0.5 * bounds.size().length();
     ensure!(radius > 0.0, "all its vertices are at one point");
     place(&mut scene, &bounds, radius);
-    let far = [scene.light.truncate(), scene.camera.eye].map(|p| p.length_squared());
+    let far = [scene.light().place.truncate(), scene.camera.eye].map(|p| p.length_squared());
     ensure!(
         far.iter().all(|d| d.is_finite()) && (40.0 * radius) < f64::from(f32::MAX),
         "its size or place is too large for single precision"
@@ -189,8 +189,7 @@ fn around(name: &str, model: Model) -> Result<Scene> {
 fn place(scene: &mut Scene, bounds: &Bounds, radius: f64) {
     let centre = bounds.centre();
     let light = centre + radius * dvec3(0.917, 2.131, 1.073);
-    scene.light = light.as_vec3().extend(1.0);
-    scene.range = (12.0 * radius) as f32;
+    *scene.light_mut() = Light::new(light.as_vec3().extend(1.0), (12.0 * radius) as f32);
     // Room for the ball and for the shadow beside it.
     let distance = 1.35 * radius / f64::from(0.5 * scene.camera.fovy).sin();
     let towards: DVec3 = dvec3(-0.381, 0.473, 1.0).normalize();
@@ -211,5 +210,6 @@ fn add_ground(scene: &mut Scene) {
         transform: Affine3A::from_translation(centre.as_vec3()),
         casts: false,
         albedo: GREY,
+        glow: [0.0; 3],
     });
 }

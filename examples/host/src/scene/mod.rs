@@ -1,4 +1,4 @@
-//! What the examples, tests and benchmarks look at: meshes, objects, one light and one camera.
+//! What the examples, tests and benchmarks look at: meshes, objects, lights and one camera.
 //!
 //! Metres, right-handed, Y up, triangles counter-clockwise seen from outside. Nothing in here needs
 //! a GPU.
@@ -7,21 +7,30 @@ use shadows::DepthConvention;
 use shadows::glam::camera::rh::{proj::directx, view::look_at_mat4};
 use shadows::glam::{Affine3A, DAffine3, DMat3, DVec3, Mat4, Vec3, Vec4};
 
+pub mod city;
 pub mod courtyard;
 pub mod file;
 pub mod ironwork;
+mod kit;
+pub mod leaf_mask;
+mod light;
 pub mod masonry;
+pub mod plants;
 pub mod spheres;
 pub mod surface;
 pub mod teapot;
+pub mod valley;
 
+pub use city::city;
 pub use courtyard::courtyard;
 pub use file::file;
+pub use light::{Cone, Light, LightKind, Sky};
 pub use spheres::{spheres, spheres_moving};
 pub use teapot::teapot;
+pub use valley::valley;
 
 /// Names of the built-in scenes, as [`load`] takes them.
-pub const NAMES: [&str; 3] = ["spheres", "courtyard", "teapot"];
+pub const NAMES: [&str; 5] = ["spheres", "courtyard", "teapot", "city", "valley"];
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +43,9 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Three per triangle, counter-clockwise seen from outside; all below `positions.len()`.
     pub indices: Vec<u32>,
+    /// Of what leaves are cut out of by a mask: each vertex's place in it, as [`leaf_mask::is_leaf`] takes it.
+    /// Empty where nothing is cut out.
+    pub mask: Vec<[f32; 2]>,
 }
 
 impl Mesh {
@@ -61,6 +73,8 @@ pub struct Object {
     pub casts: bool,
     /// Linear diffuse reflectance, 0 to 1.
     pub albedo: [f32; 3],
+    /// Linear light that it gives off itself, to be seen, not to light others.
+    pub glow: [f32; 3],
 }
 
 impl Object {
@@ -157,37 +171,6 @@ impl Bounds {
     }
 }
 
-/// The kinds of light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightKind {
-    /// In all directions from one place.
-    Point,
-    /// From one place into a cone.
-    Spot,
-    /// Parallel.
-    Directional,
-}
-
-impl LightKind {
-    /// In reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Spot => "spot",
-            Self::Directional => "directional",
-        }
-    }
-}
-
-/// Where a spot shines.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cone {
-    /// Of any length but 0, world space.
-    pub direction: Vec3,
-    /// From the direction to the cone's side, in radians.
-    pub half_angle: f32,
-}
-
 /// Everything a picture needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -197,14 +180,10 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// What is seen.
     pub objects: Vec<Object>,
-    /// Homogeneous light, world space: a point (w = 1) or the direction to the light (w = 0).
-    pub light: Vec4,
-    /// Into which the light shines, if it is a spot.
-    pub cone: Option<Cone>,
-    /// Distance in metres at which a point light ends.
-    pub range: f32,
-    /// Near plane of the light's shadow map in metres, if not where the map puts it.
-    pub shadow_near: Option<f32>,
+    /// At least one; the first is the one for whoever takes only one.
+    pub lights: Vec<Light>,
+    /// What is behind everything.
+    pub sky: Sky,
     /// The view.
     pub camera: Camera,
     /// What the file it came from holds besides, and how much of it.
@@ -252,8 +231,9 @@ impl Scene {
         range: Option<f32>,
         camera: Option<(Vec3, Vec3, Option<f32>)>,
     ) {
-        self.light = light.unwrap_or(self.light);
-        self.range = range.unwrap_or(self.range);
+        let first = self.light_mut();
+        first.place = light.unwrap_or(first.place);
+        first.range = range.unwrap_or(first.range);
         if let Some((eye, target, fovy)) = camera {
             self.camera.eye = eye;
             self.camera.target = target;
@@ -261,40 +241,42 @@ impl Scene {
         }
     }
 
-    /// Which kind of light it has.
-    pub fn light_kind(&self) -> LightKind {
-        match (self.light.w == 0.0, self.cone) {
-            (true, _) => LightKind::Directional,
-            (false, Some(_)) => LightKind::Spot,
-            (false, None) => LightKind::Point,
-        }
+    /// The first of its lights.
+    pub fn light(&self) -> &Light {
+        &self.lights[0]
     }
 
-    /// Makes the light one of another kind: a spot shines from its place at the camera's target, as
+    /// The same, to change it.
+    pub fn light_mut(&mut self) -> &mut Light {
+        &mut self.lights[0]
+    }
+
+    /// Makes the first light one of another kind: a spot shines from its place at the camera's target, as
     /// wide as a face of a cube map (45 degrees to each side); a directional light shines from
     /// there, too.
     ///
     /// # Errors
     /// If a directional light is to have a place, or the light is at the camera's target.
     pub fn shine_as(&mut self, kind: LightKind) -> anyhow::Result<()> {
-        if kind == self.light_kind() {
+        if kind == self.light().kind() {
             return Ok(());
         }
         anyhow::ensure!(
-            self.light.w != 0.0,
+            self.light().place.w != 0.0,
             "a directional light has no place to shine from; give one with --light X,Y,Z"
         );
-        let toward_light = self.light.truncate() - self.camera.target;
+        let toward_light = self.light().place.truncate() - self.camera.target;
         anyhow::ensure!(
             kind == LightKind::Point || toward_light != Vec3::ZERO,
             "the light is at the camera's target, so it has no direction; move one of them"
         );
-        self.cone = (kind == LightKind::Spot).then_some(Cone {
+        let light = self.light_mut();
+        light.cone = (kind == LightKind::Spot).then_some(Cone {
             direction: -toward_light,
             half_angle: std::f32::consts::FRAC_PI_4,
         });
         if kind == LightKind::Directional {
-            self.light = toward_light.extend(0.0);
+            light.place = toward_light.extend(0.0);
         }
         Ok(())
     }
@@ -305,10 +287,8 @@ impl Scene {
             name: name.into(),
             meshes: Vec::new(),
             objects: Vec::new(),
-            light: Vec4::Y,
-            cone: None,
-            range: 100.0,
-            shadow_near: None,
+            lights: vec![Light::new(Vec4::Y, 100.0)],
+            sky: Sky::default(),
             camera: Camera {
                 eye: Vec3::new(0.0, 5.0, 10.0),
                 target: Vec3::ZERO,
@@ -326,15 +306,42 @@ impl Scene {
     }
 }
 
+/// When it is, in scenes that have days and nights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Time {
+    /// Under a sun.
+    Day,
+    /// Under lamps.
+    Night,
+}
+
+/// The times of a built-in scene, the usual first; none for a scene whose light is always the same.
+pub fn times(name: &str) -> &'static [Time] {
+    match name {
+        "city" => &[Time::Day, Time::Night],
+        "valley" => &[Time::Day],
+        _ => &[],
+    }
+}
+
 /// A built-in scene by name (one of [`NAMES`]), or a model file.
 ///
-/// `ground` puts a model file on a ground square; built-in scenes bring their own.
+/// `ground` puts a model file on a ground square; built-in scenes bring their own. `time` is one of
+/// [`times`], or `None` for the usual one.
 ///
 /// # Errors
-/// One line that names the file and what is wrong with it.
-pub fn load(spec: &str, ground: bool) -> anyhow::Result<Scene> {
+/// One line that names the file and what is wrong with it, or the scene that has no such time.
+pub fn load(spec: &str, ground: bool, time: Option<Time>) -> anyhow::Result<Scene> {
+    let times = times(spec);
+    match time {
+        Some(_) if times.is_empty() => anyhow::bail!("it has no day and no night"),
+        Some(Time::Night) if !times.contains(&Time::Night) => anyhow::bail!("it has no night"),
+        _ => {}
+    }
     match spec {
         "spheres" => Ok(spheres()),
+        "city" => Ok(city(time.unwrap_or(times[0]))),
+        "valley" => Ok(valley()),
         "courtyard" => Ok(courtyard()),
         "teapot" => Ok(teapot()),
         path => file(std::path::Path::new(path), ground),
@@ -354,5 +361,6 @@ pub fn square(name: &str, centre: Vec3, half: f32) -> Mesh {
         ],
         normals: vec![[0.0, 1.0, 0.0]; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
+        mask: Vec::new(),
     }
 }

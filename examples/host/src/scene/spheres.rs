@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use shadows::glam::{Affine3A, DVec3, Vec3, Vec4};
 
-use super::{Camera, Mesh, Object, Scene, square};
+use super::{Camera, Light, Mesh, Object, Scene, Sky, square};
 
 const COUNT: u32 = 64;
 const RADIUS: f64 = 0.4;
@@ -30,6 +30,7 @@ pub fn spheres_moving(time: f64) -> Scene {
         transform: Affine3A::IDENTITY,
         casts: false,
         albedo: [0.55, 0.54, 0.52],
+        glow: [0.0; 3],
     });
     scene.objects.extend((0..COUNT).map(|i| Object {
         name: format!("sphere {i}"),
@@ -37,6 +38,7 @@ pub fn spheres_moving(time: f64) -> Scene {
         transform: Affine3A::from_translation((centre(i) + displacement(i, time)).as_vec3()),
         casts: true,
         albedo: [0.75, 0.45 + 0.1 * (i % 4) as f32, 0.35],
+        glow: [0.0; 3],
     }));
     scene
 }
@@ -46,10 +48,8 @@ fn empty() -> Scene {
         name: "spheres".into(),
         meshes: Vec::new(),
         objects: Vec::new(),
-        light: Vec4::new(0.0, 4.0, 0.0, 1.0),
-        cone: None,
-        range: 30.0,
-        shadow_near: None,
+        lights: vec![Light::new(Vec4::new(0.0, 4.0, 0.0, 1.0), 30.0)],
+        sky: Sky::default(),
         camera: Camera {
             eye: Vec3::new(0.0, 9.0, 16.0),
             target: Vec3::new(0.0, 0.5, 0.0),
@@ -96,6 +96,7 @@ fn sphere() -> Mesh {
             .collect(),
         normals: normals.iter().map(|n| n.as_vec3().to_array()).collect(),
         indices,
+        mask: Vec::new(),
     }
 }
 

@@ -195,6 +195,7 @@ impl Surface {
             positions: Vec::new(),
             normals: Vec::new(),
             indices: Vec::with_capacity(3 * self.triangles.len()),
+            mask: Vec::new(),
         };
         let mut seen: HashMap<(u32, [u32; 3]), u32> = HashMap::new();
         for (own, t) in faces.iter().zip(&self.triangles) {

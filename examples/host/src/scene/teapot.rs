@@ -3,7 +3,7 @@
 
 use shadows::glam::{Affine3A, DVec3, Vec3, Vec4, dvec3, vec3};
 
-use super::{Camera, Mesh, Object, Scene, square};
+use super::{Camera, Light, Mesh, Object, Scene, Sky, square};
 
 /// Pieces along each side of a patch.
 const PIECES: u32 = 16;
@@ -74,6 +74,7 @@ pub fn teapot() -> Scene {
         transform: Affine3A::IDENTITY,
         casts,
         albedo,
+        glow: [0.0; 3],
     };
     Scene {
         name: "teapot".into(),
@@ -82,10 +83,8 @@ pub fn teapot() -> Scene {
             object("ground", 0, false, [0.55, 0.54, 0.52]),
             object("teapot", 1, true, [0.7, 0.62, 0.5]),
         ],
-        light: Vec4::new(3.37, 6.61, 2.83, 1.0),
-        cone: None,
-        range: 30.0,
-        shadow_near: None,
+        lights: vec![Light::new(Vec4::new(3.37, 6.61, 2.83, 1.0), 30.0)],
+        sky: Sky::default(),
         camera: Camera {
             eye: vec3(-2.3, 4.9, 8.9),
             target: vec3(-0.2, 0.9, -0.3),
@@ -104,6 +103,7 @@ pub fn teapot_mesh(pieces: u32) -> Mesh {
         positions: Vec::new(),
         normals: Vec::new(),
         indices: Vec::new(),
+        mask: Vec::new(),
     };
     for patch in patches() {
         patch.tessellate(pieces, &mut mesh);

@@ -1,20 +1,30 @@
 // A plain forward renderer's shaders. `shadows_clip_position` comes from the library's
 // `wgsl::POSITION`: depths are then bit-equal in every pass, the shadow volumes' included.
 
-struct HostFrame {
-    clip_from_world: mat4x4f,
-    eye: vec4f,
-    light: vec4f, // homogeneous
+struct HostLight {
+    place: vec4f, // homogeneous
     cone: vec4f, // unit direction, cosine of the half angle
+    color: vec4f,
     range: f32,
     intensity: f32,
-    ambient: f32,
+    number: u32,
+}
+
+struct HostFrame {
+    clip_from_world: mat4x4f,
+    world_from_clip: mat4x4f,
+    eye: vec4f,
+    ambient: vec4f, // colour; the part of what is seen that the air swallows in a metre
+    horizon: vec4f,
+    zenith: vec4f,
+    light: HostLight,
 }
 
 struct HostObject {
     world_from_object: mat4x4f,
     normal_from_object: mat3x3f,
     albedo: vec4f,
+    glow: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> host_frame: HostFrame;
@@ -70,11 +80,18 @@ struct HostReceiver {
     flat_normal: vec3f,
     normal: vec3f,
     pixel: vec2f,
+    light: u32, // its place among the lights
 }
 
 fn host_receiver(in: HostFragment) -> HostReceiver {
     let flat_normal = host_flat_normal(in.world);
-    return HostReceiver(in.world, flat_normal, host_normal(in, flat_normal), in.clip.xy);
+    let normal = host_normal(in, flat_normal);
+    return HostReceiver(in.world, flat_normal, normal, in.clip.xy, host_frame.light.number);
+}
+
+// How much of what is seen comes through the air: Beer's law.
+fn host_clear_air(world: vec3f) -> f32 {
+    return exp(-host_frame.ambient.w * distance(world, host_frame.eye.xyz));
 }
 
 @fragment
@@ -82,7 +99,8 @@ fn host_ambient(in: HostFragment) -> @location(0) vec4f {
     let normal = host_normal(in, host_flat_normal(in.world));
     // More light from above than from below, so that what lies in shadow keeps its form.
     let sky = 0.65 + 0.35 * normal.y;
-    return vec4f(host_object.albedo.rgb * host_frame.ambient * sky, 1.0);
+    let own = host_object.albedo.rgb * host_frame.ambient.rgb * sky + host_object.glow.rgb;
+    return vec4f(mix(host_frame.horizon.rgb, own, host_clear_air(in.world)), 1.0);
 }
 
 // Whether light ends where the smoothed normal turns away, not already where the triangle does.
@@ -95,21 +113,22 @@ struct HostLit {
 
 // Diffuse light: zero at the range with no step there (Karis, "Real Shading in Unreal Engine 4",
 // 2013), and bounded by 1 however near the light is.
-fn host_light(in: HostFragment, visibility: f32) -> HostLit {
+fn host_shade(in: HostFragment, visibility: f32) -> HostLit {
     let flat_normal = host_flat_normal(in.world);
     let normal = host_normal(in, flat_normal);
-    let toward_light = host_frame.light.xyz - host_frame.light.w * in.world;
+    let toward_light = host_frame.light.place.xyz - host_frame.light.place.w * in.world;
     let squared = dot(toward_light, toward_light);
-    let ratio = squared / (host_frame.range * host_frame.range);
+    let ratio = squared / (host_frame.light.range * host_frame.light.range);
     let window = saturate(1.0 - ratio * ratio);
-    let along = -dot(host_frame.cone.xyz, toward_light) * inverseSqrt(squared);
-    let near_falloff = select(0.0, window * window / squared, along >= host_frame.cone.w);
+    let along = -dot(host_frame.light.cone.xyz, toward_light) * inverseSqrt(squared);
+    let near_falloff = select(0.0, window * window / squared, along >= host_frame.light.cone.w);
     // No branch on what a uniform buffer says: Mesa's lavapipe would compile the shader anew for its
     // values at each draw.
-    let falloff = select(1.0, near_falloff, host_frame.light.w != 0.0);
+    let falloff = select(1.0, near_falloff, host_frame.light.place.w != 0.0);
     let cosine = saturate(dot(normal, toward_light) * inverseSqrt(squared));
     let facing = select(0.0, 1.0, host_smooth || dot(flat_normal, toward_light) > 0.0);
-    let light = 1.0 - exp(-host_frame.intensity * falloff * cosine * facing);
-    let diffuse = host_object.albedo.rgb * (1.0 - host_frame.ambient) * light;
-    return HostLit(vec4f(diffuse * visibility, 0.0), visibility);
+    let light = 1.0 - exp(-host_frame.light.intensity * falloff * cosine * facing);
+    let diffuse = host_object.albedo.rgb * (1.0 - host_frame.ambient.rgb) * light;
+    let seen = diffuse * host_frame.light.color.rgb * host_clear_air(in.world);
+    return HostLit(vec4f(seen * visibility, 0.0), visibility);
 }

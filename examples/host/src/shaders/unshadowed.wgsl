@@ -1,5 +1,5 @@
 // The lit pass where the stencil test decides, or nothing does: what is drawn is lit.
 @fragment
 fn host_lit(in: HostFragment) -> HostLit {
-    return host_light(in, 1.0);
+    return host_shade(in, 1.0);
 }

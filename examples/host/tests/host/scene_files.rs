@@ -68,10 +68,10 @@ fn the_picture_of_a_model_does_not_depend_on_its_unit() {
     };
     let [metre, large] = [1.0, 1024.0].map(scaled);
     let same = |a: f32, b: f32| (a * 1024.0 - b).abs() <= 4.0 * f32::EPSILON * b.abs();
-    assert!(same(metre.range, large.range));
+    assert!(same(metre.light().range, large.light().range));
     assert!(same(metre.camera.near, large.camera.near));
     for i in 0..3 {
-        assert!(same(metre.light[i], large.light[i]));
+        assert!(same(metre.light().place[i], large.light().place[i]));
         assert!(same(metre.camera.eye[i], large.camera.eye[i]));
         assert!(!same(metre.camera.eye[i], 1.01 * large.camera.eye[i]));
     }
@@ -93,8 +93,8 @@ fn the_whole_model_is_in_the_picture_and_in_range() {
             let p = p.as_vec3();
             let c = clip * p.extend(1.0);
             assert!(c.w > scene.camera.near && c.x.abs() < c.w && c.y.abs() < c.w);
-            let distance = p.distance(scene.light.truncate());
-            assert!(distance < scene.range);
+            let distance = p.distance(scene.light().place.truncate());
+            assert!(distance < scene.light().range);
         }
     }
 }

@@ -5,10 +5,26 @@ use std::path::{Path, PathBuf};
 
 use shadows::glam::{DVec3, Vec3, Vec4};
 
-// Each program that shares these modules uses a part of them.
-
 use host::ply;
-use host::scene::{self, Mesh, Scene};
+use host::scene::plants::Leaves;
+use host::scene::valley::valley_with;
+use host::scene::{self, LightKind, Mesh, Scene, Time};
+
+/// All built-in ones, the city by night as well, the valley with cards for leaves as well.
+fn all() -> Vec<Scene> {
+    let mut all: Vec<Scene> = scene::NAMES
+        .iter()
+        .map(|name| scene::load(name, true, None).unwrap())
+        .collect();
+    all.push(scene::city(Time::Night));
+    all.push(valley_with(Leaves::Masked));
+    all
+}
+
+/// Leaves and blades of grass are sheets.
+fn is_open(mesh: &Mesh) -> bool {
+    ["leaves", "grass"].contains(&mesh.name.as_str())
+}
 
 /// A scene's meshes that cast.
 fn casting(scene: &Scene) -> Vec<&Mesh> {
@@ -73,8 +89,12 @@ fn flipped(mesh: &Mesh) -> Mesh {
 
 #[test]
 fn casting_meshes_are_closed_and_wound_outward() {
-    for scene in [scene::spheres(), scene::courtyard()] {
+    for scene in all() {
         for mesh in casting(&scene) {
+            if scene.name == "teapot" || is_open(mesh) {
+                assert!(open_edges(mesh) > 0, "{} is known to be open", mesh.name);
+                continue;
+            }
             assert_eq!(open_edges(mesh), 0, "{} is not closed", mesh.name);
             assert!(signed_volume(mesh) > 0.0, "{} is inside out", mesh.name);
 
@@ -92,7 +112,7 @@ fn casting_meshes_are_closed_and_wound_outward() {
 
 #[test]
 fn normals_are_unit_and_on_the_outside() {
-    for scene in [scene::spheres(), scene::courtyard(), scene::teapot()] {
+    for scene in all() {
         for mesh in &scene.meshes {
             assert_eq!(bad_normals(mesh), 0, "{} of {}", mesh.name, scene.name);
             let corners = mesh.indices.len();
@@ -103,9 +123,15 @@ fn normals_are_unit_and_on_the_outside() {
 
 #[test]
 fn every_index_names_a_vertex_and_every_object_a_mesh() {
-    for scene in [scene::spheres(), scene::courtyard(), scene::teapot()] {
+    for scene in all() {
         for mesh in &scene.meshes {
             assert_eq!(mesh.positions.len(), mesh.normals.len());
+            let masked = mesh.mask.len();
+            assert!(
+                masked == 0 || masked == mesh.positions.len(),
+                "{}",
+                mesh.name
+            );
             assert_eq!(mesh.indices.len() % 3, 0);
             let most = mesh.indices.iter().max().copied();
             assert_eq!(most, Some(mesh.positions.len() as u32 - 1), "{}", mesh.name);
@@ -128,7 +154,7 @@ fn the_sphere_scene_is_the_published_one() {
     assert_eq!(scene.objects.iter().filter(|o| o.casts).count(), 64);
     assert_eq!(scene.caster_triangle_count(), 64 * 1536);
     assert_eq!(scene.triangle_count(), 64 * 1536 + 2);
-    assert_eq!(scene.light, Vec4::new(0.0, 4.0, 0.0, 1.0));
+    assert_eq!(scene.light().place, Vec4::new(0.0, 4.0, 0.0, 1.0));
 
     // Sphere 5 by hand: r = 2 + 7 sqrt(5.5 / 64), theta = 5 golden angles, second height.
     let r = 2.0 + 7.0 * (5.5_f64 / 64.0).sqrt();
@@ -139,7 +165,7 @@ fn the_sphere_scene_is_the_published_one() {
 
     // Above every caster's silhouette from the light, as the scene promises for its +Y face.
     let reach = scene.caster_bounds();
-    assert!(reach.max.y < f64::from(scene.light.y) && reach.min.y > 0.0);
+    assert!(reach.max.y < f64::from(scene.light().place.y) && reach.min.y > 0.0);
 }
 
 #[test]
@@ -155,11 +181,17 @@ fn moving_spheres_start_where_they_stand_and_stay_above_the_ground() {
 #[test]
 fn scenes_are_the_same_each_time() {
     for name in scene::NAMES {
-        let [first, second] = [(); 2].map(|()| scene::load(name, true).unwrap());
-        assert_eq!(first, second);
-        assert_eq!(first.name, name);
+        let times = scene::times(name).iter().copied().map(Some);
+        for time in times.chain([None]) {
+            let [first, second] = [(); 2].map(|()| scene::load(name, true, time).unwrap());
+            assert_eq!(first, second);
+            assert_eq!(first.name, name);
+        }
     }
-    assert_ne!(scene::load("spheres", true).unwrap(), scene::courtyard());
+    assert_ne!(
+        scene::load("spheres", true, None).unwrap(),
+        scene::courtyard()
+    );
 }
 
 #[test]
@@ -202,9 +234,22 @@ fn winding(scene: &Scene, from: DVec3) -> i32 {
 
 #[test]
 fn light_and_camera_are_outside_all_casters() {
-    for scene in [scene::spheres(), scene::courtyard()] {
-        let light = scene.light.truncate().as_dvec3();
-        assert_eq!(winding(&scene, light), 0, "{}: light", scene.name);
+    for mut scene in [
+        scene::spheres(),
+        scene::courtyard(),
+        scene::city(Time::Night),
+    ] {
+        // Leaves have no inside.
+        scene.objects.retain(|object| object.casts);
+        for light in scene.lights.iter().step_by(scene.lights.len().div_ceil(12)) {
+            let light = light.place.truncate().as_dvec3();
+            assert_eq!(
+                winding(&scene, light),
+                0,
+                "{}: light at {light}",
+                scene.name
+            );
+        }
         let eye = scene.camera.eye.as_dvec3();
         assert_eq!(winding(&scene, eye), 0, "{}: camera", scene.name);
 
@@ -311,7 +356,7 @@ fn overrides_replace_only_what_is_given() {
     assert_eq!(scene, scene::spheres());
     let light = Vec4::new(1.0, 2.0, 3.0, 0.0);
     scene.override_with(Some(light), Some(7.0), Some((Vec3::ONE, Vec3::ZERO, None)));
-    assert_eq!((scene.light, scene.range), (light, 7.0));
+    assert_eq!((scene.light().place, scene.light().range), (light, 7.0));
     assert_eq!(scene.camera.fovy, scene::spheres().camera.fovy);
     scene.override_with(None, None, Some((Vec3::X, Vec3::ZERO, Some(1.0))));
     assert_eq!((scene.camera.eye, scene.camera.fovy), (Vec3::X, 1.0));
@@ -365,4 +410,136 @@ fn temporary(name: &str) -> PathBuf {
     let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scenes");
     std::fs::create_dir_all(&dir).unwrap();
     dir.join(name)
+}
+
+#[test]
+fn the_city_is_many_casters_of_a_few_meshes() {
+    let day = scene::city(Time::Day);
+    let casters = day.objects.iter().filter(|object| object.casts).count();
+    assert!((1_700..2_300).contains(&casters), "{casters} casters");
+    assert!(day.meshes.len() < 100, "{} meshes", day.meshes.len());
+    let triangles = day.caster_triangle_count();
+    assert!(
+        (200_000..600_000).contains(&triangles),
+        "{triangles} triangles"
+    );
+    assert_eq!(day.lights.len(), 1);
+    assert_eq!(day.light().kind(), LightKind::Directional);
+    assert!(day.objects.iter().all(|object| object.glow == [0.0; 3]));
+    // By night it is the same town, and rooms are lit.
+    let night = scene::city(Time::Night);
+    assert_eq!(night.meshes, day.meshes);
+    let places = |scene: &Scene| -> Vec<_> {
+        scene
+            .objects
+            .iter()
+            .map(|o| (o.mesh, o.transform))
+            .collect()
+    };
+    assert_eq!(places(&night), places(&day));
+    assert!(night.objects.iter().any(|object| object.glow != [0.0; 3]));
+}
+
+#[test]
+fn a_thousand_lights_of_mixed_kinds_are_lit_by_night_lamps_near_the_eye_first() {
+    let night = scene::city(Time::Night);
+    assert_eq!(night.lights.len(), 1_000);
+    let eye = night.camera.eye;
+    for lamp in &night.lights[..16] {
+        assert_eq!(lamp.kind(), LightKind::Point);
+        assert!(lamp.place.truncate().distance(eye) < 60.0);
+    }
+    let of = |kind| {
+        night
+            .lights
+            .iter()
+            .filter(|light| light.kind() == kind)
+            .count()
+    };
+    let [points, spots] = [of(LightKind::Point), of(LightKind::Spot)];
+    assert!(
+        points > 200 && spots > 200,
+        "{points} points, {spots} spots"
+    );
+    assert_eq!(points + spots, 1_000);
+    let mut ranges: Vec<f32> = night.lights.iter().map(|light| light.range).collect();
+    ranges.sort_by(f32::total_cmp);
+    ranges.dedup();
+    assert!(ranges.len() >= 4, "ranges {ranges:?}");
+    let far = night
+        .lights
+        .iter()
+        .map(|light| light.place.truncate().distance(eye));
+    assert!(far.fold(0.0, f32::max) > 120.0);
+    // No two at one place.
+    let mut places: Vec<[u32; 3]> = night
+        .lights
+        .iter()
+        .map(|light| light.place.truncate().to_array().map(f32::to_bits))
+        .collect();
+    places.sort_unstable();
+    places.dedup();
+    assert_eq!(places.len(), 1_000);
+}
+
+#[test]
+fn the_valley_is_a_kilometre_of_land_whose_blocks_share_their_edges() {
+    let valley = scene::valley();
+    let land: Vec<&Mesh> = valley
+        .meshes
+        .iter()
+        .filter(|mesh| mesh.name.starts_with("ground"))
+        .collect();
+    let points = land.iter().flat_map(|mesh| &mesh.positions);
+    let bounds = scene::Bounds::of(points.map(|p| Vec3::from(*p).as_dvec3()));
+    assert_eq!((bounds.size().x, bounds.size().z), (1000.0, 1000.0));
+    // Every corner of the surface inside the land's outline belongs to the surface all around.
+    let place = |mesh: &Mesh, i: u32| mesh.positions[i as usize].map(f32::to_bits);
+    let mut uses: HashMap<_, i32> = HashMap::new();
+    for mesh in &land {
+        for t in mesh.triangles() {
+            let up = t.iter().all(|i| mesh.normals[*i as usize][1] > 0.0);
+            for k in 0..if up { 3 } else { 0 } {
+                let (a, b) = (place(mesh, t[k]), place(mesh, t[(k + 1) % 3]));
+                *uses.entry((a, b)).or_default() += 1;
+                *uses.entry((b, a)).or_default() -= 1;
+            }
+        }
+    }
+    let half = 500.0_f32;
+    let outline = |p: &[u32; 3]| {
+        let [x, _, z] = p.map(f32::from_bits);
+        x.abs() == half || z.abs() == half
+    };
+    let open = uses.iter().filter(|(_, n)| **n != 0);
+    let inner = open
+        .clone()
+        .filter(|((a, b), _)| !(outline(a) && outline(b)));
+    assert_eq!(inner.count(), 0);
+    assert!(open.count() > 400, "the outline itself is open");
+}
+
+#[test]
+fn leaves_are_of_one_kind_and_everything_else_of_the_valley_is_the_same() {
+    let [solid, masked] = [Leaves::Solid, Leaves::Masked].map(valley_with);
+    assert!(solid.meshes.iter().all(|mesh| mesh.mask.is_empty()));
+    let mut crowns = 0;
+    for (a, b) in solid.meshes.iter().zip(&masked.meshes) {
+        match a.name.as_str() {
+            "leaves" => {
+                crowns += 1;
+                assert_eq!(b.mask.len(), b.positions.len());
+            }
+            _ => assert_eq!(a, b),
+        }
+    }
+    assert!(crowns >= 8);
+    assert_eq!(solid.objects, masked.objects);
+    let casters = solid.objects.iter().filter(|object| object.casts).count();
+    assert!(casters > 1_000, "{casters} casters");
+    let triangles = solid.caster_triangle_count();
+    assert!(
+        (200_000..600_000).contains(&triangles),
+        "{triangles} triangles"
+    );
 }

@@ -124,7 +124,7 @@ fn above_hills(height: f32, random: &mut Random) -> Situation {
             .bare()
             .caster(&hills, Affine3A::IDENTITY)
             .camera(eye, Vec3::new(0.0, 0.0, -20.0));
-    situation.scene.range = 1000.0;
+    situation.scene.light_mut().range = 1000.0;
     situation
 }
 
@@ -211,7 +211,7 @@ fn range(random: &mut Random) -> Vec<Situation> {
             let mut situation = Situation::new(format!("range {range}"), light, random)
                 .caster(&shapes::cube().tilted(), at(-1.0, 1.9, 0.5))
                 .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
-            situation.scene.range = range;
+            situation.scene.light_mut().range = range;
             situation
         })
         .collect();
@@ -231,7 +231,7 @@ fn at_the_range(range: f32, random: &mut Random) -> Situation {
         .receiver(&shapes::square(1e-3), Affine3A::IDENTITY)
         .caster(&shapes::sphere(10), at(1.0, 2.0, 1.0))
         .camera(Vec3::new(2e-4, 3e-3, 2e-3), Vec3::ZERO);
-    situation.scene.range = range;
+    situation.scene.light_mut().range = range;
     situation.scene.camera.near = 1e-4;
     situation.no_shadow_in_view = true;
     situation
@@ -272,7 +272,7 @@ fn inside_near(random: &mut Random) -> Vec<Situation> {
             Affine3A::from_translation(below) * Affine3A::from_scale(Vec3::splat(0.05)),
         )
         .caster(&shapes::sphere(12), at(1.5, 1.4, 0.5));
-    situation.scene.shadow_near = Some(1.0);
+    situation.scene.light_mut().near = Some(1.0);
     with_spots(vec![situation], Vec3::ZERO, 40.0)
 }
 

@@ -211,6 +211,6 @@ fn directions() -> impl Iterator<Item = Vec3> {
 fn long_range(random: &mut Random) -> Vec<Situation> {
     let light = crate::hard::situation::lamp(random);
     let mut situation = mixed("range 1000".into(), light, random);
-    situation.scene.range = 1000.0;
+    situation.scene.light_mut().range = 1000.0;
     vec![situation]
 }

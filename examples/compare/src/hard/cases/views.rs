@@ -53,7 +53,7 @@ fn views(scene: Scene, random: &mut Random) -> Vec<Situation> {
                 Vec3::new(to.x, to.y.max(0.5 * from.y), to.z)
             };
             scene.camera.eye = moved(scene.camera.eye);
-            scene.light = moved(scene.light.truncate()).extend(1.0);
+            scene.light_mut().place = moved(scene.light().place.truncate()).extend(1.0);
             Situation::of(format!("view {view}"), scene)
         })
         .collect()
