@@ -47,7 +47,7 @@ fn near_point(position: vec3f) -> vec4f {
 }
 
 // From the light to a vertex, in world space. What is far from both is taken off where it is known
-// beyond f32, on the CPU: of a light at the caster's skin, little would be left in world space, and
+// beyond f32, on the CPU: of a light at the caster's surface, little would be left in world space, and
 // nothing of its side. Whatever the order of these sums, they round by no more than their own length
 // (and the mesh's) allows.
 fn from_light(position: vec3f) -> vec3f {

@@ -1,4 +1,4 @@
-// On which side of a triangle the light lies. The one rule behind every way to find silhouettes;
+// On which side of a triangle the light lies. The one predicate behind every way to find silhouettes;
 // `light_side.rs` follows it operation by operation.
 
 // A power of two that brings the largest component into [1, 2): exact, and no product of three

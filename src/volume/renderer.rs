@@ -1,20 +1,20 @@
 //! The renderer: prepare, encode, render.
 
+mod inspect;
+mod upload;
+
 use crate::DepthConvention;
 use crate::error::{ShadowVolumeError, VolumeRenderError};
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
-use crate::volume::decide::decision::words;
 use crate::volume::decide::method::Options;
-use crate::volume::gpu::bind_groups::{Groups, Parts};
-use crate::volume::gpu::buffers::{Buffers, Needs};
+use crate::volume::gpu::bind_groups::Groups;
+use crate::volume::gpu::buffers::Buffers;
 use crate::volume::gpu::draw_calls::record;
 use crate::volume::gpu::draw_pipelines;
 use crate::volume::gpu::pipelines::{OwnPipelines, VolumePipelines};
-use crate::volume::gpu::staged::StagedVolumes;
 use crate::volume::plan::batches::{Batch, Batches};
 use crate::volume::plan::cache::{Slot, VolumeCache};
-use crate::volume::plan::count_bound;
 use crate::volume::plan::faces::Draw;
 use crate::volume::plan::limits::PlanLimits;
 use crate::volume::plan::pair::Pair;
@@ -22,9 +22,7 @@ use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
 use crate::volume::plan::scene::Requirements;
 use crate::volume::plan::volumes::{Volumes, check_counts, light_params, view_params};
 use crate::volume::silhouette::{CpuVolume, Way, Ways, workgroups};
-use crate::volume::{
-    CasterState, Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics,
-};
+use crate::volume::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 
 /// Stencil shadow volumes of all lights of a frame, in all its views, for any number of casters.
 ///
@@ -360,203 +358,6 @@ impl ShadowVolumeRenderer {
     /// pass, or clear it to 0 in another and keep the depth.
     pub fn light_pass_stencil() -> wgpu::StencilState {
         draw_pipelines::light_pass()
-    }
-
-    /// What the last [`prepare`](Self::prepare) came to, of all lights and views together.
-    pub fn statistics(&self) -> VolumeStatistics {
-        self.statistics
-    }
-
-    /// What was decided under one light in one view for each caster of the last frame that was
-    /// prepared, in the frame's order. Empty if the frame had no such light or view.
-    pub fn caster_states(&self, light: usize, view: usize) -> Vec<CasterState> {
-        let Some(pair) = self.volumes.pair(light, view) else {
-            return Vec::new();
-        };
-        let numbers = self.volumes.casters.numbers().iter();
-        numbers.filter_map(|&number| pair.state(number)).collect()
-    }
-
-    /// What the debug views draw from.
-    pub(crate) fn drawn(&self, light: usize, view: usize) -> Result<Drawn<'_>, VolumeRenderError> {
-        let [lights, views] = self.volumes.counts();
-        let no_such = VolumeRenderError::NoSuch {
-            light,
-            view,
-            lights,
-            views,
-        };
-        Ok(Drawn {
-            pair: self.volumes.pair(light, view).ok_or(no_such)?,
-            volumes: &self.volumes,
-            cache: &self.cache,
-            buffers: &self.buffers,
-            view: self.views.get(view).ok_or(no_such)?,
-            light: self.lights.get(light).ok_or(no_such)?,
-        })
-    }
-
-    pub(crate) fn depth(&self) -> DepthConvention {
-        self.depth
-    }
-
-    pub(crate) fn options(&self) -> Options {
-        self.options
-    }
-
-    /// Sets the bind group that a draw reads, under the light and in the view of this place, if it is
-    /// there.
-    pub(crate) fn bind_volume(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        draw: &Draw,
-        [light, view]: [usize; 2],
-    ) -> bool {
-        let Some(group) = self.groups.of_window(draw.window) else {
-            return false;
-        };
-        let offsets = [
-            draw.window * self.limits.caster_window,
-            view as u32 * self.limits.view_window,
-            light as u32 * self.limits.light_window,
-        ];
-        pass.set_bind_group(0, group, &offsets);
-        true
-    }
-
-    /// No point visible in a view is in more volumes of a light than this, of those that the last
-    /// [`prepare`](Self::prepare) draws; 0 if the frame had no such light or view.
-    ///
-    /// The bound is 1 for a convex caster and grows with the number of silhouette edges that one
-    /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
-    /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
-    ///
-    /// The first time this takes the CPU once or twice as long as extracting the volumes
-    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)). Each caster's bound is kept with its volume, so where
-    /// nothing moved only the casters are sorted. On the scenes of the example `compare` the bound is 3
-    /// for `spheres`, 17 for `teapot` and 62 for `courtyard`.
-    pub fn count_bound(&mut self, light: usize, view: usize) -> u64 {
-        let pair = self.volumes.pair(light, view);
-        let (Some(pair), Some(light)) = (pair, self.lights.get(light)) else {
-            return 0;
-        };
-        let windows = pair.windows();
-        let windows = windows.filter_map(|number| self.volumes.windows.get(number));
-        let windows: Vec<_> = windows.collect();
-        count_bound::bound(&windows, light, &mut self.cache, &mut self.on_cpu)
-    }
-
-    /// Whether the counter could wrap under a light in a view of the frame prepared last, so that a
-    /// point in shadow would be lit: [`count_bound`](Self::count_bound) is at least 256, or with
-    /// [`Counter::Exact`](crate::Counter::Exact) 2^24.
-    ///
-    /// `false` is certain. `true` may be a false alarm, for the bound is not the count.
-    pub fn may_wrap(&mut self, light: usize, view: usize) -> bool {
-        self.count_bound(light, view) >= self.counter.end()
-    }
-
-    /// Lets go what of the last frame cannot be counted on. Whether it was not encoded, and whether
-    /// an encoder was dropped.
-    fn forget(&mut self) -> [bool; 2] {
-        let dropped = self.submissions.take_dropped();
-        let not_encoded = self.prepared && !self.encoded;
-        if dropped || !self.keep {
-            self.cache.forget_all();
-            self.renew();
-        } else if not_encoded && self.waits {
-            self.cache.forget_last();
-            self.renew();
-        }
-        self.uploads.clear();
-        [not_encoded && self.statistics.draws > 0, dropped]
-    }
-
-    /// Has everything written again.
-    fn renew(&mut self) {
-        self.renewed = true;
-    }
-
-    /// Finds a place for everything that is new, and on the CPU what is found there.
-    fn find(&mut self) -> StagedVolumes {
-        let mut staged = StagedVolumes::default();
-        self.batches = Batches::default();
-        for number in self.cache.take_wanted(&self.limits) {
-            let Some(slot) = self.cache.get(number) else {
-                continue;
-            };
-            let mesh = slot.mesh.clone();
-            match (slot.way, mesh.data()) {
-                (Way::Cpu, Some(data)) => {
-                    let counts = self.on_cpu.extract(data, mesh.kind(), &slot.instance);
-                    self.cache.place_found(number, counts);
-                    if let Some(slot) = self.cache.get(number) {
-                        staged.add(&mut self.uploads, &self.on_cpu, data, slot);
-                    }
-                }
-                (way, _) => self.cache.place(number, words(&mesh, way)),
-            }
-            if self
-                .cache
-                .get(number)
-                .is_some_and(|slot| slot.way == Way::Compute)
-            {
-                self.batches
-                    .add(number, &self.cache, self.limits.workgroups);
-            }
-        }
-        staged
-    }
-
-    /// Has written what changed, and brings the bind groups up to date.
-    fn upload(&mut self, device: &wgpu::Device, staged: StagedVolumes) {
-        self.waits = false;
-        if self.volumes.pairs().all(|pair| pair.draws.is_empty()) {
-            return;
-        }
-        if std::mem::take(&mut self.renewed) {
-            self.volumes.windows.renew(&self.cache);
-            self.buffers.renew();
-        }
-        let changed = self.volumes.windows.take_changed();
-        let needs = Needs {
-            windows: &self.volumes.windows,
-            views: &self.views,
-            lights: &self.lights,
-            batches: &self.batches,
-            cache: &self.cache,
-        };
-        let (uploads, limits) = (&mut self.uploads, &self.limits);
-        self.buffers.reserve(device, uploads, &needs, limits);
-        self.buffers.write(uploads, &needs, &changed, limits);
-        staged.write(uploads, &self.buffers);
-        self.waits = uploads.is_waiting() || !self.batches.list.is_empty();
-        let parts = Parts {
-            device: &self.device,
-            label: &self.label,
-            buffers: &self.buffers,
-            pipelines: &self.pipelines,
-        };
-        let windows = (&self.volumes.windows, &changed[..]);
-        self.groups
-            .update(windows, &self.batches, &self.cache, &parts);
-    }
-
-    fn count(&self) -> VolumeStatistics {
-        let found = self.cache.last_found().iter();
-        let searched = found.filter_map(|&number| self.cache.get(number));
-        let searched = searched.filter(|slot| slot.way != Way::Vertex);
-        let mut statistics = VolumeStatistics {
-            casters_extracted: searched.count() as u32,
-            dispatches: 2 * self.batches.list.len() as u32,
-            uploaded: self.uploads.bytes(),
-            gpu_bytes: self.buffers.bytes(),
-            ..Default::default()
-        };
-        for pair in self.volumes.pairs() {
-            statistics.draws += pair.draws.len() as u32;
-            pair.tally.sum_into(&mut statistics);
-        }
-        statistics
     }
 
     fn dispatch<'a>(

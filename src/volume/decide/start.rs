@@ -2,7 +2,7 @@
 //!
 //! The shadow of a closed mesh is cast by its light-facing triangles; or as well by those turned
 //! away, for whoever stands outside the mesh and looks to a light outside sees as many of one kind
-//! as of the other (see `rule.rs`). The two volumes differ inside the mesh alone. The chain that
+//! as of the other (see `facing.rs`). The two volumes differ inside the mesh alone. The chain that
 //! starts at the far side is the sum of the triangles turned away, each turned over: a light cap
 //! like any other, and everything else of a volume follows from it.
 //!

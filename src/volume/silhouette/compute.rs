@@ -5,7 +5,7 @@ use crate::volume::plan::limits::WORKGROUP;
 use crate::volume::plan::params::BatchParams;
 
 const BATCH: &str = include_str!("../../../shaders/volume_batch.wgsl");
-/// The rule of all ways.
+/// The predicate of all ways.
 pub(crate) const LIGHT_SIDE: &str = include_str!("../../../shaders/volume_light_side.wgsl");
 const FACING: &str = include_str!("../../../shaders/volume_facing.wgsl");
 const EDGES: &str = include_str!("../../../shaders/volume_edges.wgsl");

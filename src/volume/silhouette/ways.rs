@@ -5,7 +5,7 @@ use crate::mesh::CasterMesh;
 use crate::volume::plan::limits;
 
 /// How the silhouettes of casters are found. All ways count the same volumes, but for a light at the
-/// very skin of a triangle: see [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer).
+/// very surface of a triangle: see [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Silhouettes {
