@@ -242,7 +242,9 @@ fn no_shader_of_the_library_escapes() {
     sources(&root, &mut found);
     let makes = |path: &&std::path::PathBuf| {
         let text = std::fs::read_to_string(path).unwrap();
-        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let code = text
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"));
         code.into_iter()
             .any(|line| line.contains(".create_shader_module("))
     };

@@ -100,6 +100,10 @@ fn host_clear_air(world: vec3f) -> f32 {
 
 @fragment
 fn host_ambient(in: HostFragment) -> @location(0) vec4f {
+    return host_ambient_color(in);
+}
+
+fn host_ambient_color(in: HostFragment) -> vec4f {
     let normal = host_normal(in, host_flat_normal(in.world));
     // More light from above than from below, so that what lies in shadow keeps its form.
     let sky = 0.65 + 0.35 * normal.y;

@@ -29,7 +29,7 @@ fn host_unmasked(in: HostMaskedFragment) -> HostFragment {
 
 @fragment
 fn host_masked_ambient(in: HostMaskedFragment) -> @location(0) vec4f {
-    let color = host_ambient(host_unmasked(in));
+    let color = host_ambient_color(host_unmasked(in));
     if !host_is_leaf(in.mask) {
         discard;
     }

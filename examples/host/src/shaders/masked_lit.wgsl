@@ -1,7 +1,7 @@
 @fragment
 fn host_masked_lit(in: HostMaskedFragment) -> HostLit {
     // The shadow first: it may need derivatives.
-    let lit = host_lit(host_unmasked(in));
+    let lit = host_light(host_unmasked(in));
     if !host_is_leaf(in.mask) {
         discard;
     }
