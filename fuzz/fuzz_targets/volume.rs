@@ -138,8 +138,10 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
         }
         if frame.asked {
             let _ = renderer.may_wrap(0, 0);
-            let fill = renderer.survey(target).fill();
-            assert!(fill.is_finite() && fill >= 0.0, "{fill}");
+            if let Ok(survey) = renderer.survey(0, 0, target) {
+                let fill = survey.fill();
+                assert!(fill.is_finite() && fill >= 0.0, "{fill}");
+            }
         }
     }
     tidy();
@@ -171,7 +173,7 @@ fn draw(renderer: &mut ShadowVolumeRenderer, [width, height]: [u32; 2], exact: b
             };
             let count = ExactCount::new(&device().0, &descriptor).expect("it fits");
             renderer
-                .render(&mut count.begin(encoder, &view).expect("it fits"))
+                .render(&mut count.begin(encoder, &view).expect("it fits"), 0, 0)
                 .expect("it is encoded");
             return count.encode(encoder, &view).expect("it fits");
         }
@@ -186,6 +188,6 @@ fn draw(renderer: &mut ShadowVolumeRenderer, [width, height]: [u32; 2], exact: b
             }),
             ..Default::default()
         });
-        renderer.render(&mut pass).expect("it is encoded");
+        renderer.render(&mut pass, 0, 0).expect("it is encoded");
     });
 }

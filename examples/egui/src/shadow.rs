@@ -8,7 +8,7 @@ use shadows::{
     Bias, Caster, CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap,
     CubeShadowMapDescriptor, DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind,
     PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeDebug, VolumeLight, VolumeView,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeDebug,
     VolumeDebugDescriptor, VolumeLight, VolumeSurvey, VolumeView,
 };
 
