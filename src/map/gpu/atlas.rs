@@ -301,8 +301,11 @@ impl AtlasGpu {
         let Some(view) = self.texture.layer(layer) else {
             return; // prepare made a layer wherever there is a tile
         };
-        // Where all of a layer is drawn anew nothing of it need be read.
-        let whole = tiles.len() == tiled.residents.count_in(layer);
+        // Where all of a layer is drawn anew nothing of it need be read: it is cleared at once, if that is
+        // not for a small part of it.
+        let texels: u64 = tiles.iter().map(|tile| tile.place.texels()).sum();
+        let whole = tiles.len() == tiled.residents.count_in(layer)
+            && 2 * texels >= self.texture.layer_texels();
         let load = match whole {
             true => wgpu::LoadOp::Clear(DepthEncoding::MajorAxis.clear_depth()),
             false => wgpu::LoadOp::Load,

@@ -167,6 +167,11 @@ impl AtlasTexture {
         &self.texture
     }
 
+    /// Texels of one layer.
+    pub fn layer_texels(&self) -> u64 {
+        u64::from(self.size).pow(2)
+    }
+
     pub fn layers(&self) -> u32 {
         self.layers.len() as u32
     }
