@@ -1,8 +1,6 @@
 //! Shadow maps.
 
 mod atlas;
-mod atlas_descriptor;
-mod atlas_statistics;
 mod bias;
 mod cascades;
 mod cross;
@@ -17,11 +15,11 @@ mod projection;
 mod sides;
 mod static_layers;
 mod statistics;
-mod suns;
 
-pub use atlas::{AtlasTile, ShadowAtlas};
-pub use atlas_descriptor::{AtlasFrame, AtlasLight, AtlasView, LocalLight, ShadowAtlasDescriptor};
-pub use atlas_statistics::AtlasStatistics;
+pub use atlas::{
+    AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, LocalLight, ShadowAtlas,
+    ShadowAtlasDescriptor,
+};
 pub use bias::Bias;
 pub use cascades::{CascadeFit, CascadeSplit, Cascades, DepthBounds};
 pub use cross::{CubeCross, CubeCrossDescriptor};

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::plan::Tally;
+use crate::map::plan::Tally;
 
 /// What the last [`ShadowAtlas::prepare`](crate::ShadowAtlas::prepare) found and the next `encode` will
 /// do.

@@ -1,12 +1,12 @@
 //! The directional lights of an atlas: where their tiles lie, frame by frame.
 
-use super::atlas_descriptor::{AtlasFrame, AtlasView};
-use super::projection::{
+use super::descriptor::{AtlasFrame, AtlasView};
+use super::{AtlasLight, Cascades};
+use crate::error::ShadowAtlasError;
+use crate::map::projection::{
     Cascade, CascadesOf, Fit, LightBox, LightProjection, MapShape, Placed, fit_cascades,
     fit_directional,
 };
-use super::{AtlasLight, Cascades};
-use crate::error::ShadowAtlasError;
 use crate::scene::{Casters, Record};
 use crate::{DirectionalLight, Radius};
 

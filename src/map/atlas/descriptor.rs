@@ -2,11 +2,11 @@
 
 use std::num::NonZeroU32;
 
-use super::encoding::{quantum, texel_bytes};
-use super::plan::TileSize;
-use super::projection::CasterFilter;
 use super::{Bias, Cascades, CasterSides, DepthBounds, StaticLayers};
 use crate::error::ShadowAtlasError;
+use crate::map::encoding::{quantum, texel_bytes};
+use crate::map::plan::TileSize;
+use crate::map::projection::CasterFilter;
 use crate::mesh::{Bounds, Caster};
 use crate::{DirectionalLight, Light, PointLight, Radius, SpotLight, View};
 

@@ -1,25 +1,29 @@
 //! One texture for the shadows of all lights.
 
+mod descriptor;
+mod lights;
+mod records;
+mod statistics;
+mod suns;
+
 use glam::Mat4;
 
-use super::atlas_descriptor::{AtlasFrame, AtlasView, LEAST_TILE, ShadowAtlasDescriptor};
-use super::atlas_statistics::AtlasStatistics;
-use super::gpu::{
-    AtlasGpu, AtlasKind, Draw, DrawByHost, HostDraw, LightRecord, Resized, TileTexture, Tiled,
-    Tiles, TooLarge,
-};
+use super::gpu::{AtlasGpu, AtlasKind, Draw, DrawByHost, HostDraw, Resized, Tiled, TooLarge};
 use super::plan::{
-    Claim, LitSphere, Place, Residents, Rules, Screen, Slot, SlotPlan, Slots, Tally, casters_drawn,
-    choose_tiles, follow, importance, longest_wait,
+    Place, Residents, Rules, Slot, SlotPlan, Slots, Tally, Tile, casters_drawn, choose_tiles,
+    follow, longest_wait,
 };
-use super::projection::{LightProjection, SlotLight, TileProjection, fit_spot};
 use super::statistics::{Clock, FaceState, FaceStatistics};
-use super::suns::{Sun, Suns};
-use super::{AtlasLight, StaticLayers};
+use super::{Cascades, CasterSides, DepthBounds, StaticLayers};
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
-use crate::{Bias, Light, Radius};
+use crate::{Bias, Radius};
+use descriptor::LEAST_TILE;
+pub use descriptor::{AtlasFrame, AtlasLight, AtlasView, LocalLight, ShadowAtlasDescriptor};
+use lights::{Entry, entries};
+pub use statistics::AtlasStatistics;
+use suns::Suns;
 
 /// The shadow maps of all lights of a scene, of any kinds and sizes, as tiles of one texture: one light
 /// buffer, and one bind group that is made again only when the texture or the buffer grows.
@@ -90,18 +94,6 @@ pub struct AtlasTile {
     pub clip_from_world: Mat4,
     /// What became of it in the last `prepare`.
     pub statistics: FaceStatistics,
-}
-
-/// One light for one view: what has a slot.
-#[derive(Clone, Copy, Debug)]
-struct Entry<'a> {
-    /// Its place in the frame.
-    index: usize,
-    light: &'a AtlasLight,
-    /// For directional lights, if the frame has any.
-    view: Option<(usize, &'a AtlasView<'a>)>,
-    /// Its number among directional lights.
-    sun: Option<usize>,
 }
 
 impl ShadowAtlas {
@@ -319,7 +311,7 @@ impl ShadowAtlas {
         };
         let (slot, places) = (&self.slots[index], self.residents.places(index));
         let tiles = places.iter().zip(&slot.tiles).enumerate();
-        let tile = |(number, (place, tile)): (usize, (&Place, &super::plan::Tile))| {
+        let tile = |(number, (place, tile)): (usize, (&Place, &Tile))| {
             let projection = tile.shown.or_else(|| slot.projection(number))?;
             let from_light = projection.clip_from_light(number, self.gpu.near_plane());
             let plan = self.plans.get(index);
@@ -381,129 +373,6 @@ impl ShadowAtlas {
         self.gpu.lights().buffer()
     }
 
-    /// The records that shaders read: one for each light and view, and one for each further cascade.
-    fn count_records(&self, frame: &AtlasFrame<'_>) -> Result<usize, ShadowAtlasError> {
-        let views = frame.views.len().max(1);
-        let further = |light: &AtlasLight| match light.light() {
-            Light::Directional(_) => views * (Suns::tiles(light, frame.views.first()) - 1),
-            _ => 0,
-        };
-        let records = views * frame.lights.len() + frame.lights.iter().map(further).sum::<usize>();
-        let limit = self.gpu.lights().limit();
-        match records <= limit {
-            true => Ok(records),
-            false => Err(ShadowAtlasError::TooManyLights { records, limit }),
-        }
-    }
-
-    /// Finds what every light's tiles show and where they lie. Tells the slots whose tiles were elsewhere
-    /// before.
-    fn take_over(
-        &mut self,
-        frame: &AtlasFrame<'_>,
-        entries: &[Entry<'_>],
-    ) -> Result<Vec<usize>, ShadowAtlasError> {
-        let before: Vec<Option<u32>> = (0..entries.len())
-            .map(|entry| self.residents.size(self.slots.of_light(entry)?))
-            .collect();
-        let size = |entry: usize, of: &Entry<'_>| before[entry].unwrap_or(of.light.size().most());
-        let mut projections = Vec::with_capacity(entries.len());
-        for (place, entry) in entries.iter().enumerate() {
-            projections.push(SlotLight {
-                projection: self.project(frame, entry, size(place, entry))?,
-                filter: entry.light.filter(),
-            });
-        }
-        self.suns
-            .keep(entries.iter().filter(|of| of.sun.is_some()).count());
-        self.slots.grow(entries.len());
-        self.slots.take_over(&projections, &mut self.casters);
-        let claims = self.claims(frame, entries);
-        let had: Vec<bool> = (0..self.slots.len())
-            .map(|slot| self.residents.size(slot).is_some())
-            .collect();
-        let moved = self.residents.settle(self.slots.len(), &claims);
-        let mut moved = moved.map_err(ShadowAtlasError::Space)?;
-        // A directional light's tiles lie on a grid of texels, so where depends on their size.
-        for (place, entry) in entries.iter().enumerate() {
-            let Some(slot) = self.slots.of_light(place).filter(|_| entry.sun.is_some()) else {
-                continue;
-            };
-            let granted = self.residents.size(slot);
-            if let Some(granted) = granted.filter(|&granted| granted != size(place, entry)) {
-                let projection = self.project(frame, entry, granted)?;
-                self.slots.refit(slot, projection, &self.casters);
-            }
-        }
-        for &slot in &moved {
-            self.slots[slot].texels_freed();
-        }
-        // Those that are new can wait, as they are dark already.
-        moved.retain(|&slot| had[slot] && self.residents.size(slot).is_some());
-        Ok(moved)
-    }
-
-    /// What a light's tiles show.
-    fn project(
-        &mut self,
-        frame: &AtlasFrame<'_>,
-        entry: &Entry<'_>,
-        size: u32,
-    ) -> Result<LightProjection, ShadowAtlasError> {
-        match (entry.light.light(), entry.sun) {
-            (Light::Point(light), _) => Ok(LightProjection::Point(light)),
-            (Light::Spot(light), _) => {
-                let near = self.gpu.near_plane().of_spot(&light);
-                let frame = fit_spot(&light, near);
-                match frame.fits_f32() {
-                    true => Ok(LightProjection::Spot(frame)),
-                    false => Err(ShadowAtlasError::BeyondF32 { index: entry.index }),
-                }
-            }
-            (Light::Directional(light), number) => {
-                let sun = Sun {
-                    index: entry.index,
-                    light,
-                    cascades: entry.light.cascades(),
-                    view: entry.view.map(|(_, view)| view),
-                    size,
-                };
-                let records = self.casters.records();
-                self.suns.fit(number.unwrap_or(0), &sun, frame, records)
-            }
-        }
-    }
-
-    /// The lights that are to have tiles: those to which anything casts.
-    fn claims(&mut self, frame: &AtlasFrame<'_>, entries: &[Entry<'_>]) -> Vec<Claim> {
-        let screens: Vec<Screen<'_>> = frame.views.iter().map(screen).collect();
-        let worth = |lit: &LitSphere| match screens.is_empty() {
-            true => f64::INFINITY,
-            false => importance(lit, &screens),
-        };
-        let mut claims = Vec::new();
-        for (place, entry) in entries.iter().enumerate() {
-            let Some(slot) = self.slots.of_light(place) else {
-                continue;
-            };
-            let has_some = self.residents.size(slot).is_some();
-            if !self.slots.needs_texels(slot, has_some) {
-                continue;
-            }
-            claims.push(Claim {
-                slot,
-                tiles: self.slots[slot].tiles.len(),
-                size: entry.light.size(),
-                importance: match entry.light.light() {
-                    Light::Point(light) => worth(&LitSphere::of_point(&light)),
-                    Light::Spot(light) => worth(&LitSphere::of_spot(&light)),
-                    Light::Directional(_) => f64::INFINITY,
-                },
-            });
-        }
-        claims
-    }
-
     /// Chooses the tiles to draw. Changes nothing.
     fn plan(
         &self,
@@ -561,82 +430,6 @@ impl ShadowAtlas {
         self.gpu.finish_draws(device);
     }
 
-    /// Stages what receivers are told of the lights.
-    fn write_lights(&mut self, entries: &[Entry<'_>]) {
-        let mut next = self.views * self.lights;
-        for (place, entry) in entries.iter().enumerate() {
-            let Some(index) = self.slots.of_light(place) else {
-                continue;
-            };
-            let (first, further) = self.records(index, entry);
-            let views = match entry.view {
-                Some((view, _)) => view..view + 1,
-                None => 0..self.views,
-            };
-            let (lights, uploads) = self.gpu.lights_mut();
-            for view in views {
-                let record = first.with_further(further.len() as u32, next as u32);
-                lights.write(uploads, view * self.lights + entry.index, record);
-            }
-            for record in further {
-                lights.write(uploads, next, record);
-                next += 1;
-            }
-        }
-        let (lights, uploads) = self.gpu.lights_mut();
-        lights.end(uploads, next);
-    }
-
-    /// What receivers are told of a slot's light: its record, and those of further cascades.
-    fn records(&self, index: usize, entry: &Entry<'_>) -> (LightRecord, Vec<LightRecord>) {
-        let (slot, places) = (&self.slots[index], self.residents.places(index));
-        let texture = TileTexture {
-            side: self.layer_size,
-            bias: self.bias,
-            format: self.format,
-        };
-        let Some(light) = slot.light() else {
-            return (LightRecord::DARK, Vec::new());
-        };
-        let stale = slot.stale();
-        // Without casters every texel is right, and none need be read.
-        let casts = !places.is_empty() && (slot.casting > 0 || stale != 0);
-        match light {
-            LightProjection::Point(light) => {
-                let shown = match slot.tiles.first().and_then(|tile| tile.shown) {
-                    Some(TileProjection::Face(shown)) => shown,
-                    _ if casts => return (LightRecord::DARK, Vec::new()),
-                    _ => *light,
-                };
-                let near = self.gpu.near_plane().of_point(&shown);
-                let record = LightRecord::point(&shown, near, tiles(places, casts), &texture);
-                (record, Vec::new())
-            }
-            _ => {
-                let sun = entry.sun;
-                let flat = |(number, tile): (usize, &super::plan::Tile)| {
-                    let projection = match casts {
-                        true => tile.shown,
-                        false => slot.projection(number),
-                    };
-                    let Some(TileProjection::Flat(frame)) = projection else {
-                        return None;
-                    };
-                    let place = places.get(number..=number).unwrap_or_default();
-                    let record = LightRecord::flat(&frame, tiles(place, casts), &texture);
-                    let blend = sun.map_or(0.0, |sun| self.suns.blend(sun, number));
-                    Some(record.with_blend(blend))
-                };
-                let mut records = slot.tiles.iter().enumerate().filter_map(flat);
-                match records.next() {
-                    Some(first) => (first, records.collect()),
-                    None if casts => (LightRecord::DARK, Vec::new()),
-                    None => (LightRecord::lit(), Vec::new()),
-                }
-            }
-        }
-    }
-
     /// Whether an `encode` would record anything.
     fn is_pending(&self) -> bool {
         self.gpu.uploaded() > 0 || self.slots.iter().any(|slot| slot.pending != 0)
@@ -666,47 +459,4 @@ impl ShadowAtlas {
             ..AtlasStatistics::of(&tally)
         }
     }
-}
-
-/// Where a light's `N` tiles are, if anything casts.
-fn tiles<const N: usize>(places: &[Place], casts: bool) -> Tiles<N> {
-    match <&[Place; N]>::try_from(places) {
-        Ok(places) if casts && N > 0 => Tiles::At {
-            size: places[0].size,
-            places: places.map(Into::into),
-        },
-        _ => Tiles::NoCaster,
-    }
-}
-
-fn screen<'a>(view: &AtlasView<'a>) -> Screen<'a> {
-    Screen {
-        view: view.view,
-        width: view.width.into(),
-        height: view.height.into(),
-    }
-}
-
-/// What has a slot: every light, a directional one once a view.
-fn entries<'a>(frame: &AtlasFrame<'a>) -> Vec<Entry<'a>> {
-    let mut suns = 0;
-    let mut entries = Vec::with_capacity(frame.lights.len());
-    for (index, light) in frame.lights.iter().enumerate() {
-        let is_sun = matches!(light.light(), Light::Directional(_));
-        let views: Vec<_> = match is_sun && !frame.views.is_empty() {
-            true => frame.views.iter().enumerate().map(Some).collect(),
-            false => vec![None],
-        };
-        for view in views {
-            let sun = is_sun.then_some(suns);
-            suns += usize::from(is_sun);
-            entries.push(Entry {
-                index,
-                light,
-                view,
-                sun,
-            });
-        }
-    }
-    entries
 }
