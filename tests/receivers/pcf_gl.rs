@@ -1,12 +1,14 @@
 //! Every kernel on the GL back end: the same visibility as on the first one, away from cube edges.
 
 use crate::common::shapes::{Random, cuboid};
-use crate::receivers::visibility;
+use crate::receivers::{ask, visibility};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight, FlatLight, Kernel,
-    PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, glam, wgpu,
+    AtlasFrame, AtlasLight, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
+    DirectionalLight, FlatLight, Kernel, MapKind, PcfDescriptor, PointLight, ShadowAtlas,
+    ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, TileSize, glam,
+    wgpu,
 };
 
 const LIGHT: Vec3 = Vec3::new(0.0, 3.0, 0.0);
@@ -51,6 +53,32 @@ fn flat(gpu: &Gpu, light: FlatLight, casters: &[Caster]) -> ShadowMap {
     map
 }
 
+/// The same three lights in one texture.
+fn atlas(gpu: &Gpu, casters: &[Caster]) -> ShadowAtlas {
+    let descriptor = ShadowAtlasDescriptor {
+        layer_size: 512,
+        memory: 8 << 20,
+        ..Default::default()
+    };
+    let mut atlas = ShadowAtlas::new(&gpu.device, &descriptor).unwrap();
+    let spot = SpotLight::new(LIGHT, Vec3::NEG_Y, std::f32::consts::FRAC_PI_4, 30.0);
+    let sun = DirectionalLight::new(Vec3::new(0.3, 1.0, 0.2));
+    let lights = [
+        AtlasLight::new(PointLight::new(LIGHT, 30.0)),
+        AtlasLight::new(spot),
+        AtlasLight::directional(sun, Default::default()),
+    ]
+    .map(|light| light.with_size(TileSize::Fixed(256)));
+    let frame = AtlasFrame {
+        lights: &lights,
+        casters,
+        ..Default::default()
+    };
+    atlas.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+    gpu.run(|encoder| atlas.encode(encoder));
+    atlas
+}
+
 /// What every kernel says of points on the ground, for a cube map, a spot and a directional light.
 fn seen(gpu: &Gpu, shift: Vec3) -> Vec<(String, Vec<f32>)> {
     let mut random = Random::new(4);
@@ -67,14 +95,26 @@ fn seen(gpu: &Gpu, shift: Vec3) -> Vec<(String, Vec<f32>)> {
         30.0,
     ));
     let sun = FlatLight::Directional(DirectionalLight::new(Vec3::new(0.3, 1.0, 0.2)));
+    let atlas = atlas(gpu, &casters);
     let cube = cube(gpu, &casters);
     let [spot, sun] = [spot, sun].map(|light| flat(gpu, light, &casters));
+    let in_atlas = |kernel, light| {
+        let descriptor = PcfDescriptor {
+            kernel,
+            map: MapKind::Atlas,
+            ..Default::default()
+        };
+        ask(gpu, &atlas, &descriptor, light, &points)
+    };
     let mut all = Vec::new();
     for kernel in Kernel::ALL {
         for (name, seen) in [
             ("cube", visibility(gpu, &cube, kernel, &points)),
             ("spot", visibility(gpu, &spot, kernel, &points)),
             ("sun", visibility(gpu, &sun, kernel, &points)),
+            ("point light of an atlas", in_atlas(kernel, 0)),
+            ("spot of an atlas", in_atlas(kernel, 1)),
+            ("sun of an atlas", in_atlas(kernel, 2)),
         ] {
             all.push((format!("{name} {kernel:?}"), seen));
         }
