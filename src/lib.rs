@@ -220,9 +220,9 @@ pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight
 pub use map::{
     Allocation, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit,
     CascadeSplit, Cascades, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FaceState,
-    FaceStatistics, FlatLight, HostDraw, LocalLight, ShadowAtlas, ShadowAtlasDescriptor,
-    ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize,
+    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FlatLight,
+    HostDraw, LocalLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize, TileState, TileStatistics,
     texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};

@@ -37,11 +37,6 @@ pub enum ShadowAtlasError {
     /// A budget of no tile at all.
     #[error("max_tiles_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
     Budget,
-    /// Layers of static casters on a back end that cannot copy depth.
-    #[error(
-        "StaticLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
-    )]
-    StaticLayers,
     /// The bias is out of range.
     #[error(transparent)]
     Bias(#[from] BiasError),

@@ -138,6 +138,9 @@ pub enum CasterMeshError {
     /// The host's transforms cannot be drawn with.
     #[error("the buffer of transforms was created without VERTEX; add it to its usages")]
     InstanceBufferUsage,
+    /// Geometry of the host's that has no triangle.
+    #[error("what the host draws has no triangle; pass about how many it has, at least 1")]
+    NoTriangles,
     /// A mesh of many places, or one that the host draws, where one is to be placed many times.
     #[error(
         "only a mesh that is drawn once can be placed many times; pass the mesh that this one was made from"
@@ -211,7 +214,7 @@ pub enum CasterError {
     },
     /// Geometry that only the host can draw, on a map that does not ask it to.
     #[error(
-        "caster {index} is drawn by the host (CasterMesh::host_drawn), which this map cannot ask for; use a ShadowAtlas, or draw it between `encode` and the next frame yourself"
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), which this map has no callback for; leave it out here, or use a ShadowAtlas and `encode_with`"
     )]
     HostDrawn {
         /// Place in the slice of casters.

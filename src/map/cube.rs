@@ -9,7 +9,7 @@ use super::plan::{
     Rules, Slot, SlotPlan, Slots, Tally, casters_drawn, choose_tiles, follow, longest_wait,
 };
 use super::projection::{CubeFace, LightProjection, SlotLight};
-use super::statistics::{Clock, CubeStatistics, FaceStatistics};
+use super::statistics::{Clock, CubeStatistics, TileStatistics};
 use crate::Radius;
 use crate::error::CubeShadowMapError;
 use crate::scene::Casters;
@@ -295,12 +295,12 @@ impl CubeShadowMap {
 
     /// What became of one face of the light at place `light` of the last prepared frame; `None` if
     /// the frame had no such light.
-    pub fn face_statistics(&self, light: usize, face: CubeFace) -> Option<FaceStatistics> {
+    pub fn face_statistics(&self, light: usize, face: CubeFace) -> Option<TileStatistics> {
         let index = self.slots.of_light(light)?;
         let slot = &self.slots[index];
         let tile = face.layer() as usize;
         let of = slot.tiles.get(tile)?;
-        Some(FaceStatistics {
+        Some(TileStatistics {
             state: self.plans.get(index)?.state(slot, tile),
             casters: of.content.casters,
             triangles: of.content.triangles,
@@ -359,12 +359,14 @@ impl CubeShadowMap {
 
     /// Chooses the faces to draw. Changes nothing.
     fn plan(&self, frame: &CubeFrame<'_>) -> Vec<SlotPlan> {
+        let mut pinned = vec![false; frame.lights.len()];
+        frame.pinned.iter().for_each(|&place| pinned[place] = true);
         let rules = Rules {
             views: frame.view.as_slice(),
             reach: self.reach,
             cache: self.cache,
             budget: self.budget,
-            pinned: frame.pinned,
+            pinned: &pinned,
         };
         choose_tiles(&self.slots, &rules, |slot| {
             self.gpu.textures().slot(slot).map(|_| self.size)

@@ -5,20 +5,17 @@ use glam::{Mat4, Vec4};
 use super::encoding::{DepthEncoding, texel_bytes};
 use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 use super::gpu::{
-    Draw, DrawLists, Drawing, FaceUniform, FaceUniforms, FlatLightBuffer, INSTANCE_SIZE, Instances,
-    LightRecord, PipelineKind, Pipelines, TilePlace, TileTexture, Tiles, TooLarge, array_view,
-    begin_depth_pass, can_pull_casters, create_texture, layer_view,
+    Casting, Draw, FlatLightBuffer, INSTANCE_SIZE, LightRecord, PipelineKind, TilePlace,
+    TileTexture, Tiles, TooLarge, array_view, begin_depth_pass, can_pull_casters, create_texture,
+    layer_view,
 };
 use super::plan::{FlatPlace, Rules, SlotPlan, Slots, choose_tiles, follow};
-use super::projection::NearPlane;
-use super::sides::CasterSides;
 use super::statistics::ShadowMapStatistics;
 use crate::error::ShadowMapError;
 use crate::gl;
 use crate::mesh::Caster;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
-use crate::uploads::Uploads;
 use crate::{Bias, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
@@ -57,23 +54,17 @@ pub struct ShadowMap {
     size: u32,
     bias: Bias,
     pub(crate) reach: Radius,
-    sides: CasterSides,
     cache: bool,
     texture: wgpu::Texture,
     /// What is drawn on, and what is read.
     layer: wgpu::TextureView,
     layers: wgpu::TextureView,
-    pipelines: Pipelines,
-    uniforms: FaceUniforms,
     light: FlatLightBuffer,
-    instances: Instances,
+    casting: Casting,
     casters: Casters,
     place: FlatPlace,
-    near_plane: NearPlane,
     /// One, with one tile.
     slots: Slots,
-    draws: DrawLists,
-    uploads: Uploads,
     submissions: Submissions,
     statistics: ShadowMapStatistics,
 }
@@ -95,33 +86,27 @@ impl ShadowMap {
         let (size, bias, reach) = (descriptor.size, descriptor.bias, descriptor.reach);
         let layers = gl::array_layers(device, 1);
         let texture = create_texture(device, &label, size, descriptor.format, layers);
-        let uniforms = FaceUniforms::new(device, &label, 1);
         let kind = PipelineKind {
             format: texture.format(),
             encoding: DepthEncoding::MajorAxis,
             slope_scale: bias.slope_scale,
             unclipped_depth: descriptor.unclipped_depth && can_pull_casters(device),
         };
-        let near_plane = NearPlane::new(kind.format, kind.encoding);
+        let unclipped_depth = kind.unclipped_depth;
+        let casting = Casting::new(device, &label, kind, descriptor.sides, (1, 1));
         Ok(Self {
             size,
             bias,
             reach,
-            sides: descriptor.sides,
             cache: descriptor.cache,
             layer: layer_view(&texture, &label, 0),
             layers: array_view(&texture, &label),
             texture,
-            place: FlatPlace::new(size, reach, near_plane, kind.unclipped_depth),
-            pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
-            uniforms,
+            place: FlatPlace::new(size, reach, casting.near_plane(), unclipped_depth),
             light: FlatLightBuffer::new(device, &label),
-            instances: Instances::new(device, &label),
+            casting,
             casters: Casters::default(),
-            near_plane,
             slots: Slots::new(1, true),
-            draws: DrawLists::default(),
-            uploads: Uploads::new(device),
             submissions: Submissions::default(),
             statistics: ShadowMapStatistics::default(),
             label,
@@ -158,18 +143,18 @@ impl ShadowMap {
         if encoder_dropped {
             self.invalidate();
         }
-        let not_encoded = self.is_pending() || self.uploads.bytes() > 0;
+        let not_encoded = self.is_pending() || self.casting.uploaded() > 0;
         if not_encoded {
             self.forget_uploads();
         }
         let plans = self.plan();
         follow(&plans, &mut self.slots);
-        self.draws.clear();
+        self.casting.clear();
         if self.is_pending() {
             self.record_draws(device, frame.casters)?;
         }
         let record = self.light_record();
-        self.light.write(&mut self.uploads, record);
+        self.light.write(self.casting.uploads(), record);
         self.statistics = ShadowMapStatistics {
             not_encoded,
             encoder_dropped,
@@ -186,19 +171,15 @@ impl ShadowMap {
     /// be submitted: if its encoder is dropped, the `prepare` after that draws the map again
     /// ([`ShadowMapStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let copied = self.uploads.record(encoder);
+        let copied = self.casting.uploads().record(encoder);
         if copied || self.is_pending() {
             self.submissions.watch(encoder);
         }
         if !self.is_pending() {
             return;
         }
-        let drawing = Drawing {
-            uniforms: &self.uniforms,
-            pipelines: &self.pipelines,
-            instances: &self.instances,
-        };
-        drawing.record(&mut self.pass(encoder), 0, &self.draws.of(0, 0).tile.draws);
+        let draws = &self.casting.draws().of(0, 0).tile.draws;
+        self.casting.record(&mut self.pass(encoder), (0, 0), draws);
         self.slots[0].encoded(1);
     }
 
@@ -224,7 +205,7 @@ impl ShadowMap {
         &mut self,
         encoder: &'encoder mut wgpu::CommandEncoder,
     ) -> wgpu::RenderPass<'encoder> {
-        if self.uploads.record(encoder) {
+        if self.casting.uploads().record(encoder) {
             self.submissions.watch(encoder);
         }
         if !self.slots[0].tiles.is_empty() {
@@ -328,28 +309,16 @@ impl ShadowMap {
     ) -> Result<(), ShadowMapError> {
         let slot = &self.slots[0];
         let casters = (&self.casters, casters);
-        self.draws.add(
-            (0, slot),
-            slot.pending,
-            self.near_plane,
-            self.sides,
-            casters,
-        );
-        let instances = self.draws.instances();
-        let reserved = self.instances.reserve(device, instances.len());
+        self.casting
+            .add((0, slot), slot.pending, self.size, casters);
+        let instances = self.casting.draws().instances().len();
+        let reserved = self.casting.reserve(device, instances, 1);
         reserved.map_err(|TooLarge { size, limit }| ShadowMapError::TooManyCasters {
-            casters: instances.len(),
+            casters: instances,
             size,
             limit,
         })?;
-        self.instances.write(&mut self.uploads, instances);
-        self.pipelines
-            .make(device, self.draws.iter().map(Draw::key));
-        if let Some(projection) = slot.projection(0) {
-            let matrix = projection.clip_from_light(0, self.near_plane);
-            let uniform = FaceUniform::new(&matrix, projection.range(), self.size);
-            self.uniforms.write(&mut self.uploads, 0, uniform);
-        }
+        self.casting.finish(device);
         Ok(())
     }
 
@@ -372,9 +341,8 @@ impl ShadowMap {
 
     /// Forgets what was to be written, and what has been.
     fn forget_uploads(&mut self) {
-        self.uploads.clear();
+        self.casting.forget_uploads();
         self.light.forget();
-        self.uniforms.forget();
     }
 
     fn count(&self, casters: usize) -> ShadowMapStatistics {
@@ -383,15 +351,14 @@ impl ShadowMap {
             rendered: self.is_pending(),
             casters_drawn: drawn,
             casters_outside: casters as u32 - drawn,
-            draws: self.draws.iter().count() as u32,
-            triangles: self.draws.iter().map(Draw::triangles).sum(),
+            draws: self.casting.draws().iter().count() as u32,
+            triangles: self.casting.draws().iter().map(Draw::triangles).sum(),
             bytes: u64::from(self.texture.depth_or_array_layers())
                 * u64::from(self.size).pow(2)
                 * texel_bytes(self.texture.format())
-                + self.instances.bytes()
-                + self.uniforms.bytes()
+                + self.casting.bytes()
                 + self.light.buffer().size(),
-            uploaded: self.uploads.bytes(),
+            uploaded: self.casting.uploaded(),
             ..Default::default()
         }
     }

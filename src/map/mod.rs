@@ -34,4 +34,4 @@ pub use plan::TileSize;
 pub use projection::CubeFace;
 pub use sides::CasterSides;
 pub use static_layers::StaticLayers;
-pub use statistics::{CubeStatistics, FaceState, FaceStatistics, ShadowMapStatistics};
+pub use statistics::{CubeStatistics, ShadowMapStatistics, TileState, TileStatistics};

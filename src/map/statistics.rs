@@ -49,10 +49,10 @@ pub struct CubeStatistics {
     pub prepare: Duration,
 }
 
-/// What became of a face in the last `prepare`.
+/// What became of a tile (a face of a point light, a spot's map, a cascade) in the last `prepare`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum FaceState {
+pub enum TileState {
     /// Will be drawn or cleared by the next `encode`.
     Rendered,
     /// Has casters and shows them already.
@@ -66,12 +66,12 @@ pub enum FaceState {
     Postponed,
 }
 
-/// One face of one light after the last `prepare`.
+/// One tile of one light after the last `prepare`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct FaceStatistics {
+pub struct TileStatistics {
     /// What became of it.
-    pub state: FaceState,
+    pub state: TileState,
     /// Casters that touch it.
     pub casters: u32,
     /// Their triangles.

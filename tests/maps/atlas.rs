@@ -2,7 +2,7 @@
 
 use crate::common::shapes::{Random, cuboid, sphere};
 use glam::camera::rh::{proj::directx as proj, view};
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec3, Vec3A};
 use host::gpu::Gpu;
 use shadows::error::{ShadowAtlasError, TileSizeError};
 use shadows::{
@@ -397,6 +397,51 @@ fn lights_that_do_not_cast_take_no_memory_and_short_memory_leaves_no_light_out()
 }
 
 #[test]
+fn a_frame_that_is_refused_late_leaves_what_receivers_see_and_nothing_to_draw() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let casters = room(&gpu);
+    let mut atlas = atlas(&gpu, &descriptor(2));
+    let lamp = AtlasLight::new(PointLight::new(Vec3::Y, 6.0)).with_size(TileSize::Fixed(64));
+    let spot = SpotLight::new(Vec3::Y, Vec3::NEG_Y, 0.7, 9.0);
+    let spot = AtlasLight::new(spot).with_size(TileSize::Fixed(64));
+    let frame = AtlasFrame {
+        lights: &[lamp],
+        casters: &casters,
+        ..Default::default()
+    };
+    draw(&gpu, &mut atlas, &frame);
+    // Found and not encoded; then one that does not fit, with another kind of light in its place.
+    let mut moved = casters.clone();
+    moved[0].world_from_object.translation += Vec3A::splat(0.3);
+    let waiting = AtlasFrame {
+        casters: &moved,
+        ..frame
+    };
+    atlas.prepare(&gpu.device, &gpu.queue, &waiting).unwrap();
+    let large = lamp.with_size(TileSize::Fixed(LAYER));
+    let refused = AtlasFrame {
+        lights: &[spot, large],
+        ..waiting
+    };
+    let error = atlas.prepare(&gpu.device, &gpu.queue, &refused);
+    assert!(matches!(error, Err(ShadowAtlasError::Space(_))));
+    let before = layers(&gpu, &atlas);
+    gpu.checked(|| gpu.run(|encoder| atlas.encode(encoder)));
+    assert!(layers(&gpu, &atlas) == before, "nothing was drawn");
+    for lights in [[spot], [lamp]] {
+        let frame = AtlasFrame {
+            lights: &lights,
+            ..waiting
+        };
+        draw(&gpu, &mut atlas, &frame);
+        assert_few(
+            wrong_texels(&gpu, &atlas, &lights, &moved),
+            "the frame after",
+        );
+    }
+}
+
+#[test]
 fn a_budget_is_kept_and_nothing_waits_for_ever() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut casters = room(&gpu);
@@ -520,6 +565,6 @@ fn a_sun_has_cascades_for_each_view() {
     let states = both.tiles(1, 0);
     let drawn = states
         .iter()
-        .filter(|tile| tile.statistics.state == shadows::FaceState::Rendered);
+        .filter(|tile| tile.statistics.state == shadows::TileState::Rendered);
     assert_eq!(drawn.count(), 0);
 }

@@ -7,7 +7,7 @@ use glam::{Affine3A, Mat4, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     AtlasFrame, AtlasLight, AtlasView, CascadeFit, Cascades, Caster, DepthConvention,
-    DirectionalLight, FaceState, ShadowAtlas, ShadowAtlasDescriptor, TileSize, View, glam,
+    DirectionalLight, ShadowAtlas, ShadowAtlasDescriptor, TileSize, TileState, View, glam,
 };
 
 const CASCADES: usize = 4;
@@ -38,7 +38,7 @@ fn drawn(
     draw(gpu, atlas, &frame);
     let tiles = atlas.tiles(0, 0);
     std::array::from_fn(|cascade| {
-        usize::from(tiles[cascade].statistics.state == FaceState::Rendered)
+        usize::from(tiles[cascade].statistics.state == TileState::Rendered)
     })
 }
 

@@ -7,7 +7,7 @@ use crate::common::own_pass::OwnPass;
 use crate::common::shapes::{Shape, sphere};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
-use shadows::error::{CasterError, CubeShadowMapError};
+use shadows::error::{CasterError, CasterMeshError, CubeShadowMapError};
 use shadows::mesh::Bounds;
 use shadows::{
     AtlasFrame, AtlasLight, Caster, CasterMesh, CubeFrame, CubeShadowMap, HostDraw, PointLight,
@@ -220,8 +220,10 @@ fn a_host_that_is_not_asked_loses_its_leaves_for_a_frame_and_no_longer() {
     draw(&gpu, &mut atlas, &frame);
     let ours = leaf.as_ours(&casters);
     assert!(wrong_texels(&gpu, &atlas, &lights, &ours).0 > 100);
+    assert!(atlas.statistics().tiles_incomplete > 0, "it says so");
     assert!(draw_with(&gpu, &mut atlas, &frame, &leaf) > 0);
     assert_few(wrong_texels(&gpu, &atlas, &lights, &ours), "asked");
+    assert_eq!(atlas.statistics().tiles_incomplete, 0);
     let tiles = atlas.tiles(0, 0);
     assert!(
         texels(&layers(&gpu, &atlas), &tiles[3])
@@ -234,6 +236,8 @@ fn a_host_that_is_not_asked_loses_its_leaves_for_a_frame_and_no_longer() {
 fn maps_that_do_not_ask_refuse_it() {
     let Some(gpu) = Gpu::for_test() else { return };
     let leaf = Leaf::new(&gpu);
+    let none = CasterMesh::host_drawn(&gpu.device, leaf.mesh.bounds(), 0);
+    assert_eq!(none.unwrap_err(), CasterMeshError::NoTriangles);
     let casters = [Caster::new(leaf.mesh, Affine3A::IDENTITY)];
     let mut map = CubeShadowMap::new(&gpu.device, &Default::default()).unwrap();
     let frame = CubeFrame {

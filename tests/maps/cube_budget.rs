@@ -7,8 +7,8 @@ use glam::camera::rh::{proj::directx as proj, view};
 use glam::{Affine3A, Mat4, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention,
-    FaceState, Kernel, PcfDescriptor, PointLight, Radius, RandomDisk, View, VogelDisk, glam,
+    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, Kernel,
+    PcfDescriptor, PointLight, Radius, RandomDisk, TileState, View, VogelDisk, glam,
 };
 
 const SIZE: u32 = 32;
@@ -158,7 +158,7 @@ fn what_changed_most_and_matters_most_to_the_eye_goes_first() {
         draw_frame(&gpu, &mut map, &frame);
         let state = |light, face| map.face_statistics(light, face).unwrap().state;
         let faces = [CubeFace::PositiveY, CubeFace::PositiveZ];
-        let rendered = |light| faces.map(|face| state(light, face) == FaceState::Rendered);
+        let rendered = |light| faces.map(|face| state(light, face) == TileState::Rendered);
         [rendered(0), rendered(1)]
     };
     // Far away from both, so that all of it is in view, once nearer to the one, once to the other.

@@ -9,8 +9,8 @@ use host::gpu::Gpu;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use shadows::{
-    Caster, CasterMesh, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FaceState,
-    PointLight, glam,
+    Caster, CasterMesh, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight,
+    TileState, glam,
 };
 
 const SIZE: u32 = 24;
@@ -204,10 +204,10 @@ fn only_the_faces_that_changed_are_drawn() {
     casters.push(at(&mesh, 50.0, 0.0, 0.0));
     assert_eq!(rendered(&mut map, &casters), 0, "one out of range");
     let of = |face| map.face_statistics(0, face).unwrap();
-    assert_eq!(of(CubeFace::PositiveY).state, FaceState::Empty);
-    assert_eq!(of(CubeFace::PositiveZ).state, FaceState::Empty);
+    assert_eq!(of(CubeFace::PositiveY).state, TileState::Empty);
+    assert_eq!(of(CubeFace::PositiveZ).state, TileState::Empty);
     assert_eq!(of(CubeFace::NegativeX).casters, 1);
-    assert_eq!(of(CubeFace::NegativeX).state, FaceState::Kept);
+    assert_eq!(of(CubeFace::NegativeX).state, TileState::Kept);
 }
 
 #[test]

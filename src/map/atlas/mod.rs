@@ -13,7 +13,7 @@ use super::plan::{
     Place, Residents, Rules, Slot, SlotPlan, Slots, Tally, Tile, casters_drawn, choose_tiles,
     follow, longest_wait,
 };
-use super::statistics::{Clock, FaceState, FaceStatistics};
+use super::statistics::{Clock, TileState, TileStatistics};
 use super::{Cascades, CasterSides, DepthBounds, StaticLayers};
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
@@ -74,6 +74,8 @@ pub struct ShadowAtlas {
     names: Vec<(usize, usize)>,
     gpu: AtlasGpu,
     submissions: Submissions,
+    /// Whether an encoder was dropped since a frame was last prepared.
+    encoder_dropped: bool,
     statistics: AtlasStatistics,
 }
 
@@ -93,7 +95,7 @@ pub struct AtlasTile {
     /// the light are clockwise on the tile.
     pub clip_from_world: Mat4,
     /// What became of it in the last `prepare`.
-    pub statistics: FaceStatistics,
+    pub statistics: TileStatistics,
 }
 
 impl ShadowAtlas {
@@ -146,6 +148,7 @@ impl ShadowAtlas {
             names: Vec::new(),
             gpu,
             submissions: Submissions::default(),
+            encoder_dropped: false,
             statistics: AtlasStatistics::default(),
         })
     }
@@ -154,8 +157,9 @@ impl ShadowAtlas {
     /// that needs.
     ///
     /// # Errors
-    /// [`ShadowAtlasError`] if a light, a view or a caster is out of range, or there are too many. What an
-    /// earlier `prepare` found then still stands.
+    /// [`ShadowAtlasError`] if a light, a view or a caster is out of range, or there are too many. Receivers
+    /// then see what was last encoded. What an earlier `prepare` found and nobody encoded is given up: the
+    /// next frame finds it again.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -163,39 +167,74 @@ impl ShadowAtlas {
         frame: &AtlasFrame<'_>,
     ) -> Result<(), ShadowAtlasError> {
         let clock = Clock::start();
-        frame.validate(self.layer_size)?;
         let entries = entries(frame);
+        let (moved, not_encoded) = match self.plan_frame(device, queue, frame, &entries) {
+            Ok(planned) => planned,
+            Err(error) => {
+                self.give_up();
+                return Err(error);
+            }
+        };
+        self.record_draws(device, frame);
+        self.name_slots(frame, &entries);
+        self.write_lights(&entries);
+        let encoder_dropped = std::mem::take(&mut self.encoder_dropped);
+        self.statistics = AtlasStatistics {
+            lights_moved: moved as u32,
+            not_encoded,
+            encoder_dropped,
+            ..self.count()
+        };
+        self.statistics.prepare = clock.elapsed();
+        Ok(())
+    }
+
+    /// All of a frame that may be refused: what is drawn, and room for it. Tells how many lights' tiles were
+    /// elsewhere before, and whether an earlier frame's work was not encoded.
+    fn plan_frame(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: &AtlasFrame<'_>,
+        entries: &[Entry<'_>],
+    ) -> Result<(usize, bool), ShadowAtlasError> {
+        frame.validate(self.layer_size)?;
         let records = self.count_records(frame)?;
         self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
         self.suns.casters_changed(&self.casters);
-        let encoder_dropped = self.submissions.take_dropped();
-        if encoder_dropped {
+        if self.submissions.take_dropped() {
+            self.encoder_dropped = true;
             self.invalidate();
         }
-        let fitted = self.take_over(frame, &entries);
-        let moved = match fitted {
-            Ok(moved) => moved,
-            Err(error) => {
-                // What changed among the casters is not known any more when the next frame comes.
-                self.slots.miss_update();
-                return Err(error);
-            }
-        };
-        let resized = self
-            .gpu
-            .resize(device, queue, self.residents.layers(), records);
+        let moved = self.take_over(frame, entries)?;
+        let layers = self.residents.layers();
+        let resized = self.gpu.resize(device, queue, layers, records);
         if resized == Resized::Lost {
             self.slots.iter_mut().for_each(Slot::forget_texels);
         }
-        let plans = self.plan(frame, &entries, &moved, resized);
+        let plans = self.plan(frame, entries, &moved, resized);
         self.reserve(device, &plans)?;
         let not_encoded = self.is_pending();
         if not_encoded {
             self.gpu.forget_uploads();
         }
         follow(&plans, &mut self.slots);
-        self.record_draws(device, frame);
+        self.plans = plans;
+        Ok((moved.len(), not_encoded))
+    }
+
+    /// Nothing is left to encode, after a frame was refused: slots may have gone on to its lights.
+    fn give_up(&mut self) {
+        // Nor is it known what changed among the casters.
+        self.slots.miss_update();
+        self.slots.iter_mut().for_each(|slot| slot.pending = 0);
+        self.gpu.forget_uploads();
+        self.of_light.clear();
+    }
+
+    /// Notes which slots are whose, for those who ask by light and view.
+    fn name_slots(&mut self, frame: &AtlasFrame<'_>, entries: &[Entry<'_>]) {
         self.lights = frame.lights.len();
         self.views = frame.views.len().max(1);
         self.of_light.clear();
@@ -210,16 +249,6 @@ impl ShadowAtlas {
                 self.names[slot] = (entry.index, entry.view.map_or(0, |(view, _)| view));
             }
         }
-        self.write_lights(&entries);
-        self.plans = plans;
-        self.statistics = AtlasStatistics {
-            lights_moved: moved.len() as u32,
-            not_encoded,
-            encoder_dropped,
-            ..self.count()
-        };
-        self.statistics.prepare = clock.elapsed();
-        Ok(())
     }
 
     /// Records what the last [`prepare`](Self::prepare) found necessary: its passes, and what it tells
@@ -231,7 +260,8 @@ impl ShadowAtlas {
     /// ([`AtlasStatistics::encoder_dropped`]).
     ///
     /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
-    /// missing from what this draws. Their tiles count as not drawn, so that the next frame draws them
+    /// missing from what this draws. Their tiles are counted
+    /// ([`AtlasStatistics::tiles_incomplete`]) and count as not drawn, so that the next frame draws them
     /// again. Hosts that have any call [`encode_with`](Self::encode_with).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.encode_tiles(encoder, None);
@@ -277,6 +307,7 @@ impl ShadowAtlas {
                         && !(draws.tile.host.is_empty() && draws.layer.host.is_empty())
                 };
                 let tiles: Vec<usize> = (0..slot.tiles.len()).filter(missing).collect();
+                self.statistics.tiles_incomplete += tiles.len() as u32;
                 tiles.into_iter().for_each(|tile| slot.spoil(tile));
             }
         }
@@ -321,8 +352,8 @@ impl ShadowAtlas {
                 y: place.y,
                 size: place.size,
                 clip_from_world: from_light * Mat4::from_translation(-projection.origin()),
-                statistics: FaceStatistics {
-                    state: plan.map_or(FaceState::Empty, |plan| plan.state(slot, number)),
+                statistics: TileStatistics {
+                    state: plan.map_or(TileState::Empty, |plan| plan.state(slot, number)),
                     casters: tile.content.casters,
                     triangles: tile.content.triangles,
                     age: tile.age,
@@ -382,12 +413,12 @@ impl ShadowAtlas {
         resized: Resized,
     ) -> Vec<SlotPlan> {
         let views: Vec<_> = frame.views.iter().map(|view| view.view).collect();
-        let at_once = |&(place, entry): &(usize, &Entry<'_>)| {
+        let mut pinned: Vec<bool> = entries.iter().map(|of| of.light.is_pinned()).collect();
+        for (place, pinned) in pinned.iter_mut().enumerate() {
             let slot = self.slots.of_light(place);
-            entry.light.is_pinned() || slot.is_some_and(|slot| moved.contains(&slot))
-        };
-        let pinned = entries.iter().enumerate().filter(at_once);
-        let pinned: Vec<usize> = pinned.map(|(place, _)| place).collect();
+            // In the order of the slots.
+            *pinned |= slot.is_some_and(|slot| moved.binary_search(&slot).is_ok());
+        }
         let rules = Rules {
             views: &views,
             reach: self.reach,

@@ -26,6 +26,10 @@ pub struct AtlasStatistics {
     pub tiles_copied: u32,
     /// Tiles of second layers that are drawn, to be copied in this frame and later ones.
     pub static_tiles_drawn: u32,
+    /// Tiles that the last `encode` drew without casters that only the host can draw, as it was not asked
+    /// to ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with)): counted when it does so, and drawn
+    /// again in the next frame.
+    pub tiles_incomplete: u32,
     /// Lights that want larger tiles than there is room for.
     pub lights_reduced: u32,
     /// Lights whose tiles changed size or place, and are drawn anew for that.

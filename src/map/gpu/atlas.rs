@@ -4,13 +4,13 @@ use glam::Mat4;
 
 use super::atlas_lights::AtlasLights;
 use super::atlas_texture::{AtlasTexture, Resized};
-use super::draws::{Draw, DrawLists, ListedDraws};
-use super::encode::{Drawing, begin_depth_pass};
-use super::instances::{Instances, TooLarge};
+use super::casting::Casting;
+use super::draws::{DrawLists, ListedDraws};
+use super::encode::begin_depth_pass;
+use super::instances::TooLarge;
 use super::light_record::TilePlace;
-use super::pipelines::{PipelineKind, Pipelines, can_pull_casters};
+use super::pipelines::{PipelineKind, can_pull_casters};
 use super::tile_fill::TileFill;
-use super::uniforms::{FaceUniform, FaceUniforms};
 use crate::map::encoding::DepthEncoding;
 use crate::map::plan::{DrawMode, Place, Residents, Slot, Slots};
 use crate::map::projection::{MOST_TILES, NearPlane};
@@ -33,17 +33,10 @@ pub(crate) struct AtlasKind {
 #[derive(Debug)]
 pub(crate) struct AtlasGpu {
     label: String,
-    sides: CasterSides,
-    near_plane: NearPlane,
-    unclipped_depth: bool,
     texture: AtlasTexture,
     fill: TileFill,
-    pipelines: Pipelines,
-    uniforms: FaceUniforms,
     lights: AtlasLights,
-    instances: Instances,
-    draws: DrawLists,
-    uploads: Uploads,
+    casting: Casting,
 }
 
 /// What the host is asked to draw on one tile.
@@ -95,26 +88,17 @@ impl AtlasGpu {
             sides,
         } = kind;
         let encoding = DepthEncoding::MajorAxis;
-        let unclipped_depth = can_pull_casters(device);
-        let uniforms = FaceUniforms::new(device, &label, 1);
         let kind = PipelineKind {
             format,
             encoding,
             slope_scale,
-            unclipped_depth,
+            unclipped_depth: can_pull_casters(device),
         };
         Self {
-            sides,
-            near_plane: NearPlane::new(format, encoding),
-            unclipped_depth,
             texture: AtlasTexture::new(device, &label, layer_size, format),
             fill: TileFill::new(device, &label, format),
-            pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
-            uniforms,
             lights: AtlasLights::new(device, &label),
-            instances: Instances::new(device, &label),
-            draws: DrawLists::default(),
-            uploads: Uploads::new(device),
+            casting: Casting::new(device, &label, kind, sides, (0, MOST_TILES)),
             label,
         }
     }
@@ -128,33 +112,30 @@ impl AtlasGpu {
     }
 
     pub fn lights_mut(&mut self) -> (&mut AtlasLights, &mut Uploads) {
-        (&mut self.lights, &mut self.uploads)
+        (&mut self.lights, self.casting.uploads())
     }
 
     pub fn draws(&self) -> &DrawLists {
-        &self.draws
+        self.casting.draws()
     }
 
     pub fn near_plane(&self) -> NearPlane {
-        self.near_plane
+        self.casting.near_plane()
     }
 
     /// Whether casters before the near plane are pulled onto it.
     pub fn unclipped_depth(&self) -> bool {
-        self.unclipped_depth
+        self.casting.unclipped_depth()
     }
 
     /// Bytes that the next encode copies.
     pub fn uploaded(&self) -> u64 {
-        self.uploads.bytes()
+        self.casting.uploaded()
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
-        self.texture.bytes()
-            + self.instances.bytes()
-            + self.uniforms.bytes()
-            + self.lights.buffer().size()
+        self.texture.bytes() + self.casting.bytes() + self.lights.buffer().size()
     }
 
     /// Makes as many layers as are needed, and room for the records of lights.
@@ -178,12 +159,11 @@ impl AtlasGpu {
         instances: usize,
         slots: usize,
     ) -> Result<(), TooLarge> {
-        self.uniforms.reserve(device, slots * MOST_TILES);
-        self.instances.reserve(device, instances)
+        self.casting.reserve(device, instances, slots)
     }
 
     pub fn clear_draws(&mut self) {
-        self.draws.clear();
+        self.casting.clear();
     }
 
     /// Lists what the pending tiles of a slot show. `layer_least`: for texels along a tile the fewest
@@ -208,33 +188,18 @@ impl AtlasGpu {
                 }
             }
         }
-        let (near_plane, sides) = (self.near_plane, self.sides);
-        self.draws
-            .add((index, slot), drawn, near_plane, sides, casters);
-        for tile in (0..places.len()).filter(|tile| drawn & 1 << tile != 0) {
-            let Some(projection) = slot.projection(tile) else {
-                continue;
-            };
-            let matrix = projection.clip_from_light(tile, near_plane);
-            let uniform = FaceUniform::new(&matrix, projection.range(), size);
-            let at = uniform_index(index, tile);
-            self.uniforms.write(&mut self.uploads, at, uniform);
-        }
+        self.casting.add((index, slot), drawn, size, casters);
     }
 
     /// Stages what the listed draws need.
     pub fn finish_draws(&mut self, device: &wgpu::Device) {
-        self.pipelines
-            .make(device, self.draws.iter().map(Draw::key));
-        self.instances
-            .write(&mut self.uploads, self.draws.instances());
+        self.casting.finish(device);
     }
 
     /// Forgets what was to be written, and what has been.
     pub fn forget_uploads(&mut self) {
-        self.uploads.clear();
+        self.casting.forget_uploads();
         self.lights.forget();
-        self.uniforms.forget();
     }
 
     /// Nothing is known of what encodes have recorded any more.
@@ -245,7 +210,7 @@ impl AtlasGpu {
 
     /// Records the uploads, and the copy of what a texture of another size held; whether there were any.
     pub fn upload(&mut self, encoder: &mut wgpu::CommandEncoder) -> bool {
-        self.texture.carry_over(encoder) | self.uploads.record(encoder)
+        self.texture.carry_over(encoder) | self.casting.uploads().record(encoder)
     }
 
     /// Draws the pending tiles, those of a layer in one pass.
@@ -285,7 +250,7 @@ impl AtlasGpu {
         for tile in built {
             set_tile(&mut pass, tile.place);
             self.fill.clear(&mut pass);
-            let draws = &self.draws.of(tile.slot, tile.tile).layer;
+            let draws = &self.casting.draws().of(tile.slot, tile.tile).layer;
             self.record(&mut pass, tiled, tile, draws, by_host);
         }
     }
@@ -321,7 +286,7 @@ impl AtlasGpu {
                 _ if !whole => self.fill.clear(&mut pass),
                 _ => {}
             }
-            let draws = &self.draws.of(tile.slot, tile.tile).tile;
+            let draws = &self.casting.draws().of(tile.slot, tile.tile).tile;
             self.record(&mut pass, tiled, tile, draws, by_host);
         }
     }
@@ -334,18 +299,14 @@ impl AtlasGpu {
         listed: &ListedDraws,
         by_host: &mut Option<DrawByHost<'_>>,
     ) {
-        let drawing = Drawing {
-            uniforms: &self.uniforms,
-            pipelines: &self.pipelines,
-            instances: &self.instances,
-        };
-        drawing.record(pass, uniform_index(tile.slot, tile.tile), &listed.draws);
+        self.casting
+            .record(pass, (tile.slot, tile.tile), &listed.draws);
         let projection = tiled.slots[tile.slot].projection(tile.tile);
         if let (Some(draw), Some(projection)) = (by_host, projection)
             && !listed.host.is_empty()
         {
             let (light, view) = tiled.names[tile.slot];
-            let from_light = projection.clip_from_light(tile.tile, self.near_plane);
+            let from_light = projection.clip_from_light(tile.tile, self.casting.near_plane());
             let clip_from_world = from_light * Mat4::from_translation(-projection.origin());
             let asked = HostDraw {
                 light,
@@ -388,8 +349,4 @@ impl From<Place> for TilePlace {
         let Place { x, y, layer, .. } = place;
         Self { x, y, layer }
     }
-}
-
-fn uniform_index(slot: usize, tile: usize) -> usize {
-    slot * MOST_TILES + tile
 }

@@ -13,8 +13,10 @@ pub(crate) struct AtlasLights {
     label: String,
     usage: wgpu::BufferUsages,
     buffer: wgpu::Buffer,
-    /// What it holds once the uploads are recorded.
+    /// What it holds once the uploads are recorded; `None`: not known.
     written: Vec<Option<LightRecord>>,
+    /// From this place on it has never held a light.
+    held: usize,
     /// The most that a shader can read.
     limit: usize,
     /// Of the texture that is bound beside it.
@@ -44,6 +46,7 @@ impl AtlasLights {
         Self {
             buffer: make(device, &label, count, usage),
             written: vec![None; count],
+            held: 0,
             label,
             usage,
             limit,
@@ -78,6 +81,7 @@ impl AtlasLights {
         queue.write_buffer(&self.buffer, 0, &vec![0; self.buffer.size() as usize]);
         self.buffer = make(device, &self.label, room, self.usage);
         self.written = vec![None; room];
+        self.held = 0;
         self.texture_revision = texture_revision;
         self.revision += 1;
     }
@@ -89,6 +93,7 @@ impl AtlasLights {
 
     /// Uploads one, if it is not what it was.
     pub fn write(&mut self, uploads: &mut Uploads, place: usize, record: LightRecord) {
+        self.held = self.held.max(place + 1);
         if self.written[place].replace(record) != Some(record) {
             let bytes = bytemuck::bytes_of(&record);
             uploads.write(&self.buffer, (place * bytes.len()) as u64, bytes);
@@ -97,22 +102,14 @@ impl AtlasLights {
 
     /// Has all places from one on hold no light.
     pub fn end(&mut self, uploads: &mut Uploads, from: usize) {
-        for place in from..self.written.len() {
-            if self.written[place].is_some_and(|record| record != LightRecord::DARK) {
-                self.write(uploads, place, LightRecord::DARK);
-            }
+        for place in from..self.held {
+            self.write(uploads, place, LightRecord::DARK);
         }
     }
 
     /// Takes nothing for written.
     pub fn forget(&mut self) {
-        for written in &mut self.written {
-            // Of a place that held a light nothing is known; it must be told if it holds none.
-            *written = written.map(|_| LightRecord {
-                centre: f32::NAN,
-                ..LightRecord::DARK
-            });
-        }
+        self.written.fill(None);
     }
 
     pub fn buffer(&self) -> &wgpu::Buffer {

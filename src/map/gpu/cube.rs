@@ -1,22 +1,20 @@
 //! All that a cube map has on the GPU.
 
+use super::casting::Casting;
 use super::cube_lights::CubeLights;
 use super::draws::{Draw, DrawLists};
-use super::encode::{Drawing, begin_depth_pass};
-use super::instances::{Instances, TooLarge};
+use super::encode::begin_depth_pass;
+use super::instances::TooLarge;
 use super::light_record::{LightRecord, TilePlace, TileTexture, Tiles};
-use super::pipelines::{PipelineKind, Pipelines, can_pull_casters};
+use super::pipelines::{PipelineKind, can_pull_casters};
 use super::static_layers::StaticLayerTextures;
 use super::texture::CubeTextures;
-use super::uniforms::{FaceUniform, FaceUniforms};
 use crate::map::cube_descriptor::CubeShadowMapDescriptor;
 use crate::map::encoding::DepthEncoding;
 use crate::map::plan::{DrawMode, Slot, Slots};
 use crate::map::projection::{CubeFace, NearPlane, TileProjection};
-use crate::map::sides::CasterSides;
 use crate::mesh::Caster;
 use crate::scene::Casters;
-use crate::uploads::Uploads;
 use crate::{Bias, PointLight};
 
 /// Textures, pipelines, buffers, and what the next encode records.
@@ -27,16 +25,10 @@ pub(crate) struct CubeGpu {
     bias: Bias,
     format: wgpu::TextureFormat,
     encoding: DepthEncoding,
-    sides: CasterSides,
-    near_plane: NearPlane,
     textures: CubeTextures,
     layers: StaticLayerTextures,
-    pipelines: Pipelines,
-    uniforms: FaceUniforms,
     lights: CubeLights,
-    instances: Instances,
-    draws: DrawLists,
-    uploads: Uploads,
+    casting: Casting,
 }
 
 impl CubeGpu {
@@ -54,7 +46,6 @@ impl CubeGpu {
             Some(label) => format!("shadows cube map {label}"),
             None => "shadows cube map".to_owned(),
         };
-        let uniforms = FaceUniforms::new(device, &label, 6 * slots);
         let kind = PipelineKind {
             format,
             encoding,
@@ -67,16 +58,10 @@ impl CubeGpu {
             bias,
             format,
             encoding,
-            sides: descriptor.sides,
-            near_plane: NearPlane::new(format, encoding),
             lights: CubeLights::new(device, &label, slots, cube_array, textures.revision()),
             textures,
             layers: StaticLayerTextures::new(&label, size, format, slots),
-            pipelines: Pipelines::new(device, &label, uniforms.layout(), kind),
-            uniforms,
-            instances: Instances::new(device, &label),
-            draws: DrawLists::default(),
-            uploads: Uploads::new(device),
+            casting: Casting::new(device, &label, kind, descriptor.sides, (slots, 6)),
             label,
         }
     }
@@ -90,25 +75,21 @@ impl CubeGpu {
     }
 
     pub fn draws(&self) -> &DrawLists {
-        &self.draws
+        self.casting.draws()
     }
 
     pub fn near_plane(&self) -> NearPlane {
-        self.near_plane
+        self.casting.near_plane()
     }
 
     /// Bytes that the next encode copies.
     pub fn uploaded(&self) -> u64 {
-        self.uploads.bytes()
+        self.casting.uploaded()
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
-        self.textures.bytes()
-            + self.layers.bytes()
-            + self.instances.bytes()
-            + self.uniforms.bytes()
-            + self.lights.bytes()
+        self.textures.bytes() + self.layers.bytes() + self.casting.bytes() + self.lights.bytes()
     }
 
     /// Makes the texels of a slot. Gives the slots whose texels are new.
@@ -129,11 +110,12 @@ impl CubeGpu {
 
     /// Makes room for so many instances.
     pub fn reserve(&mut self, device: &wgpu::Device, count: usize) -> Result<(), TooLarge> {
-        self.instances.reserve(device, count)
+        let slots = self.textures.slots();
+        self.casting.reserve(device, count, slots)
     }
 
     pub fn clear_draws(&mut self) {
-        self.draws.clear();
+        self.casting.clear();
     }
 
     /// Lists what some faces of a slot show. `layer_least`: the fewest triangles that are worth a
@@ -155,27 +137,13 @@ impl CubeGpu {
                 }
             }
         }
-        let (near_plane, sides) = (self.near_plane, self.sides);
-        self.draws
-            .add((index, slot), drawn, near_plane, sides, (casters, all));
-        for face in CubeFace::ALL {
-            let tile = face.layer() as usize;
-            let Some(projection) = slot.projection(tile) else {
-                continue;
-            };
-            let matrix = projection.clip_from_light(tile, near_plane);
-            let uniform = FaceUniform::new(&matrix, projection.range(), self.size);
-            let at = uniform_index(index, face);
-            self.uniforms.write(&mut self.uploads, at, uniform);
-        }
+        let casters = (casters, all);
+        self.casting.add((index, slot), drawn, self.size, casters);
     }
 
     /// Stages what the listed draws need.
     pub fn finish_draws(&mut self, device: &wgpu::Device) {
-        self.pipelines
-            .make(device, self.draws.iter().map(Draw::key));
-        self.instances
-            .write(&mut self.uploads, self.draws.instances());
+        self.casting.finish(device);
     }
 
     /// Stages what receivers are told of the lights. `marks_casterless`: whether they are told of
@@ -190,7 +158,7 @@ impl CubeGpu {
             let slot = &slots[index];
             let shown = shown_light(slot);
             let light = shown.unwrap_or(*wanted);
-            let near = self.near_plane.of_point(&light);
+            let near = self.casting.near_plane().of_point(&light);
             let casterless = marks_casterless && slot.casting == 0 && shown == Some(*wanted);
             let record = |tiles| LightRecord::point(&light, near, tiles, &texture);
             let record = match self.textures.slot(index) {
@@ -202,15 +170,14 @@ impl CubeGpu {
                 }),
                 _ => record(Tiles::NoCaster),
             };
-            self.lights.write(&mut self.uploads, place, record);
+            self.lights.write(self.casting.uploads(), place, record);
         }
     }
 
     /// Forgets what was to be written, and what has been.
     pub fn forget_uploads(&mut self) {
-        self.uploads.clear();
+        self.casting.forget_uploads();
         self.lights.forget();
-        self.uniforms.forget();
     }
 
     /// Nothing is known of what encodes have recorded any more.
@@ -221,7 +188,7 @@ impl CubeGpu {
 
     /// Records the uploads; whether there were any.
     pub fn upload(&mut self, encoder: &mut wgpu::CommandEncoder) -> bool {
-        self.uploads.record(encoder)
+        self.casting.uploads().record(encoder)
     }
 
     /// Clears what is bound in the place of texels that are not there, once; whether it did.
@@ -252,7 +219,12 @@ impl CubeGpu {
         slot: &Slot,
         face: CubeFace,
     ) {
-        let draws = &self.draws.of(index, face.layer() as usize).tile.draws;
+        let draws = &self
+            .casting
+            .draws()
+            .of(index, face.layer() as usize)
+            .tile
+            .draws;
         let load = match self.encode_layer(encoder, index, slot, face) {
             true if draws.is_empty() => return,
             true => wgpu::LoadOp::Load,
@@ -280,7 +252,12 @@ impl CubeGpu {
             DrawMode::Build(_) => {
                 let label = self.face_label(index, face);
                 let mut pass = begin_depth_pass(encoder, &label, view, self.clear());
-                let draws = &self.draws.of(index, face.layer() as usize).layer.draws;
+                let draws = &self
+                    .casting
+                    .draws()
+                    .of(index, face.layer() as usize)
+                    .layer
+                    .draws;
                 self.record(&mut pass, index, face, draws);
             }
             DrawMode::Copy(_) => {}
@@ -296,12 +273,8 @@ impl CubeGpu {
         face: CubeFace,
         draws: &[Draw],
     ) {
-        let drawing = Drawing {
-            uniforms: &self.uniforms,
-            pipelines: &self.pipelines,
-            instances: &self.instances,
-        };
-        drawing.record(pass, uniform_index(index, face), draws);
+        let tile = (index, face.layer() as usize);
+        self.casting.record(pass, tile, draws);
     }
 
     /// Begins a pass on a face of a slot, if it has texels.
@@ -332,8 +305,4 @@ pub(crate) fn shown_light(slot: &Slot) -> Option<PointLight> {
         TileProjection::Face(light) => Some(light),
         TileProjection::Flat(_) => None,
     }
-}
-
-fn uniform_index(slot: usize, face: CubeFace) -> usize {
-    slot * 6 + face.layer() as usize
 }

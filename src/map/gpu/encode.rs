@@ -1,10 +1,5 @@
 //! The passes that draw tiles.
 
-use super::draws::Draw;
-use super::instances::Instances;
-use super::pipelines::Pipelines;
-use super::uniforms::FaceUniforms;
-
 /// Begins a pass that draws depth, and nothing else, on a view.
 pub(crate) fn begin_depth_pass<'encoder>(
     encoder: &'encoder mut wgpu::CommandEncoder,
@@ -24,21 +19,4 @@ pub(crate) fn begin_depth_pass<'encoder>(
         }),
         ..Default::default()
     })
-}
-
-/// What tiles are drawn with.
-pub(crate) struct Drawing<'a> {
-    pub uniforms: &'a FaceUniforms,
-    pub pipelines: &'a Pipelines,
-    pub instances: &'a Instances,
-}
-
-impl Drawing<'_> {
-    /// Draws casters on the tile whose uniform has this index.
-    pub fn record(&self, pass: &mut wgpu::RenderPass<'_>, index: usize, draws: &[Draw]) {
-        self.uniforms.bind(pass, index);
-        for draw in draws {
-            draw.record(pass, self.pipelines, self.instances);
-        }
-    }
 }

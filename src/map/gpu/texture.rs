@@ -80,6 +80,11 @@ impl CubeTextures {
         had
     }
 
+    /// How many lights it is for.
+    pub fn slots(&self) -> usize {
+        self.slots.len()
+    }
+
     pub fn slot(&self, slot: usize) -> Option<&SlotTexture> {
         self.slots.get(slot)?.as_ref()
     }

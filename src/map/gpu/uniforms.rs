@@ -15,7 +15,7 @@ pub(crate) fn most_tiles(limits: &wgpu::Limits) -> u32 {
 /// `ShadowsCubeFaceUniform` in WGSL.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub(crate) struct FaceUniform {
+pub(crate) struct TileUniform {
     clip_from_light: [f32; 16],
     range: f32,
     /// Of the map's side, where that is 2 wide.
@@ -23,7 +23,7 @@ pub(crate) struct FaceUniform {
     padding: [f32; 2],
 }
 
-impl FaceUniform {
+impl TileUniform {
     /// `size`: texels along a side of the map.
     pub fn new(clip_from_light: &glam::Mat4, range: f32, size: u32) -> Self {
         Self {
@@ -37,16 +37,16 @@ impl FaceUniform {
 
 /// The uniforms of all tiles of a map, picked by dynamic offset.
 #[derive(Debug)]
-pub(crate) struct FaceUniforms {
+pub(crate) struct TileUniforms {
     label: String,
     buffer: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
     /// What they hold once the uploads are recorded.
-    written: Vec<Option<FaceUniform>>,
+    written: Vec<Option<TileUniform>>,
 }
 
-impl FaceUniforms {
+impl TileUniforms {
     pub fn new(device: &wgpu::Device, label: &str, count: usize) -> Self {
         let label = format!("{label} faces");
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -57,7 +57,7 @@ impl FaceUniforms {
                 ty: wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
                     has_dynamic_offset: true,
-                    min_binding_size: wgpu::BufferSize::new(size_of::<FaceUniform>() as u64),
+                    min_binding_size: wgpu::BufferSize::new(size_of::<TileUniform>() as u64),
                 },
                 count: None,
             }],
@@ -90,7 +90,7 @@ impl FaceUniforms {
     }
 
     /// Uploads one, if it is not what it was.
-    pub fn write(&mut self, uploads: &mut Uploads, index: usize, uniform: FaceUniform) {
+    pub fn write(&mut self, uploads: &mut Uploads, index: usize, uniform: TileUniform) {
         if self.written[index].replace(uniform) != Some(uniform) {
             let offset = index as u64 * UNIFORM_STRIDE;
             uploads.write(&self.buffer, offset, bytemuck::bytes_of(&uniform));
@@ -123,7 +123,7 @@ fn make(
             resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &buffer,
                 offset: 0,
-                size: wgpu::BufferSize::new(size_of::<FaceUniform>() as u64),
+                size: wgpu::BufferSize::new(size_of::<TileUniform>() as u64),
             }),
         }],
     });

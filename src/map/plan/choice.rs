@@ -5,7 +5,7 @@ use super::slot::Slot;
 use super::slots::Slots;
 use super::static_layer::DrawMode;
 use super::visibility::visible_tiles;
-use crate::map::statistics::FaceState;
+use crate::map::statistics::TileState;
 use crate::scene::Frustum;
 use crate::{Radius, View};
 
@@ -22,18 +22,18 @@ pub(crate) struct SlotPlan {
 
 impl SlotPlan {
     /// What becomes of a tile.
-    pub fn state(&self, slot: &Slot, tile: usize) -> FaceState {
+    pub fn state(&self, slot: &Slot, tile: usize) -> TileState {
         let has = |mask: u8| mask & 1 << tile != 0;
         if has(self.drawn) {
-            FaceState::Rendered
+            TileState::Rendered
         } else if has(self.wanted) {
-            FaceState::Postponed
+            TileState::Postponed
         } else if has(self.hidden) {
-            FaceState::Hidden
+            TileState::Hidden
         } else if has(slot.empty()) {
-            FaceState::Empty
+            TileState::Empty
         } else {
-            FaceState::Kept
+            TileState::Kept
         }
     }
 }
@@ -47,8 +47,8 @@ pub(crate) struct Rules<'a> {
     pub cache: bool,
     /// The most tiles drawn.
     pub budget: Option<u32>,
-    /// Places of lights that no budget holds back.
-    pub pinned: &'a [usize],
+    /// For the place of each light whether no budget holds it back; the rest are held back.
+    pub pinned: &'a [bool],
 }
 
 /// Chooses the tiles to draw, of the slots that have texels: `size` says how many along a tile.
@@ -74,7 +74,7 @@ pub(crate) fn choose_tiles(
         let plan = &mut plans[index];
         plan.wanted = stale & visible;
         plan.hidden = stale & !visible;
-        let free = rules.budget.is_none() || rules.pinned.contains(&place);
+        let free = rules.budget.is_none() || rules.pinned.get(place) == Some(&true);
         let weight = match light.sphere() {
             Some((centre, range)) if !frusta.is_empty() => frusta
                 .iter()
@@ -138,7 +138,7 @@ impl Tally {
             for (bit, tile) in slot.tiles.iter().enumerate() {
                 let state = plan.state(slot, bit);
                 tally.count(state);
-                if state == FaceState::Rendered {
+                if state == TileState::Rendered {
                     let mode = tile.layer.mode();
                     tally.copied += u32::from(mode != DrawMode::Whole);
                     tally.layers_drawn += u32::from(matches!(mode, DrawMode::Build(_)));
@@ -148,13 +148,13 @@ impl Tally {
         tally
     }
 
-    fn count(&mut self, state: FaceState) {
+    fn count(&mut self, state: TileState) {
         *match state {
-            FaceState::Rendered => &mut self.rendered,
-            FaceState::Kept => &mut self.kept,
-            FaceState::Empty => &mut self.empty,
-            FaceState::Hidden => &mut self.hidden,
-            FaceState::Postponed => &mut self.postponed,
+            TileState::Rendered => &mut self.rendered,
+            TileState::Kept => &mut self.kept,
+            TileState::Empty => &mut self.empty,
+            TileState::Hidden => &mut self.hidden,
+            TileState::Postponed => &mut self.postponed,
         } += 1;
     }
 }

@@ -39,11 +39,9 @@ pub(crate) struct Cascade {
 /// plane: casters before that are pulled onto it.
 ///
 /// # Errors
-/// [`CascadeError`] if a number is out of range, by itself or all together in `f32`. (Light, view and
-/// receivers have passed their own checks.)
+/// [`CascadeError`] if a map is too small for its kernels, or all together is not finite in `f32`. (Light,
+/// view, cascades, depth bounds and receivers have passed their own checks.)
 pub(crate) fn fit_cascades(of: &CascadesOf<'_>) -> Result<Vec<Cascade>, CascadeError> {
-    of.cascades.validate()?;
-    of.depth_bounds.map_or(Ok(()), |bounds| bounds.validate())?;
     let slack = slack(of)?;
     let Some(casters) = of.casters else {
         return Ok(Vec::new());

@@ -6,7 +6,7 @@ use super::*;
 fn what_is_out_of_range_is_named() {
     let light = sun();
     let view = perspective(50.0, Vec3::ONE, Vec3::X);
-    let error = |cascades: &Cascades| fit_cascades(&of(&view, &light, cascades)).unwrap_err();
+    let error = |cascades: &Cascades| cascades.validate().unwrap_err();
     let sound = Cascades::default();
     for count in [0, 9, u32::MAX] {
         let error = error(&Cascades { count, ..sound });
@@ -49,11 +49,7 @@ fn what_is_out_of_range_is_named() {
         (f32::NAN, 2.0),
         (0.0, f32::INFINITY),
     ] {
-        let depth_bounds = Some(DepthBounds { nearest, farthest });
-        let error = fit_cascades(&CascadesOf {
-            depth_bounds,
-            ..of(&view, &light, &sound)
-        });
+        let error = DepthBounds { nearest, farthest }.validate();
         assert!(matches!(error, Err(CascadeError::DepthBounds { .. })));
     }
     // All casters are too far away together.

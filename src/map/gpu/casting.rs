@@ -1,0 +1,141 @@
+//! What draws casters into tiles, whichever map they are of.
+
+use super::draws::{Draw, DrawLists};
+use super::instances::{Instances, TooLarge};
+use super::pipelines::{PipelineKind, Pipelines};
+use super::uniforms::{TileUniform, TileUniforms};
+use crate::map::plan::Slot;
+use crate::map::projection::NearPlane;
+use crate::map::sides::CasterSides;
+use crate::mesh::Caster;
+use crate::scene::Casters;
+use crate::uploads::Uploads;
+
+/// Pipelines, matrices and instances, the draws of a frame, and the uploads that the next encode records.
+#[derive(Debug)]
+pub(crate) struct Casting {
+    sides: CasterSides,
+    near_plane: NearPlane,
+    unclipped_depth: bool,
+    /// The most that a slot has.
+    tiles_a_slot: usize,
+    pipelines: Pipelines,
+    uniforms: TileUniforms,
+    instances: Instances,
+    draws: DrawLists,
+    uploads: Uploads,
+}
+
+impl Casting {
+    /// For so many slots, each of at most so many tiles.
+    pub fn new(
+        device: &wgpu::Device,
+        label: &str,
+        kind: PipelineKind,
+        sides: CasterSides,
+        (slots, tiles_a_slot): (usize, usize),
+    ) -> Self {
+        let uniforms = TileUniforms::new(device, label, (slots * tiles_a_slot).max(1));
+        Self {
+            sides,
+            near_plane: NearPlane::new(kind.format, kind.encoding),
+            unclipped_depth: kind.unclipped_depth,
+            tiles_a_slot,
+            pipelines: Pipelines::new(device, label, uniforms.layout(), kind),
+            uniforms,
+            instances: Instances::new(device, label),
+            draws: DrawLists::default(),
+            uploads: Uploads::new(device),
+        }
+    }
+
+    pub fn near_plane(&self) -> NearPlane {
+        self.near_plane
+    }
+
+    /// Whether casters before the near plane are pulled onto it.
+    pub fn unclipped_depth(&self) -> bool {
+        self.unclipped_depth
+    }
+
+    pub fn draws(&self) -> &DrawLists {
+        &self.draws
+    }
+
+    pub fn uploads(&mut self) -> &mut Uploads {
+        &mut self.uploads
+    }
+
+    /// Bytes that the next encode copies.
+    pub fn uploaded(&self) -> u64 {
+        self.uploads.bytes()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> u64 {
+        self.instances.bytes() + self.uniforms.bytes()
+    }
+
+    /// Makes room for so many instances, and for the matrices of so many slots.
+    pub fn reserve(
+        &mut self,
+        device: &wgpu::Device,
+        instances: usize,
+        slots: usize,
+    ) -> Result<(), TooLarge> {
+        self.uniforms.reserve(device, slots * self.tiles_a_slot);
+        self.instances.reserve(device, instances)
+    }
+
+    pub fn clear(&mut self) {
+        self.draws.clear();
+    }
+
+    /// Lists what some tiles of a slot show, each of `size` texels along a side.
+    pub fn add(
+        &mut self,
+        (index, slot): (usize, &Slot),
+        drawn: u8,
+        size: u32,
+        casters: (&Casters, &[Caster]),
+    ) {
+        let near_plane = self.near_plane;
+        self.draws
+            .add((index, slot), drawn, near_plane, self.sides, casters);
+        for tile in (0..slot.tiles.len()).filter(|tile| drawn & 1 << tile != 0) {
+            if let Some(projection) = slot.projection(tile) {
+                let matrix = projection.clip_from_light(tile, near_plane);
+                let uniform = TileUniform::new(&matrix, projection.range(), size);
+                let at = index * self.tiles_a_slot + tile;
+                self.uniforms.write(&mut self.uploads, at, uniform);
+            }
+        }
+    }
+
+    /// Stages what the listed draws need, after [`reserve`](Self::reserve) for as many instances.
+    pub fn finish(&mut self, device: &wgpu::Device) {
+        self.pipelines
+            .make(device, self.draws.iter().map(Draw::key));
+        self.instances
+            .write(&mut self.uploads, self.draws.instances());
+    }
+
+    /// Forgets what was to be written, and what has been.
+    pub fn forget_uploads(&mut self) {
+        self.uploads.clear();
+        self.uniforms.forget();
+    }
+
+    /// Draws casters on a tile.
+    pub fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        (slot, tile): (usize, usize),
+        draws: &[Draw],
+    ) {
+        self.uniforms.bind(pass, slot * self.tiles_a_slot + tile);
+        for draw in draws {
+            draw.record(pass, &self.pipelines, &self.instances);
+        }
+    }
+}
