@@ -8,10 +8,11 @@ use glam::{Affine3A, Quat, Vec3};
 use host::gpu::Gpu;
 use shadows::error::PcfError;
 use shadows::{
-    AnyMap, AtlasFrame, AtlasLight, AtlasView, Cascades, Caster, CubeFrame, CubeShadowMap,
-    CubeShadowMapDescriptor, DepthConvention, DirectionalLight, FlatLight, Kernel, Light,
-    LightKinds, MapKind, PcfDescriptor, PcfSampler, PointLight, ShadowAtlas, ShadowAtlasDescriptor,
-    ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, TileSize, View, glam,
+    AnyMap, AtlasFrame, AtlasLight, AtlasView, CascadeSplit, Cascades, Caster, CubeFrame,
+    CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, DirectionalLight, FlatLight, Kernel,
+    Light, LightKinds, MapKind, PcfDescriptor, PcfSampler, PointLight, ShadowAtlas,
+    ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, TileSize, View,
+    glam,
 };
 
 const SIZE: u32 = 128;
@@ -248,6 +249,87 @@ fn a_receiver_reads_the_nearest_cascade_that_holds_it() {
             );
         }
     }
+}
+
+#[test]
+fn a_receiver_before_a_cascades_near_plane_reads_a_farther_one() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // High above the eye a platform with a roof over it; the nearest cascade begins far below both.
+    let slab = cuboid(Vec3::new(40.0, 0.5, 40.0)).mesh(&gpu.device);
+    let at = |y: f32| Caster::new(slab.clone(), Affine3A::from_translation(Vec3::Y * y));
+    let casters = [at(-0.5), at(300.0), at(350.0)];
+    let projection = proj::perspective_infinite_reverse(1.2, 1.5, 0.1);
+    let matrix = projection * camera::look_at_mat4(Vec3::Y, Vec3::NEG_Z, Vec3::Y);
+    let view = View::new(matrix, DepthConvention::InfiniteReverse).unwrap();
+    let cascades = Cascades {
+        count: 8,
+        split: CascadeSplit::Practical { lambda: 1.0 },
+        distance: 400.0,
+        ..Default::default()
+    };
+    let lights = [
+        AtlasLight::directional(DirectionalLight::new(Vec3::Y), cascades)
+            .with_size(TileSize::Fixed(256)),
+    ];
+    let frame = AtlasFrame {
+        lights: &lights,
+        casters: &casters,
+        views: &[AtlasView::new(&view, 300, 200)],
+        receivers: None,
+    };
+    let atlas = atlas(&gpu, &frame);
+    let nearest = atlas.tiles(0, 0)[0].clip_from_world;
+    assert!(nearest.project_point3(Vec3::Y * 300.5).z > 1.0);
+    let mut random = Random::new(1);
+    let on_platform = |_| {
+        let place = Vec3::new(0.2 * random.next(), 300.5, 0.2 * random.next());
+        (place, Vec3::Y)
+    };
+    let points: Vec<_> = (0..200).map(on_platform).collect();
+    let lit = |said: Vec<f32>| said.iter().filter(|&&lit| lit > 0.0).count();
+    for kernel in [Kernel::Hard, Kernel::Bilinear] {
+        let said = ask(&gpu, &atlas, &descriptor(kernel), 0, &points);
+        assert_eq!(lit(said), 0, "{kernel:?}");
+        // The broken twin: cascades are chosen by their sides alone.
+        let sides = |module: String| {
+            let changed = module.replace("dot(record.forward, local) < 0.0", "false");
+            assert_ne!(changed, module);
+            changed
+        };
+        let map = AnyMap::from(&atlas);
+        let said = ask_changed(&gpu, map, &descriptor(kernel), 0, &points, sides);
+        assert!(lit(said) > 100, "{kernel:?}");
+    }
+}
+
+#[test]
+fn a_light_that_is_gone_is_dark() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let (room, lights) = (room(&gpu, 480), lights());
+    let frame = |count: usize| AtlasFrame {
+        lights: &lights[..count],
+        casters: &room.casters,
+        ..Default::default()
+    };
+    let mut atlas = atlas(&gpu, &frame(5));
+    let lit = |atlas: &ShadowAtlas, light: usize| {
+        let said = ask(
+            &gpu,
+            atlas,
+            &descriptor(Kernel::Bilinear),
+            light,
+            &room.points,
+        );
+        said.iter().filter(|&&lit| lit > 0.0).count()
+    };
+    assert!(lit(&atlas, 4) > 20 && lit(&atlas, 3) > 20);
+    // Found once and not encoded, and then again.
+    for _ in 0..2 {
+        atlas.prepare(&gpu.device, &gpu.queue, &frame(2)).unwrap();
+    }
+    gpu.run(|encoder| atlas.encode(encoder));
+    assert_eq!((lit(&atlas, 4), lit(&atlas, 3)), (0, 0));
+    assert!(lit(&atlas, 1) > 20, "it is still there");
 }
 
 #[test]
