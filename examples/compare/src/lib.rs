@@ -18,6 +18,7 @@ pub mod shadow;
 pub mod snippet;
 pub mod soft;
 pub mod stage;
+pub mod survey;
 pub mod sweep;
 pub mod table;
 pub mod technique;

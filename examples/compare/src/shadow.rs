@@ -13,6 +13,7 @@ use shadows::{
 };
 
 use crate::atlas::Atlas;
+use crate::survey::SurveyShadow;
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::interior::{self, radius_in_texels};
@@ -107,6 +108,7 @@ enum Means {
         counts: Option<ExactCount>,
     },
     Peer(Box<PeerMap>),
+    Survey(Box<dyn SurveyShadow>),
 }
 
 impl Shadow {
@@ -205,6 +207,10 @@ impl Shadow {
                 let lit = renderer.lit_pipeline(gpu, &access);
                 (Means::Peer(Box::new(map)), lit)
             }
+            Config::Survey(survey) => {
+                let (means, lit) = survey.make(gpu, renderer)?;
+                (Means::Survey(means), lit)
+            }
         };
         Ok(Self {
             technique,
@@ -258,6 +264,7 @@ impl Shadow {
                 };
                 volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
             }
+            Means::Survey(survey) => survey.prepare(gpu, inputs)?,
             Means::Peer(map) => map.prepare(
                 gpu,
                 &PeerInputs {
@@ -308,6 +315,7 @@ impl Shadow {
                 counts.encode(encoder, buffer).expect(fits);
             }
             Means::Peer(map) => map.encode(scene, encoder),
+            Means::Survey(survey) => survey.generate(host, scene, encoder),
         }
     }
 
@@ -330,6 +338,7 @@ impl Shadow {
             Means::Atlas(atlas) => Some(atlas.group()),
             Means::Volume { .. } => None,
             Means::Peer(map) => Some(map.bind_group()),
+            Means::Survey(survey) => survey.group(),
         };
         host.draw_lit_by(encoder, scene, light, &self.lit, group);
     }
@@ -338,7 +347,7 @@ impl Shadow {
     pub fn may_wrap(&mut self) -> bool {
         match &mut self.means {
             Means::Volume { volumes, .. } => volumes.may_wrap(0, 0),
-            Means::Cube { .. } | Means::Flat { .. } | Means::Atlas(_) | Means::Peer(_) => false,
+            _ => false,
         }
     }
 
@@ -369,6 +378,7 @@ impl Shadow {
                 let taken = map.statistics();
                 (taken.bytes, taken.draws, taken.triangles)
             }
+            Means::Survey(survey) => return survey.cost(),
         };
         let draws = draws.into();
         Cost {
@@ -395,6 +405,7 @@ impl Shadow {
             Means::Atlas(atlas) => atlas.interior(0),
             Means::Volume { .. } => Interior::Screen,
             Means::Peer(map) => map.interior(),
+            Means::Survey(survey) => survey.interior(),
         }
     }
 }
@@ -430,6 +441,7 @@ impl Technique {
                     "map_texels": size,
                 });
             }
+            Config::Survey(survey) => return survey.settings(),
             Config::Volume(volume) => {
                 return json!({
                     "method": format!("{:?}", volume.method),

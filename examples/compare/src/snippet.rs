@@ -17,6 +17,7 @@ pub fn of(config: &Config) -> String {
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Atlas { sampler, .. } => pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
+        Config::Survey(survey) => match survey {},
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",
             peer.name

@@ -41,7 +41,7 @@ pub fn techniques(asked: &Techniques) -> Vec<Technique> {
             // How long our drawing of another engine's maps takes says nothing of that engine.
             Config::Peer { .. } if asked.are_usual() => {}
             // Its maps are those of the others.
-            Config::Atlas { .. } => {}
+            Config::Atlas { .. } | Config::Survey(_) => {}
             _ if row.name == "cube-1024" => {} // one of the sizes
             _ => all.extend(SIDES.map(|side| Technique {
                 name: format!("{} {side}", row.name).into(),
@@ -139,7 +139,7 @@ fn set_bias(config: &mut Config, bias: Bias) {
     match config {
         Config::Cube { map, .. } => map.bias = bias,
         Config::Flat { map, .. } => map.bias = bias,
-        Config::Volume(_) | Config::Atlas { .. } | Config::Peer { .. } => {}
+        Config::Volume(_) | Config::Atlas { .. } | Config::Peer { .. } | Config::Survey(_) => {}
     }
 }
 
@@ -147,7 +147,7 @@ fn set_sides(config: &mut Config, sides: CasterSides) {
     match config {
         Config::Cube { map, .. } => map.sides = sides,
         Config::Flat { map, .. } => map.sides = sides,
-        Config::Volume(_) | Config::Atlas { .. } | Config::Peer { .. } => {}
+        Config::Volume(_) | Config::Atlas { .. } | Config::Peer { .. } | Config::Survey(_) => {}
     }
 }
 

@@ -6,6 +6,7 @@ use shadows::{
     CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
+use crate::survey::Survey;
 use host::peers::{Peer, PeerLight};
 use host::scene::LightKind;
 
@@ -43,6 +44,8 @@ pub enum Config {
         peer: &'static Peer,
         size: u32,
     },
+    /// A cheap or a baked one.
+    Survey(Survey),
 }
 
 impl Config {
@@ -52,6 +55,7 @@ impl Config {
             Self::Cube { .. } => light != LightKind::Directional,
             Self::Flat { .. } => light != LightKind::Point,
             Self::Volume(_) | Self::Atlas { .. } => true,
+            Self::Survey(survey) => survey.applies_to(light),
             Self::Peer { peer, .. } => match peer.light {
                 PeerLight::Point => light == LightKind::Point,
                 PeerLight::Spot => light == LightKind::Spot,
@@ -72,6 +76,7 @@ impl Config {
                  (--light-kind makes it another)"
             }
             Self::Volume(_) | Self::Atlas { .. } => "",
+            Self::Survey(survey) => survey.limit(),
             Self::Peer { peer, .. } => match peer.light {
                 PeerLight::Point => "it is for point lights, and this one is none",
                 PeerLight::Spot => "it is for spots, and this light is none (--light-kind spot)",
@@ -93,7 +98,7 @@ impl Config {
             Self::Flat { map, .. } => map.cache,
             Self::Atlas { kept, .. } => *kept,
             Self::Volume(volume) => volume.keep_between_frames,
-            Self::Peer { .. } => false,
+            Self::Peer { .. } | Self::Survey(_) => false,
         }
     }
 
@@ -105,7 +110,7 @@ impl Config {
             Self::Flat { map, .. } => map.cache = true,
             Self::Atlas { kept, .. } => *kept = true,
             Self::Volume(volume) => volume.keep_between_frames = true,
-            Self::Peer { .. } => {}
+            Self::Peer { .. } | Self::Survey(_) => {}
         }
         kept
     }
@@ -117,7 +122,7 @@ impl Config {
             Self::Cube { sampler, .. }
             | Self::Flat { sampler, .. }
             | Self::Atlas { sampler, .. } => Some(sampler.kernel),
-            Self::Volume(_) | Self::Peer { .. } => None,
+            Self::Volume(_) | Self::Peer { .. } | Self::Survey(_) => None,
         }
     }
 }

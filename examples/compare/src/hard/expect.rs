@@ -57,7 +57,7 @@ fn anywhere(case: &Case, technique: &Technique, software: bool) -> Expect {
             (Expect::Wraps, Counter::Exact) => Expect::Exact,
             (other, _) => other,
         },
-        Config::Peer { .. } | Config::Atlas { .. } => return Expect::Nothing,
+        Config::Peer { .. } | Config::Atlas { .. } | Config::Survey(_) => return Expect::Nothing,
     };
     let by_name = limits::of(case.name, &technique.name);
     let by_way = match &technique.config {

@@ -126,6 +126,7 @@ fn kind(technique: &Technique) -> u32 {
         Config::Volume(_) => 2,
         Config::Peer { .. } => 3,
         Config::Atlas { .. } => 4,
+        Config::Survey(_) => 5,
     }
 }
 

@@ -44,7 +44,7 @@ fn generated(techniques: &[Technique]) -> String {
             Config::Cube { .. } => "Config::Cube { map, sampler }",
             Config::Flat { .. } => "Config::Flat { map, sampler }",
             Config::Volume(_) => "Config::Volume(volumes)",
-            Config::Peer { .. } | Config::Atlas { .. } => unreachable!("they are not swept"),
+            _ => unreachable!("it is not swept"),
         };
         let snippet = compare::snippet::of(config);
         text += &format!("(\"{name}\", {{\n{snippet}{result}\n}}),\n");

@@ -10,6 +10,7 @@ use shadows::glam::{Affine3A, DAffine3, DMat3, DVec3, Mat4, Vec3, Vec4};
 pub mod city;
 pub mod courtyard;
 pub mod file;
+pub mod floor;
 pub mod ironwork;
 mod kit;
 pub mod leaf_mask;
@@ -24,13 +25,14 @@ pub mod valley;
 pub use city::city;
 pub use courtyard::courtyard;
 pub use file::file;
+pub use floor::floor;
 pub use light::{Cone, Light, LightKind, Sky};
 pub use spheres::{spheres, spheres_moving};
 pub use teapot::teapot;
 pub use valley::valley;
 
 /// Names of the built-in scenes, as [`load`] takes them.
-pub const NAMES: [&str; 5] = ["spheres", "courtyard", "teapot", "city", "valley"];
+pub const NAMES: [&str; 6] = ["spheres", "courtyard", "teapot", "city", "valley", "floor"];
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, PartialEq)]
@@ -344,6 +346,7 @@ pub fn load(spec: &str, ground: bool, time: Option<Time>) -> anyhow::Result<Scen
         "valley" => Ok(valley()),
         "courtyard" => Ok(courtyard()),
         "teapot" => Ok(teapot()),
+        "floor" => Ok(floor()),
         path => file(std::path::Path::new(path), ground),
     }
 }

@@ -1,0 +1,66 @@
+//! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
+
+use anyhow::Result;
+use serde_json::Value;
+use shadows::reference::Interior;
+use shadows::wgpu;
+
+use crate::shadow::{Cost, ShadowInputs};
+use host::gpu::Gpu;
+use host::renderer::{LitPipeline, Renderer};
+use host::scene::LightKind;
+use host::scene_gpu::SceneGpu;
+
+/// Which one, and how it is made.
+#[derive(Clone, Debug)]
+pub enum Survey {}
+
+/// One at work.
+pub trait SurveyShadow {
+    /// The frame's work on the CPU.
+    ///
+    /// # Errors
+    /// If the technique refuses the inputs.
+    fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()>;
+
+    /// Records what finds the shadows.
+    fn generate(&mut self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder);
+
+    /// What the lit pass reads, if anything.
+    fn group(&self) -> Option<&wgpu::BindGroup>;
+
+    /// What the last prepared frame takes.
+    fn cost(&self) -> Cost;
+
+    /// Where resolution is no excuse for its errors.
+    fn interior(&self) -> Interior;
+}
+
+impl Survey {
+    /// Whether it can shadow this kind of light.
+    pub fn applies_to(&self, _light: LightKind) -> bool {
+        match *self {}
+    }
+
+    /// Why it cannot shadow the lights that it does not apply to.
+    pub fn limit(&self) -> &'static str {
+        match *self {}
+    }
+
+    /// Everything that was chosen, by name.
+    pub fn settings(&self) -> Value {
+        match *self {}
+    }
+
+    /// Makes it, and the lit pass that reads it.
+    ///
+    /// # Errors
+    /// If the device cannot do it.
+    pub fn make(
+        &self,
+        _gpu: &Gpu,
+        _renderer: &Renderer,
+    ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
+        match *self {}
+    }
+}

@@ -1,0 +1,1 @@
+//! The cheap and the baked techniques against exact visibility, each with what it cannot do.
