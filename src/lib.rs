@@ -217,11 +217,12 @@ pub use shader::rewriting;
 
 pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight};
 pub use map::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit, CascadeSplit,
-    Cascades, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame, CubeShadowMap,
-    CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw,
-    LocalLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowMapStatistics, StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
+    AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,
+    AtlasView, Bias, CascadeFit, CascadeSplit, Cascades, CasterSides, CubeCross,
+    CubeCrossDescriptor, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
+    CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw, LocalLight, ShadowAtlas,
+    ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
+    StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{

@@ -18,8 +18,8 @@ mod static_layers;
 mod statistics;
 
 pub use atlas::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, LocalLight, ShadowAtlas,
-    ShadowAtlasDescriptor,
+    AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,
+    AtlasView, LocalLight, ShadowAtlas, ShadowAtlasDescriptor,
 };
 pub use bias::Bias;
 pub use cascades::{CascadeFit, CascadeSplit, Cascades, DepthBounds};

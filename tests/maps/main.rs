@@ -4,6 +4,7 @@ mod atlas;
 mod atlas_budget;
 mod atlas_cascades;
 mod atlas_casters;
+mod atlas_debug;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_cache;

@@ -1,5 +1,6 @@
 //! One texture for the shadows of all lights.
 
+mod debug;
 mod descriptor;
 mod lights;
 mod records;
@@ -19,6 +20,7 @@ use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::{Bias, Radius};
+pub use debug::{AtlasDebug, AtlasDebugDescriptor};
 use descriptor::LEAST_TILE;
 pub use descriptor::{AtlasFrame, AtlasLight, AtlasView, LocalLight, ShadowAtlasDescriptor};
 use lights::{Entry, entries};
