@@ -1,14 +1,15 @@
-//! Cube maps beside what reads them, and what they count.
+//! Cube maps beside what reads them, what they count, and what they put off that no view shows.
 
 use crate::common::shapes::{Random, cuboid};
-use crate::cubes::{draw, fresh};
+use crate::cubes::{draw, draw_frame, fresh};
 use crate::receivers::{ask, ask_group};
+use glam::camera::rh::{proj::directx as proj, view};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::error::PcfError;
 use shadows::{
-    Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, PcfDescriptor, PcfSampler,
-    PointLight, glam,
+    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, DepthEncoding,
+    PcfDescriptor, PcfSampler, PointLight, View, glam,
 };
 
 const LIGHT: PointLight = PointLight {
@@ -100,4 +101,44 @@ fn statistics_count_every_face_once() {
         }
         draw(&gpu, &mut map, LIGHT, &casters);
     }
+}
+
+fn looking(eye: Vec3, target: Vec3) -> View {
+    let projection = proj::perspective_infinite_reverse(1.2, 1.0, 0.1);
+    let matrix = projection * view::look_at_mat4(eye, target, Vec3::Y);
+    View::new(matrix, DepthConvention::InfiniteReverse).unwrap()
+}
+
+#[test]
+fn faces_that_no_view_shows_wait_until_one_does() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let casters = casters(&gpu);
+    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(32)).unwrap();
+    let away = looking(Vec3::X * 30.0, Vec3::X * 40.0);
+    let toward = looking(Vec3::X * 30.0, Vec3::ZERO);
+    let mut random = Random::new(31);
+    let points: Vec<(Vec3, Vec3)> = (0..1000)
+        .map(|_| (random.vec3() * 6.0, random.vec3()))
+        .collect();
+    let seen = |map: &CubeShadowMap| ask(&gpu, map, &PcfDescriptor::default(), 0, &points);
+    let mut frame = |light, view| {
+        let frame = CubeFrame {
+            view: Some(view),
+            ..CubeFrame::new(light, &casters)
+        };
+        draw_frame(&gpu, &mut map, &frame);
+        let s = map.statistics();
+        ((s.faces_rendered, s.faces_hidden), seen(&map))
+    };
+    let right = |light| seen(&fresh(&gpu, &descriptor(32), light, &casters));
+    assert_eq!(frame(LIGHT, &away).0, (0, 6));
+    assert_eq!(frame(LIGHT, &toward), ((6, 0), right(LIGHT)));
+    let moved = PointLight {
+        position: LIGHT.position + Vec3::splat(0.4),
+        ..LIGHT
+    };
+    let (faces, waiting) = frame(moved, &away);
+    assert_eq!(faces, (0, 6));
+    assert_ne!(waiting, right(moved), "the broken twin: nobody looks");
+    assert_eq!(frame(moved, &toward), ((6, 0), right(moved)));
 }

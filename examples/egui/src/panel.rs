@@ -37,10 +37,11 @@ impl Controls {
         ui.horizontal(|ui| {
             let technique = &mut settings.technique;
             ui.selectable_value(technique, Technique::Map, "map");
+            ui.selectable_value(technique, Technique::Atlas, "atlas");
             ui.selectable_value(technique, Technique::Volumes, "volumes");
             ui.selectable_value(technique, Technique::None, "none");
         });
-        if settings.technique == Technique::Map {
+        if matches!(settings.technique, Technique::Map | Technique::Atlas) {
             map_ui(ui, settings);
         }
 
@@ -51,6 +52,9 @@ impl Controls {
             ui.selectable_value(&mut self.show, Show::Error, "error");
             if settings.technique == Technique::Map && !settings.directional {
                 ui.selectable_value(&mut self.show, Show::Cross, "cube cross");
+            }
+            if settings.technique == Technique::Atlas {
+                ui.selectable_value(&mut self.show, Show::Tiles, "tiles");
             }
             if settings.technique == Technique::Volumes {
                 ui.selectable_value(&mut self.show, Show::Surfaces, "surfaces");

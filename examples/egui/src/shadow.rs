@@ -5,10 +5,11 @@ use anyhow::Result;
 use shadows::reference::Interior;
 use shadows::wgpu;
 use shadows::{
-    Bias, Caster, CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap,
-    CubeShadowMapDescriptor, DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind,
-    PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeDebug,
+    AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasView, Bias, Cascades, Caster,
+    CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
+    DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind, PcfDescriptor, PcfSampler,
+    PointLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, TileSize, View, VolumeDebug,
     VolumeDebugDescriptor, VolumeLight, VolumeSurvey, VolumeView,
 };
 
@@ -24,6 +25,8 @@ use host::scene_gpu::SceneGpu;
 pub enum Technique {
     /// A cube map for a point light, a flat one for a directional light.
     Map,
+    /// An atlas, as for all lights of a scene; a directional light has four cascades.
+    Atlas,
     /// Stencil shadow volumes.
     Volumes,
     /// No shadows.
@@ -48,6 +51,8 @@ pub struct Settings {
 pub enum DebugView {
     /// The cube map, unfolded.
     Cross,
+    /// The layers of the atlas.
+    Tiles,
     /// Surfaces of the volumes, with their silhouette edges.
     Surfaces,
     /// Stencil counts as colours.
@@ -76,6 +81,7 @@ pub struct Shadows {
 
 enum Means {
     Cube(Box<Cube>),
+    Atlas(Box<Atlas>),
     Flat(Box<ShadowMap>, wgpu::BindGroup),
     Volumes(Box<Volumes>),
     None,
@@ -87,6 +93,16 @@ struct Cube {
     /// What the lit pass reads, and what the cross does.
     group: wgpu::BindGroup,
     cross_group: wgpu::BindGroup,
+}
+
+struct Atlas {
+    atlas: ShadowAtlas,
+    sampler: PcfSampler,
+    /// What the lit pass reads, and the revision that it is for.
+    group: (u64, wgpu::BindGroup),
+    /// Texels along a tile.
+    size: u32,
+    debug: AtlasDebug,
 }
 
 struct Volumes {
@@ -111,6 +127,7 @@ impl Shadows {
         match (settings.technique, settings.directional) {
             (Technique::Map, false) => Self::cube(gpu, renderer, window, settings),
             (Technique::Map, true) => Self::flat(gpu, renderer, settings),
+            (Technique::Atlas, _) => Self::atlas(gpu, renderer, window, settings),
             (Technique::Volumes, _) => Self::volumes(gpu, renderer),
             (Technique::None, _) => Ok(Self {
                 lit: renderer.lit_pipeline(gpu, &ShadowAccess::default()),
@@ -165,6 +182,37 @@ impl Shadows {
         })
     }
 
+    fn atlas(
+        gpu: &Gpu,
+        renderer: &Renderer,
+        window: wgpu::TextureFormat,
+        settings: &Settings,
+    ) -> Result<Self> {
+        let atlas = ShadowAtlasDescriptor {
+            layer_size: settings.size,
+            memory: 512 << 20,
+            bias: settings.bias,
+            reach: settings.kernel.radius(),
+            ..Default::default()
+        };
+        let atlas = ShadowAtlas::new(&gpu.device, &atlas)?;
+        let sampler = sampler(gpu, settings, MapKind::Atlas)?;
+        let debug = AtlasDebugDescriptor {
+            format: window,
+            ..Default::default()
+        };
+        Ok(Self {
+            lit: sampled(gpu, renderer, &sampler),
+            means: Means::Atlas(Box::new(Atlas {
+                group: (atlas.revision(), sampler.bind_group(&gpu.device, &atlas)?),
+                atlas,
+                sampler,
+                size: settings.size,
+                debug: AtlasDebug::new(&gpu.device, &debug),
+            })),
+        })
+    }
+
     fn volumes(gpu: &Gpu, renderer: &Renderer) -> Result<Self> {
         let descriptor = ShadowVolumeDescriptor {
             depth_stencil_format: renderer.depth_stencil_format(),
@@ -212,6 +260,7 @@ impl Shadows {
                 let light = FlatLight::Directional(DirectionalLight::new(position));
                 map.prepare(device, queue, &ShadowFrame::new(light, casters))?;
             }
+            Means::Atlas(atlas) => atlas.prepare(gpu, frame)?,
             Means::Volumes(volumes) => volumes.prepare(gpu, frame)?,
             Means::None => {}
         }
@@ -227,6 +276,7 @@ impl Shadows {
         match &mut self.means {
             Means::Cube(cube) => cube.map.encode(encoder),
             Means::Flat(map, _) => map.encode(encoder),
+            Means::Atlas(atlas) => atlas.atlas.encode(encoder),
             Means::Volumes(volumes) => {
                 volumes.renderer.encode(encoder);
                 volumes
@@ -249,6 +299,7 @@ impl Shadows {
         let group = match &self.means {
             Means::Cube(cube) => Some(&cube.group),
             Means::Flat(_, group) => Some(group),
+            Means::Atlas(atlas) => Some(&atlas.group.1),
             Means::Volumes(_) | Means::None => None,
         };
         // The light pass changes counts, and adds nothing where there are any.
@@ -274,12 +325,13 @@ impl Shadows {
         Ok(())
     }
 
-    /// Draws the cube map, unfolded, into egui's pass; false if there is none.
+    /// Draws what the maps hold into egui's pass; false if there is none.
     pub fn draw_debug(&self, pass: &mut wgpu::RenderPass<'_>) -> bool {
-        let Means::Cube(cube) = &self.means else {
-            return false;
-        };
-        cube.cross.render(pass, &cube.cross_group);
+        match &self.means {
+            Means::Cube(cube) => cube.cross.render(pass, &cube.cross_group),
+            Means::Atlas(atlas) => atlas.debug.render(pass),
+            _ => return false,
+        }
         true
     }
 
@@ -288,6 +340,7 @@ impl Shadows {
         match &self.means {
             Means::Cube(cube) => interior::of_cube(&cube.map, kernel),
             Means::Flat(map, _) => interior::of_flat(map, kernel),
+            Means::Atlas(atlas) => atlas.interior(kernel),
             Means::Volumes(_) | Means::None => Interior::Screen,
         }
     }
@@ -297,6 +350,7 @@ impl Shadows {
         match &self.means {
             Means::Cube(cube) => statistics::of_cube(&cube.map.statistics()),
             Means::Flat(map, _) => statistics::of_flat(&map.statistics()),
+            Means::Atlas(atlas) => statistics::of_atlas(&atlas.atlas.statistics()),
             Means::Volumes(volumes) => {
                 let mut rows = statistics::of_volumes(&volumes.renderer.statistics());
                 if let Some((.., size, survey)) = &volumes.survey {
@@ -305,6 +359,47 @@ impl Shadows {
                 rows
             }
             Means::None => Vec::new(),
+        }
+    }
+}
+
+impl Atlas {
+    fn prepare(&mut self, gpu: &Gpu, frame: &Frame<'_>) -> Result<()> {
+        let position = frame.light.0.truncate();
+        let light = match frame.light.is_directional() {
+            false => AtlasLight::new(PointLight::new(position, frame.range)),
+            true => AtlasLight::directional(DirectionalLight::new(position), Cascades::default()),
+        };
+        let [width, height] = frame.size;
+        let frame = AtlasFrame {
+            lights: &[light.with_size(TileSize::Fixed(self.size))],
+            casters: frame.casters,
+            views: &[AtlasView::new(&frame.view, width, height)],
+            receivers: None,
+        };
+        self.atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
+        self.debug.prepare(&gpu.device, &self.atlas);
+        if self.group.0 != self.atlas.revision() {
+            let group = self.sampler.bind_group(&gpu.device, &self.atlas)?;
+            self.group = (self.atlas.revision(), group);
+        }
+        Ok(())
+    }
+
+    /// Of cascades the widest decides.
+    fn interior(&self, kernel: Kernel) -> Interior {
+        let kernel_radius = interior::radius_in_texels(kernel);
+        match self.atlas.tiles(0, 0)[..] {
+            [] => Interior::Screen,
+            [tile, _, _, _, _, _] => Interior::Map {
+                face_size: tile.size,
+                kernel_radius,
+            },
+            [.., tile] => Interior::FlatMap {
+                clip_from_world: tile.clip_from_world,
+                size: tile.size,
+                kernel_radius,
+            },
         }
     }
 }
@@ -349,7 +444,7 @@ impl Volumes {
             }
             DebugView::Counts => self.debug.draw_counts(pass),
             DebugView::Casters => self.debug.draw_casters(pass),
-            DebugView::Cross => {}
+            DebugView::Cross | DebugView::Tiles => {}
         }
         Ok(())
     }

@@ -1,6 +1,8 @@
 //! What a frame came to, for the panel.
 
-use shadows::{CubeStatistics, ShadowMapStatistics, VolumeStatistics, VolumeSurvey};
+use shadows::{
+    AtlasStatistics, CubeStatistics, ShadowMapStatistics, VolumeStatistics, VolumeSurvey,
+};
 
 /// Names and values.
 pub type Rows = Vec<(&'static str, String)>;
@@ -27,6 +29,21 @@ pub fn of_flat(s: &ShadowMapStatistics) -> Rows {
         ("draws", s.draws.to_string()),
         ("triangles", s.triangles.to_string()),
         ("memory", mebibytes(s.bytes)),
+    ]
+}
+
+pub fn of_atlas(s: &AtlasStatistics) -> Rows {
+    let tiles = s.tiles_rendered + s.tiles_kept;
+    let drawn = format!("{} of {tiles} with casters", s.tiles_rendered);
+    let prepare = format!("{:.0} µs", s.prepare.as_secs_f64() * 1e6);
+    vec![
+        ("tiles drawn", drawn),
+        ("tiles hidden", s.tiles_hidden.to_string()),
+        ("layers", s.layers.to_string()),
+        ("draws", s.draws.to_string()),
+        ("triangles", s.triangles.to_string()),
+        ("memory", mebibytes(s.bytes)),
+        ("prepare", prepare),
     ]
 }
 

@@ -30,6 +30,8 @@ pub enum Show {
     Error,
     /// The cube map, unfolded.
     Cross,
+    /// The layers of the atlas, and what became of each tile.
+    Tiles,
     /// Surfaces and silhouette edges of the volumes.
     Surfaces,
     /// How many volumes a pixel is in, as colours.
@@ -43,6 +45,7 @@ impl Show {
         match self {
             Self::Picture | Self::Visibility | Self::Error => None,
             Self::Cross => Some(DebugView::Cross),
+            Self::Tiles => Some(DebugView::Tiles),
             Self::Surfaces => Some(DebugView::Surfaces),
             Self::Counts => Some(DebugView::Counts),
             Self::Casters => Some(DebugView::Casters),
@@ -107,7 +110,7 @@ impl CallbackTrait for Paint {
         let Some(viewport) = resources.get::<Viewport>() else {
             return;
         };
-        let debug = self.show == Show::Cross
+        let debug = matches!(self.show, Show::Cross | Show::Tiles)
             && viewport
                 .shadows
                 .as_ref()
