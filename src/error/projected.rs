@@ -58,6 +58,16 @@ pub enum ProjectedShadowError {
         /// What is wrong with it, and its place among the projector's casters.
         source: CasterError,
     },
+    /// Geometry that only the host can draw.
+    #[error(
+        "projector {projector}: caster {caster} is drawn by the host (CasterMesh::host_drawn), which is not asked to here; leave it out, or pass its triangles"
+    )]
+    HostDrawn {
+        /// Its projector's place in the frame.
+        projector: usize,
+        /// Its place among the projector's casters.
+        caster: usize,
+    },
     /// More light would come through a caster than falls on it, or less than none.
     #[error(
         "projector {projector}: caster {caster} lets {transmittance:?} of red, green and blue light through; pass 0 to 1 for each"

@@ -3,7 +3,7 @@
 use super::draws::INSTANCE_SIZE;
 use super::record::most_records;
 use super::texture::{LEAST_TILE, layer_bytes};
-use crate::error::{CasterError, ProjectedShadowError};
+use crate::error::ProjectedShadowError;
 use crate::mesh::Caster;
 use crate::{Light, gl};
 
@@ -145,7 +145,10 @@ impl<'a> Projector<'a> {
             let of_caster = |source| ProjectedShadowError::Caster { projector, source };
             caster.caster.validate(index, device).map_err(of_caster)?;
             if caster.caster.mesh.is_host_drawn() {
-                return Err(of_caster(CasterError::HostDrawn { index }));
+                return Err(ProjectedShadowError::HostDrawn {
+                    projector,
+                    caster: index,
+                });
             }
             let transmittance = caster.transmittance;
             if !transmittance.iter().all(|part| (0.0..=1.0).contains(part)) {

@@ -14,6 +14,7 @@ pub const JOINED: &[&[&str]] = &[
     &["projected_caster"],
     &["projected_tile"],
     &["projected_receiver"],
+    &["atlas_debug"],
     PULLED,
     PULLED_STEPS,
     RECORDS,

@@ -109,7 +109,10 @@ fn each_bad_part_of_a_frame_is_named_and_the_shadows_stay_as_they_were() {
     );
     let mesh = CasterMesh::host_drawn(&device, good[0].caster.mesh.bounds(), 12).unwrap();
     let host = [ProjectedCaster::opaque(shadows::Caster::new(mesh, at))];
-    let expected = of(CasterError::HostDrawn { index: 0 });
+    let expected = Some(Error::HostDrawn {
+        projector: 1,
+        caster: 0,
+    });
     assert_eq!(
         prepare(&[fine, Projector::new(sun, &host).with_size(8)]),
         expected
