@@ -42,6 +42,13 @@ pub trait SurveyShadow {
 }
 
 impl Survey {
+    /// With what its names begin.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Projected(_) => "projected",
+        }
+    }
+
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
         match self {

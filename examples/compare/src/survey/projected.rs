@@ -115,15 +115,16 @@ impl SurveyShadow for AtWork {
         let casters = inputs.casters.iter().cloned();
         let casters: Vec<ProjectedCaster> = casters.map(ProjectedCaster::opaque).collect();
         let light = light(inputs);
-        let mut prepare = |projectors: &[Projector<'_>]| {
-            let frame = ProjectedFrame { projectors };
-            self.shadow.prepare(&gpu.device, &gpu.queue, &frame)
+        let shadow = &mut self.shadow;
+        let prepare = |shadow: &mut ProjectedShadow, projectors: &[Projector<'_>]| {
+            shadow.prepare(&gpu.device, &gpu.queue, &ProjectedFrame { projectors })
         };
-        prepare(&[Projector::new(light, &casters).with_size(self.of.size)])?;
-        if self.shadow.state(0) == Some(ProjectorState::Surrounded) {
+        let together = Projector::new(light, &casters).with_size(self.of.size);
+        prepare(shadow, &[together])?;
+        if shadow.state(0) == Some(ProjectorState::Surrounded) {
             let each = casters.chunks(1);
             let each = each.map(|one| Projector::new(light, one).with_size(self.of.size / 4));
-            prepare(&each.collect::<Vec<_>>())?;
+            prepare(shadow, &each.collect::<Vec<_>>())?;
         }
         Ok(())
     }
