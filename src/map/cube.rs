@@ -9,8 +9,9 @@ use super::plan::{
     Rules, Slot, SlotPlan, Slots, Tally, casters_drawn, choose_tiles, follow, longest_wait,
 };
 use super::projection::{CubeFace, LightProjection, SlotLight};
-use super::statistics::{Clock, CubeStatistics, TileStatistics};
+use super::statistics::{CubeStatistics, TileStatistics};
 use crate::Radius;
+use crate::clock::Clock;
 use crate::error::CubeShadowMapError;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
