@@ -27,10 +27,16 @@ pub struct Atlas {
 
 impl Atlas {
     pub fn new(gpu: &Gpu, maps: &Maps, sampler: PcfSampler) -> Result<Self> {
+        // Room for the largest tiles, six of them.
+        let usual = ShadowAtlasDescriptor::default();
+        let layer_size = maps.size.max(usual.layer_size);
+        let layer = 4 * u64::from(layer_size) * u64::from(layer_size);
         let descriptor = ShadowAtlasDescriptor {
+            layer_size,
+            memory: usual.memory.max(6 * layer),
             bias: maps.bias,
             reach: maps.kernel.radius(),
-            ..Default::default()
+            ..usual
         };
         let atlas = ShadowAtlas::new(&gpu.device, &descriptor)?;
         Ok(Self {

@@ -39,9 +39,8 @@ enum Means {
 
 struct Cube {
     map: CubeShadowMap,
-    sampler: PcfSampler,
-    /// With the revision of the map's texture that it is for.
-    group: (u64, wgpu::BindGroup),
+    kernel: Kernel,
+    group: wgpu::BindGroup,
 }
 
 impl Shadow {
@@ -113,13 +112,12 @@ impl Shadow {
     ) -> Result<Self> {
         let map = CubeShadowMap::new(&gpu.device, map)?;
         let sampler = PcfSampler::new(&gpu.device, &gpu.queue, sampler)?;
-        let group = sampler.bind_group(&gpu.device, &map)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
             means: Means::Cube(Box::new(Cube {
-                group: (map.texture_revision(), group),
+                group: sampler.bind_group(&gpu.device, &map)?,
+                kernel: sampler.kernel(),
                 map,
-                sampler,
             })),
         })
     }
@@ -189,7 +187,13 @@ impl Shadow {
     /// If the frame is refused.
     pub fn prepare(&mut self, gpu: &Gpu, inputs: &Inputs<'_>) -> Result<()> {
         match &mut self.means {
-            Means::Cube(cube) => cube.prepare(gpu, inputs)?,
+            Means::Cube(cube) => {
+                let frame = CubeFrame {
+                    view: Some(&inputs.view),
+                    ..CubeFrame::new(inputs.point(), inputs.casters)
+                };
+                cube.map.prepare(&gpu.device, &gpu.queue, &frame)?;
+            }
             Means::Flat(map, ..) => {
                 let frame = ShadowFrame {
                     view: Some((&inputs.view, inputs.seen)),
@@ -255,7 +259,7 @@ impl Shadow {
     /// Third verb: the lit pass, with the map bound or the stencil tested.
     pub fn shade(&self, renderer: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
         let group = match &self.means {
-            Means::Cube(cube) => Some(&cube.group.1),
+            Means::Cube(cube) => Some(&cube.group),
             Means::Flat(.., group) => Some(group),
             Means::Atlas(atlas) => Some(atlas.group()),
             Means::Peer(map) => Some(map.bind_group()),
@@ -267,7 +271,7 @@ impl Shadow {
     /// Where resolution is no excuse for errors of the last prepared frame.
     pub fn interior(&self) -> Interior {
         match &self.means {
-            Means::Cube(cube) => interior::of_cube(&cube.map, cube.sampler.kernel()),
+            Means::Cube(cube) => interior::of_cube(&cube.map, cube.kernel),
             Means::Flat(map, kernel, _) => interior::of_flat(map, *kernel),
             Means::Atlas(atlas) => atlas.interior(),
             Means::Peer(map) => map.interior(),
@@ -285,24 +289,6 @@ impl Shadow {
             Means::Peer(map) => statistics::of_peer(&map.statistics()),
             Means::None => Rows::default(),
         }
-    }
-}
-
-impl Cube {
-    fn prepare(&mut self, gpu: &Gpu, inputs: &Inputs<'_>) -> Result<()> {
-        let frame = CubeFrame {
-            lights: &[inputs.point()],
-            casters: inputs.casters,
-            view: Some(&inputs.view),
-            ..Default::default()
-        };
-        self.map.prepare(&gpu.device, &gpu.queue, &frame)?;
-        // Bind groups follow the map's texture, which comes with the first caster.
-        let revision = self.map.texture_revision();
-        if self.group.0 != revision {
-            self.group = (revision, self.sampler.bind_group(&gpu.device, &self.map)?);
-        }
-        Ok(())
     }
 }
 
