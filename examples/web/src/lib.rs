@@ -10,6 +10,10 @@ pub mod job;
 pub mod motion;
 pub mod picture;
 pub mod places;
+#[cfg(target_arch = "wasm32")]
+mod readback;
+#[cfg(target_arch = "wasm32")]
+mod reference;
 pub mod shadow;
 pub mod statistics;
 #[cfg(target_arch = "wasm32")]

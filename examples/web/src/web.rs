@@ -3,7 +3,6 @@
 use std::sync::{Arc, Mutex};
 
 use anyhow::{Context as _, Result};
-use futures_channel::oneshot;
 use host::gpu::Gpu;
 use js_sys::{Promise, Uint8Array};
 use shadows::glam::Vec2;
@@ -14,8 +13,8 @@ use web_sys::HtmlCanvasElement;
 use crate::app::App;
 use crate::choice::{Choice, Show};
 use crate::compose::Compose;
-use crate::job::{Count, Job, Judge, NUMBERS};
 use crate::picture::Picture;
+use crate::readback::{Readback, promise};
 
 /// Tells the console where the module stopped, if it did.
 #[wasm_bindgen(start)]
@@ -35,7 +34,7 @@ pub struct Page {
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     compose: Compose,
-    error: Arc<Mutex<Option<String>>>,
+    error: Refusal,
 }
 
 #[wasm_bindgen]
@@ -63,14 +62,8 @@ impl Page {
             ..Default::default()
         };
         let (device, queue) = adapter.request_device(&descriptor).await?;
-        let error = Arc::new(Mutex::new(None));
-        let told = error.clone();
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            web_sys::console::error_1(&error.to_string().into());
-            if let Ok(mut told) = told.lock() {
-                told.get_or_insert(error.to_string());
-            }
-        }));
+        let error = Refusal::default();
+        error.listen(&device);
         let mut config = surface
             .get_default_config(&adapter, size[0], size[1])
             .context("the canvas does not go with this GPU")?;
@@ -193,7 +186,7 @@ impl Page {
 
     /// What the GPU's driver refused first, if it did.
     pub fn refused(&self) -> Option<String> {
-        self.error.lock().ok().and_then(|error| error.clone())
+        self.error.0.lock().ok().and_then(|error| error.clone())
     }
 
     /// The GPU by name.
@@ -220,7 +213,7 @@ impl Page {
         let texture = picture.sides()[side.min(1)].renderer.shaded();
         let gpu = &self.app.gpu;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let copy = Copy::new(gpu, texture, &mut encoder);
+        let copy = Readback::new(gpu, texture, &mut encoder);
         gpu.queue.submit([encoder.finish()]);
         promise(async move { Ok(Uint8Array::from(&copy.bytes().await?[..]).into()) })
     }
@@ -236,7 +229,7 @@ impl Page {
         let mut encoder = device.create_command_encoder(&Default::default());
         let (textures, job) = self.app.encode_measured(size, &mut encoder)?;
         let gpu = &self.app.gpu;
-        let copies = textures.map(|texture| Copy::new(gpu, &texture, &mut encoder));
+        let copies = textures.map(|texture| Readback::new(gpu, &texture, &mut encoder));
         gpu.queue.submit([encoder.finish()]);
         let [left, right] = copies;
         Ok(Measurement {
@@ -246,6 +239,30 @@ impl Page {
                 Ok(Uint8Array::from(&both[..]).into())
             }),
         })
+    }
+}
+
+/// What a device refused first, or why it is gone.
+#[derive(Clone, Default)]
+struct Refusal(Arc<Mutex<Option<String>>>);
+
+impl Refusal {
+    fn listen(&self, device: &wgpu::Device) {
+        let refusal = self.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            refusal.keep(error.to_string());
+        }));
+        let refusal = self.clone();
+        device.set_device_lost_callback(move |_, message| {
+            refusal.keep(format!("The GPU is lost; load the page again. {message}"));
+        });
+    }
+
+    fn keep(&self, message: String) {
+        web_sys::console::error_1(&(&message).into());
+        if let Ok(mut kept) = self.0.lock() {
+            kept.get_or_insert(message);
+        }
     }
 }
 
@@ -271,128 +288,7 @@ impl Measurement {
     }
 }
 
-/// The reference, in a worker.
-#[wasm_bindgen]
-pub struct Reference {
-    judge: Judge,
-    counts: [Count; 2],
-}
-
-#[wasm_bindgen]
-impl Reference {
-    /// For a scene under a kind of light, by the names of the choices.
-    #[wasm_bindgen(constructor)]
-    pub fn new(scene: &str, light: &str) -> Result<Reference, JsError> {
-        Self::made(scene, light).map_err(js)
-    }
-
-    fn made(scene: &str, light: &str) -> Result<Self> {
-        let mut choice = Choice::default();
-        choice.set("scene", scene)?;
-        choice.set("light", light)?;
-        Ok(Self {
-            judge: Judge::new(choice.place, choice.light)?,
-            counts: Default::default(),
-        })
-    }
-
-    /// Compares some rows of both halves; counts from 0 if they are the first. Gives the rows' colours, four
-    /// bytes a pixel, the left half's before the right one's.
-    pub fn rows(
-        &mut self,
-        job: &[f32],
-        width: u32,
-        height: u32,
-        first: u32,
-        end: u32,
-        visibility: &[u8],
-    ) -> Result<Vec<u8>, JsError> {
-        if first == 0 {
-            self.counts = Default::default();
-        }
-        let mut compared = || -> Result<Vec<u8>> {
-            let job: &[f32; NUMBERS] = job.try_into().context("this is no job")?;
-            let (left, right) = visibility.split_at(visibility.len() / 2);
-            let [mut colors, rest] = self.judge.rows(
-                &Job::from_numbers(job),
-                [width, height],
-                [first, end],
-                [left, right],
-                &mut self.counts,
-            )?;
-            colors.extend(rest);
-            Ok(colors.into_flattened())
-        };
-        compared().map_err(js)
-    }
-
-    /// So far, of the left half (0) or the right one (1): pixels counted, lit in shadow, in shadow though
-    /// lit, and those of both that resolution does not excuse.
-    pub fn counts(&self, side: usize) -> Vec<u32> {
-        let Count {
-            counted,
-            false_lit,
-            false_shadow,
-            interior,
-        } = self.counts[side.min(1)];
-        vec![counted, false_lit, false_shadow, interior]
-    }
-}
-
-/// A texture on its way to the CPU.
-struct Copy {
-    buffer: wgpu::Buffer,
-    mapped: oneshot::Receiver<Result<(), wgpu::BufferAsyncError>>,
-    /// Bytes of a row, without and with what fills it up.
-    row: [usize; 2],
-}
-
-impl Copy {
-    fn new(gpu: &Gpu, texture: &wgpu::Texture, encoder: &mut wgpu::CommandEncoder) -> Self {
-        let pixel = texture.format().block_copy_size(None).unwrap_or(4);
-        let row = texture.width() * pixel;
-        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("copy"),
-            size: u64::from(padded) * u64::from(texture.height()),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let destination = wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(padded),
-                rows_per_image: None,
-            },
-        };
-        encoder.copy_texture_to_buffer(texture.as_image_copy(), destination, texture.size());
-        let (sender, mapped) = oneshot::channel();
-        encoder.map_buffer_on_submit(&buffer, wgpu::MapMode::Read, .., move |result| {
-            // Nobody may be waiting any more.
-            let _ = sender.send(result);
-        });
-        Self {
-            buffer,
-            mapped,
-            row: [row, padded].map(|bytes| bytes as usize),
-        }
-    }
-
-    async fn bytes(self) -> Result<Vec<u8>> {
-        self.mapped.await??;
-        let [row, padded] = self.row;
-        let bytes = self.buffer.get_mapped_range(..)?;
-        let rows = bytes.chunks(padded).flat_map(|bytes| &bytes[..row]);
-        Ok(rows.copied().collect())
-    }
-}
-
-fn promise(work: impl Future<Output = Result<JsValue>> + 'static) -> Promise {
-    let work = async move { work.await.map_err(|error| JsError::from(&*error).into()) };
-    wasm_bindgen_futures::future_to_promise(work)
-}
-
-fn js(error: anyhow::Error) -> JsError {
+/// An error as JavaScript has it.
+pub fn js(error: anyhow::Error) -> JsError {
     JsError::new(&format!("{error:#}"))
 }
