@@ -3,8 +3,10 @@
 mod bounds;
 mod caster_tree;
 mod casters;
+mod filter;
 mod frustum;
 
 pub(crate) use bounds::{CasterBounds, HalfSpace};
 pub(crate) use casters::{Casters, Change, Record};
+pub(crate) use filter::CasterFilter;
 pub(crate) use frustum::{Frustum, Region};
