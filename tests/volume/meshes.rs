@@ -166,21 +166,24 @@ fn with_small_buffers(gpu: &Gpu, bytes: u64) -> Option<Gpu> {
 #[test]
 fn meshes_that_fit_no_one_buffer_lie_in_several() {
     let frames = [
-        (&[0, 1, 2, 3, 6, 7, 8][..], End::Drawn),
+        (&[0, 1, 2, 3, 6, 7, 8, 15][..], End::Drawn),
         (&[1, 2, 8, 10, 11, 12, 13], End::Drawn),
         (&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], End::Drawn),
     ];
     for way in WAYS {
         let Some(gpu) = Gpu::for_test() else { return };
-        let Some(small) = with_small_buffers(&gpu, 4_096) else {
+        let Some(small) = with_small_buffers(&gpu, 7_000) else {
             panic!("{}: no second device", gpu.info.name)
         };
         let [all, few] = [gpu, small].map(|gpu| assert_as_fresh(&theatre(gpu, way), way, &frames));
-        for ((counts, statistics), (in_few, of_few)) in all.iter().zip(&few) {
+        for ((counts, _), (in_few, _)) in all.iter().zip(&few) {
             assert!(counts == in_few, "{way:?}");
-            if way == Silhouettes::Compute {
-                assert!(of_few.dispatches > statistics.dispatches, "{of_few:?}");
-            }
+        }
+        let dispatches = |frames: &[(Vec<u8>, VolumeStatistics)]| -> u32 {
+            frames.iter().map(|(_, found)| found.dispatches).sum()
+        };
+        if way == Silhouettes::Compute {
+            assert!(dispatches(&few) > dispatches(&all), "{few:?}");
         }
     }
 }
