@@ -1,5 +1,7 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
+pub mod projected;
+
 use anyhow::Result;
 use serde_json::Value;
 use shadows::reference::Interior;
@@ -13,7 +15,10 @@ use host::scene_gpu::SceneGpu;
 
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
-pub enum Survey {}
+pub enum Survey {
+    /// Pictures of casters on what receives.
+    Projected(projected::Projected),
+}
 
 /// One at work.
 pub trait SurveyShadow {
@@ -37,19 +42,32 @@ pub trait SurveyShadow {
 }
 
 impl Survey {
+    /// With what its names begin.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Projected(_) => "projected",
+        }
+    }
+
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
-        match *self {}
+        match self {
+            Self::Projected(_) => true,
+        }
     }
 
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
-        match *self {}
+        match self {
+            Self::Projected(_) => "",
+        }
     }
 
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
-        match *self {}
+        match self {
+            Self::Projected(projected) => projected.settings(),
+        }
     }
 
     /// Makes it, and the lit pass that reads it.
@@ -58,9 +76,11 @@ impl Survey {
     /// If the device cannot do it.
     pub fn make(
         &self,
-        _gpu: &Gpu,
-        _renderer: &Renderer,
+        gpu: &Gpu,
+        renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
-        match *self {}
+        match self {
+            Self::Projected(projected) => projected.make(gpu, renderer),
+        }
     }
 }
