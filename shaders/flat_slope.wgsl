@@ -57,13 +57,13 @@ fn shadows_flat_mapped(
     let own = light.depth_per / light.depth_bias * inverse;
     // Texels as far as rounding may have moved the receiver.
     let moved = light.rounding * length(position) * light.texels * inverse;
-    // Four texels of depth from one texel to the next, or what derivatives do not tell from the light's rays.
+    // Four texels of depth from one texel to the next, or what derivatives do not tell from the light's rays, up to 64.
     let known = abs(derivatives.facing);
     let away = select(1.0, local.x, spot);
     let reached = reach.x * light.texel * away + reach.y;
     let certain = derivatives.squared * reached * away / (derivatives.moved * known);
     // Where there is no normal, `certain` is no number.
-    let texels = select(4.0, max(4.0, certain), known > 0.0);
+    let texels = select(4.0, clamp(certain, 4.0, 64.0), known > 0.0);
     let steepest = texels * light.texel * select(light.depth_per, own * inverse, spot);
     let step = shadows_flat_stride(light, moved);
     let found = shadows_flat_slopes(map, map_sampler, receiver, step, taps);
