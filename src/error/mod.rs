@@ -6,6 +6,7 @@ mod light;
 mod map;
 mod mesh;
 mod names;
+mod planar;
 #[cfg(feature = "reference")]
 mod reference;
 mod tiles;
@@ -17,6 +18,7 @@ pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
+pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
 pub use tiles::TileSizeError;

@@ -1,1 +1,6 @@
 //! The cheap and the baked techniques against exact visibility, each with what it cannot do.
+
+mod planar;
+mod planar_errors;
+mod planar_host;
+mod planar_soft;

@@ -5,6 +5,7 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::Survey;
 use crate::technique::{Config, Technique};
 use host::peers::peer;
 
@@ -102,6 +103,11 @@ pub static ROWS: &[Row] = &[
             counter: Counter::Exact,
             ..volume()
         })
+    }),
+    row("planar", |_| Config::Survey(Survey::Planar)),
+    row("planar-soft", |size| {
+        let samples = 64;
+        Config::Survey(Survey::PlanarSoft { size, samples })
     }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {
