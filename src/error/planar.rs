@@ -134,6 +134,14 @@ pub enum PlanarShadowError {
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// Geometry that only the host can draw, which cannot be projected here.
+    #[error(
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know its bounds alone; leave it out here, or pass a mesh"
+    )]
+    HostDrawn {
+        /// Place in the slice of casters.
+        index: usize,
+    },
     /// More casters, corners, or lights, planes and views than the device's buffers can hold.
     #[error("{what} need {size} bytes in one buffer, {limit} are possible; pass fewer of them")]
     TooMany {
@@ -210,6 +218,14 @@ pub enum PlanarSoftShadowError {
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// Geometry that only the host can draw, which cannot be projected here.
+    #[error(
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know its bounds alone; leave it out here, or pass a mesh"
+    )]
+    HostDrawn {
+        /// Place in the slice of casters.
+        index: usize,
+    },
     /// More casters or samples than the device's buffers can hold.
     #[error("{what} need {size} bytes in one buffer, {limit} are possible; pass fewer of them")]
     TooMany {

@@ -167,6 +167,13 @@ pub(crate) fn reorders(casters: &Casters) -> bool {
         })
 }
 
+/// The first caster that only the host can draw.
+pub(crate) fn host_drawn(casters: &[Caster]) -> Option<usize> {
+    casters
+        .iter()
+        .position(|caster| caster.mesh.is_host_drawn())
+}
+
 /// The largest buffer that copies can fill.
 pub(crate) fn largest(device: &wgpu::Device) -> u64 {
     let limit = device.limits().max_buffer_size;

@@ -1,7 +1,7 @@
 //! Planar shadows in the host's passes: prepare, encode, render.
 
 use super::axes::{PlaneAxes, Whereabouts};
-use super::casters::{PlaneCasters, largest, reorders};
+use super::casters::{PlaneCasters, host_drawn, largest, reorders};
 use super::descriptor::PlanarShadowDescriptor;
 use super::frame::{PlanarFrame, PlanarLight, PlanarOutline};
 use super::gpu::{
@@ -125,6 +125,9 @@ impl PlanarShadow {
     ) -> Result<(), PlanarShadowError> {
         frame.validate(&self.descriptor)?;
         check_sizes(device, frame)?;
+        if let Some(index) = host_drawn(frame.casters) {
+            return Err(PlanarShadowError::HostDrawn { index });
+        }
         self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
         let [not_encoded, encoder_dropped] = self.forget();

@@ -250,6 +250,13 @@ fn frames_that_are_not_sound_are_refused_and_change_nothing() {
     };
     let error = shadows::error::CasterError::NotFinite { index: 0 };
     refuse(&frame, error.into());
+    let drawn_by_host = CasterMesh::host_drawn(&device, casters[0].mesh.bounds(), 1).unwrap();
+    let wrong = [Caster::new(drawn_by_host, Affine3A::IDENTITY)];
+    let frame = PlanarFrame {
+        casters: &wrong,
+        ..sound
+    };
+    refuse(&frame, Error::HostDrawn { index: 0 });
 }
 
 #[test]

@@ -499,6 +499,16 @@ fn what_is_not_sound_is_refused_and_changes_nothing() {
     ] {
         refuse(&PlanarSoftFrame { shape, ..sound }, &Error::Shape(shape));
     }
+    let bounds = shadows::mesh::Bounds {
+        min: Vec3::ZERO,
+        max: Vec3::ONE,
+    };
+    let drawn_by_host = CasterMesh::host_drawn(&device, bounds, 1).unwrap();
+    let casters = &[Caster::new(drawn_by_host, Affine3A::IDENTITY)];
+    refuse(
+        &PlanarSoftFrame { casters, ..sound },
+        &Error::HostDrawn { index: 0 },
+    );
     let receiver = PlanarRectangle {
         height: 2.0 * square(2.0).width,
         ..square(2.0)

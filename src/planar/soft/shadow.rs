@@ -10,7 +10,7 @@ use crate::Light;
 use crate::error::PlanarSoftShadowError;
 use crate::map::INSTANCE_SIZE;
 use crate::planar::axes::{PlaneAxes, Whereabouts};
-use crate::planar::casters::{CastDraw, PlaneCasters, largest, reorders};
+use crate::planar::casters::{CastDraw, PlaneCasters, host_drawn, largest, reorders};
 use crate::planar::gpu::{CastKey, DynamicUniforms, PlanarUniform};
 use crate::planar::light::PlaneLight;
 use crate::planar::statistics::PlanarStatistics;
@@ -133,6 +133,9 @@ impl PlanarSoftShadow {
     ) -> Result<(), PlanarSoftShadowError> {
         frame.validate()?;
         self.check_sizes(device, frame)?;
+        if let Some(index) = host_drawn(frame.casters) {
+            return Err(PlanarSoftShadowError::HostDrawn { index });
+        }
         self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
         let encoder_dropped = self.submissions.take_dropped();
