@@ -25,7 +25,7 @@ struct PlanarCaster {
     @location(0) shadow: vec4f,
 }
 
-fn cast(position: vec3f) -> PlanarCaster {
+fn projected(position: vec3f) -> PlanarCaster {
     let height = position.z;
     let shadow = vec3f(position.xy - height * planar.slope.xy, 1.0 - height * planar.slope.z);
     return PlanarCaster(planar.clip_from_plane * shadow, vec4f(shadow, height));
@@ -33,7 +33,7 @@ fn cast(position: vec3f) -> PlanarCaster {
 
 @vertex
 fn vertex(@location(0) position: vec3f, instance: Instance) -> PlanarCaster {
-    return cast(by_instance(position, instance));
+    return projected(by_instance(position, instance));
 }
 
 // One of many that the host places in its own buffer, and then as a whole.
@@ -43,12 +43,12 @@ fn vertex_columns(
     instance: Instance,
     host: HostColumns,
 ) -> PlanarCaster {
-    return cast(by_instance(by_columns(position, host), instance));
+    return projected(by_instance(by_columns(position, host), instance));
 }
 
 @vertex
 fn vertex_rows(@location(0) position: vec3f, instance: Instance, host: HostRows) -> PlanarCaster {
-    return cast(by_instance(by_rows(position, host), instance));
+    return projected(by_instance(by_rows(position, host), instance));
 }
 
 // Whether it is behind the plane, or no nearer to it than the light: what is there casts nothing on the plane,

@@ -177,6 +177,7 @@ pub use {glam, wgpu};
 /// [temporal]: https://docs.rs/crate/shadows/latest/source/docs/temporal.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 /// [limits]: crate::limits
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
@@ -184,6 +185,7 @@ pub mod choosing {}
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]

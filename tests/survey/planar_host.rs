@@ -213,8 +213,34 @@ impl Stage {
             .collect()
     }
 
-    /// The exact answer.
+    /// The exact answer at the pixels' centres.
     pub fn truth(&self) -> ReferenceImage {
+        self.truth_beside([0.0; 2])
+    }
+
+    /// Whether an edge of a shadow or of a body passes between a pixel's samples, by pixel. (WebGPU's standard pattern, in pixels from
+    /// the centre.)
+    pub fn splits(&self, truth: &ReferenceImage) -> Vec<bool> {
+        let pattern = [
+            [-0.125, -0.375],
+            [0.375, -0.125],
+            [-0.375, 0.125],
+            [0.125, 0.375],
+        ];
+        let mut splits = vec![false; truth.classes().len()];
+        for offset in pattern.into_iter().filter(|_| self.samples > 1) {
+            let sample = self.truth_beside(offset);
+            let classes = sample.classes().zip(truth.classes());
+            for ((pixel, split), (a, b)) in (0..).zip(&mut splits).zip(classes) {
+                let (x, y) = (pixel % self.side, pixel / self.side);
+                let object = |image: &ReferenceImage| image.hit(x, y).map(|hit| hit.object);
+                *split |= a != b || object(&sample) != object(truth);
+            }
+        }
+        splits
+    }
+
+    fn truth_beside(&self, [x, y]: [f32; 2]) -> ReferenceImage {
         let transforms: Vec<DAffine3> = self
             .bodies
             .iter()
@@ -230,7 +256,11 @@ impl Stage {
             })
             .collect();
         let scene = ReferenceScene::new(&objects).unwrap();
-        let (view, side) = (self.view(), self.side);
+        let side = self.side;
+        // A picture moved by -offset shows at its centres what was at centre + offset.
+        let pixel = 2.0 / side as f32;
+        let shift = Mat4::from_translation(Vec3::new(-x * pixel, y * pixel, 0.0));
+        let view = View::new(shift * self.view().clip_from_world(), self.depth).unwrap();
         match &self.light {
             Light::Spot(spot) => scene.render_spot(&view, side, side, spot).unwrap(),
             Light::Point(point) => {
@@ -255,11 +285,12 @@ impl Stage {
     /// Judges a picture where receivers are: 255 lit, 0 in shadow, in between where samples differ.
     pub fn judge(&self, truth: &ReferenceImage, picture: &[u8]) -> Found {
         let right = truth.visibility();
+        let splits = self.splits(truth);
         let wrong = |keep: fn(u8) -> bool| {
             let pixels = picture.iter().zip(&right).enumerate();
             let shown: Vec<u8> = pixels
                 .map(|(pixel, (&value, &right))| match keep(value) {
-                    _ if !self.is_ground(truth, pixel) => right,
+                    _ if splits[pixel] || !self.is_ground(truth, pixel) => right,
                     true => 255,
                     false => 0,
                 })

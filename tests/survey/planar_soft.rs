@@ -62,7 +62,7 @@ impl Studio {
     fn shown(&self, samples: u32, radius: f32) -> Vec<u8> {
         let gpu = &self.gpu;
         let descriptor = PlanarSoftShadowDescriptor {
-            size: [1024; 2],
+            size: [2048; 2],
             samples,
             ..Default::default()
         };
@@ -125,7 +125,7 @@ fn the_error_against_a_light_with_a_size_falls_with_the_samples() {
             .map(|(place, _)| *place)
             .collect::<Vec<_>>()
     };
-    assert!(between.len() > 500, "{} pixels of penumbra", between.len());
+    assert!(between.len() > 300, "{} pixels of penumbra", between.len());
     let pixels = [spread(between), spread(others)].concat();
     let truth = studio
         .reference
@@ -139,7 +139,7 @@ fn the_error_against_a_light_with_a_size_falls_with_the_samples() {
                 truth.map(|truth| (shown - truth).powi(2))
             })
             .collect();
-        assert!(squares.len() > 400);
+        assert!(squares.len() > 300);
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     };
     let errors = [4, 16, 64, 255].map(|samples| rmse(&studio.shown(samples, RADIUS)));
@@ -171,15 +171,19 @@ fn what_is_no_part_of_the_rectangle_is_lit() {
         let pixels = (0..).zip(&picture);
         pixels
             .filter(|&(pixel, _)| facing[pixel as usize])
-            .filter(|&(pixel, _)| studio.is_floor(pixel % SIZE[0], pixel / SIZE[0]) == floor)
+            .filter(|&(pixel, _)| {
+                let (x, y) = (pixel % SIZE[0], pixel / SIZE[0]);
+                let hit = studio.reference.hit(x, y).unwrap();
+                // What stands on the floor is, at its foot, within a texel of it.
+                let near = hit.position.y < f64::from(2.0 * host::scene::floor::HALF) / 2048.0;
+                studio.is_floor(x, y) == floor && floor == near
+            })
             .map(|(_, value)| *value)
             .collect()
     };
     let (floor, others) = (of(true), of(false));
     assert!(floor.contains(&0) && others.len() > 500);
-    // Where something stands on the floor, it is within a texel of it.
-    let dark = others.iter().filter(|value| **value < 255).count();
-    assert!(dark < others.len() / 100, "{dark} of {}", others.len());
+    assert!(others.iter().all(|value| *value == 255));
 }
 
 /// Casters, and a texture that is read back.
@@ -380,8 +384,9 @@ fn suns_and_rectangles_have_a_size_too() {
     let sharp = between(&plate.counts());
     plate.shape = LightShape::Sphere { radius: 0.2 };
     let soft = between(&plate.counts());
-    // A penumbra of 2 * 0.2 * 2 along a circle of 2 pi, in texels of 6/64.
-    let expected = 0.8 * std::f64::consts::TAU / (6.0_f64 / 64.0).powi(2);
+    // A penumbra of 2 * 0.2 * 2, and what jitter adds, along a circle of 2 pi.
+    let texel = 6.0_f64 / 64.0;
+    let expected = (0.8 + texel) * std::f64::consts::TAU / texel.powi(2);
     assert!(
         (soft as f64 / expected - 1.0).abs() < 0.15,
         "{soft} of {expected}"
@@ -403,7 +408,7 @@ fn suns_and_rectangles_have_a_size_too() {
         texels.filter(|count| (1..64).contains(count)).count()
     };
     assert!(
-        row(true) > 10 && row(false) < 5,
+        row(true) > 20 && row(false) < row(true) / 3,
         "{} {}",
         row(true),
         row(false)

@@ -199,7 +199,7 @@ impl CastPipelines {
         let source = crate::wgsl::PLANAR_CASTER
             .replace("-> @location(0)", &format!("-> @location({place})"));
         Self {
-            layout: pipeline_layout(device, &formats.label, uniforms),
+            layout: pipeline_layout(device, &formats.label, &[Some(uniforms)]),
             shader: crate::shader::module(device, &formats.label, source),
             made: HashMap::new(),
             formats: formats.clone(),
@@ -279,11 +279,11 @@ impl CastPipelines {
 fn pipeline_layout(
     device: &wgpu::Device,
     label: &str,
-    uniforms: &wgpu::BindGroupLayout,
+    groups: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::PipelineLayout {
     device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(label),
-        bind_group_layouts: &[Some(uniforms)],
+        bind_group_layouts: groups,
         immediate_size: 0,
     })
 }
@@ -316,7 +316,8 @@ impl MarkingPipelines {
     ) -> Self {
         let label = format!("{} outline", formats.label);
         let shader = crate::shader::module(device, &label, crate::wgsl::PLANAR_OUTLINE);
-        let layout = pipeline_layout(device, &label, uniforms);
+        let with_uniforms = pipeline_layout(device, &label, &[Some(uniforms)]);
+        let without = pipeline_layout(device, &label, &[]);
         let marks = [
             Marking::Inside,
             Marking::Before,
@@ -330,7 +331,10 @@ impl MarkingPipelines {
                 label: &label,
                 formats,
                 shader: &shader,
-                layout: &layout,
+                layout: match marking {
+                    Marking::Reset => &without,
+                    _ => &with_uniforms,
+                },
                 descriptor,
             };
             maker.make(marking)
