@@ -195,6 +195,7 @@ pub mod limits {}
 #[cfg(test)]
 extern crate self as shadows;
 
+mod clock;
 pub mod error;
 mod gl;
 pub mod light;
