@@ -13,16 +13,16 @@ fn untouched_cut(in: PlanarCaster) {
     }
 }
 
-// Whether the light reaches the place of the shadow: there is none to be taken away elsewhere.
-fn is_reached(shadow: vec4f) -> bool {
+// Whether the light does not reach the place of the shadow: there is none of it to be taken away.
+fn is_beyond(shadow: vec4f) -> bool {
     let from_light = planar.place.w * (vec3f(shadow.xy / shadow.z, 0.0) - planar.place.xyz);
     let squared = dot(from_light, from_light);
-    return squared <= 1.0 && dot(from_light, planar.cone.xyz) >= planar.cone.w * sqrt(squared);
+    return squared > 1.0 || dot(from_light, planar.cone.xyz) < planar.cone.w * sqrt(squared);
 }
 
 @fragment
 fn shade(in: PlanarCaster) -> @location(0) vec4f {
-    if casts_nothing(in.shadow) || !is_reached(in.shadow) {
+    if casts_nothing(in.shadow) || is_beyond(in.shadow) {
         discard;
     }
     return planar.shade;
