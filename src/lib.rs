@@ -16,6 +16,7 @@
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
 //! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall that alone receives, exact to the pixel |
 //! | [`PlanarSoftShadow`] | the same from many places of a light with a size | soft shadows on one rectangle |
+//! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
 //!
@@ -185,8 +186,8 @@ pub mod choosing {}
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
-/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]
 pub mod limits {}
@@ -203,6 +204,7 @@ pub mod map;
 pub mod mesh;
 pub mod pcf;
 pub mod planar;
+pub mod projected;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod scene;
@@ -239,6 +241,10 @@ pub use planar::{
     LightShape, PlanarFrame, PlanarLight, PlanarOutline, PlanarOutput, PlanarReceiver,
     PlanarRectangle, PlanarShadow, PlanarShadowDescriptor, PlanarSoftFrame, PlanarSoftShadow,
     PlanarSoftShadowDescriptor, PlanarSoftStatistics, PlanarStatistics,
+};
+pub use projected::{
+    ProjectedCaster, ProjectedFrame, ProjectedShadow, ProjectedShadowDescriptor,
+    ProjectedStatistics, Projector, ProjectorState,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

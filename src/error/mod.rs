@@ -7,6 +7,7 @@ mod map;
 mod mesh;
 mod names;
 mod planar;
+mod projected;
 #[cfg(feature = "reference")]
 mod reference;
 mod tiles;
@@ -19,6 +20,7 @@ pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
 pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
+pub use projected::ProjectedShadowError;
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
 pub use tiles::TileSizeError;

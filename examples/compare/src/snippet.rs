@@ -28,6 +28,7 @@ pub fn of(config: &Config) -> String {
                     .field("samples", "", &samples, &default.samples)
                     .finish()
             }
+            Survey::Projected(projected) => projected.snippet(),
         },
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",

@@ -2,6 +2,7 @@
 
 pub mod planar;
 pub mod planar_soft;
+pub mod projected;
 
 use anyhow::Result;
 use serde_json::Value;
@@ -21,6 +22,8 @@ pub enum Survey {
     Planar,
     /// The same from many places of a light with a size, in a texture of so many texels a side.
     PlanarSoft { size: u32, samples: u32 },
+    /// Pictures of casters on what receives.
+    Projected(projected::Projected),
 }
 
 /// One at work.
@@ -49,21 +52,20 @@ impl Survey {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => "planar",
+            Self::Projected(_) => "projected",
         }
     }
 
     /// Whether its edges are as soft as those of a light with a size.
     pub fn is_soft(&self) -> bool {
-        match self {
-            Self::Planar => false,
-            Self::PlanarSoft { .. } => true,
-        }
+        matches!(self, Self::PlanarSoft { .. })
     }
 
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => true,
+            Self::Projected(_) => true,
         }
     }
 
@@ -71,6 +73,7 @@ impl Survey {
     pub fn limit(&self) -> &'static str {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => "",
+            Self::Projected(_) => "",
         }
     }
 
@@ -79,6 +82,7 @@ impl Survey {
         match self {
             Self::Planar => planar::settings(),
             Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
+            Self::Projected(projected) => projected.settings(),
         }
     }
 
@@ -96,6 +100,7 @@ impl Survey {
             &Self::PlanarSoft { size, samples } => {
                 planar_soft::make(gpu, renderer, (size, samples))
             }
+            Self::Projected(projected) => projected.make(gpu, renderer),
         }
     }
 }
