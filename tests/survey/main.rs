@@ -2,4 +2,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod planar;
+mod planar_errors;
+mod planar_host;
+mod planar_soft;
 mod projected;

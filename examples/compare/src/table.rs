@@ -105,6 +105,11 @@ pub static ROWS: &[Row] = &[
             ..volume()
         })
     }),
+    row("planar", |_| Config::Survey(Survey::Planar)),
+    row("planar-soft", |size| {
+        let samples = 64;
+        Config::Survey(Survey::PlanarSoft { size, samples })
+    }),
     row("projected", |side| {
         Config::Survey(Survey::Projected(Projected::new(side, false)))
     }),

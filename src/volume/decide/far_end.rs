@@ -23,7 +23,7 @@ use crate::volume::decide::world_box::{WorldBox, displacement, rounding};
 use crate::volume::frame::Situation;
 
 /// Where far vertices go: see `far_point` in volume_extrude.wgsl.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FarEnd {
     /// Its normal, 0 for infinity. For a point light over its distance from the light; for a
     /// directional light with its distance from the origin.
@@ -203,6 +203,7 @@ fn is_castable(nearest: f64, reach: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use crate::scene::CasterFilter;
     use glam::{Vec3, camera::rh};
 
     use super::*;
@@ -222,6 +223,7 @@ mod tests {
         let situation = Situation {
             light,
             range: Some(200.0),
+            filter: CasterFilter::ALL,
             view,
             target_size: None,
             receivers: Some(BOX),
@@ -305,6 +307,7 @@ mod tests {
             let situation = Situation {
                 light,
                 range: None,
+                filter: CasterFilter::ALL,
                 view,
                 target_size: None,
                 receivers: Some(Bounds {

@@ -129,13 +129,14 @@ pub(crate) enum DarkCap {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Skip {
     Empty,
+    Masked,
     EdgeOn,
     OutOfRange,
     OutOfView,
 }
 
 /// What is drawn of a caster.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Form {
     pub count: Count,
     pub dark_cap: DarkCap,
