@@ -84,6 +84,26 @@ pub fn ask_group(
     points: &[(Vec3, Vec3)],
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
+    Questions::new(gpu, sampler, descriptor, light, points, change).ask(gpu, map_group)
+}
+
+/// Points that are asked for again and again.
+pub struct Questions {
+    pipeline: wgpu::ComputePipeline,
+    group: wgpu::BindGroup,
+    output: wgpu::Buffer,
+    count: u32,
+}
+
+impl Questions {
+    pub fn new(
+        gpu: &Gpu,
+        sampler: &PcfSampler,
+        descriptor: &PcfDescriptor<'_>,
+        light: usize,
+        points: &[(Vec3, Vec3)],
+        change: impl FnOnce(String) -> String,
+    ) -> Self {
     let device = &gpu.device;
     let by_number = descriptor.many_lights || descriptor.map == MapKind::Atlas;
     let call = match by_number {
@@ -163,12 +183,23 @@ pub fn ask_group(
             },
         ],
     });
-    gpu.run(|encoder| {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.set_bind_group(1, map_group, &[]);
-        pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
-    });
-    bytemuck::pod_collect_to_vec(&gpu.read_buffer(&output))
+        Self {
+            pipeline,
+            group,
+            output,
+            count: points.len() as u32,
+        }
+    }
+
+    /// Their visibility in what a map's bind group holds.
+    pub fn ask(&self, gpu: &Gpu, map_group: &wgpu::BindGroup) -> Vec<f32> {
+        gpu.run(|encoder| {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.group, &[]);
+            pass.set_bind_group(1, map_group, &[]);
+            pass.dispatch_workgroups(self.count.div_ceil(64), 1, 1);
+        });
+        bytemuck::pod_collect_to_vec(&gpu.read_buffer(&self.output))
+    }
 }

@@ -6,7 +6,7 @@ use host::interior::radius_in_texels;
 use host::renderer::Renderer;
 use shadows::reference::Interior;
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, Cascades, DirectionalLight, PcfSampler,
+    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, CascadeFit, Cascades, DirectionalLight, PcfSampler,
     ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
 };
 
@@ -18,6 +18,7 @@ pub struct Atlas {
     sampler: PcfSampler,
     group: (u64, wgpu::BindGroup),
     size: u32,
+    fit: CascadeFit,
     kept: bool,
     target: [u32; 2],
     /// Of the last frame: whether each light has a cube of tiles.
@@ -28,7 +29,7 @@ impl Atlas {
     pub fn new(
         gpu: &Gpu,
         renderer: &Renderer,
-        (size, kept): (u32, bool),
+        (size, fit, kept): (u32, CascadeFit, bool),
         sampler: PcfSampler,
     ) -> Result<Self> {
         let atlas = ShadowAtlas::new(&gpu.device, &ShadowAtlasDescriptor::default())?;
@@ -37,6 +38,7 @@ impl Atlas {
             atlas,
             sampler,
             size,
+            fit,
             kept,
             target: renderer.size(),
             points: Vec::new(),
@@ -57,10 +59,14 @@ impl Atlas {
             .collect();
         self.points = inputs.iter().map(is_point).collect();
         let [width, height] = self.target;
+        let view = AtlasView {
+            depth_bounds: first.depth_bounds,
+            ..AtlasView::new(&first.view, width, height)
+        };
         let frame = AtlasFrame {
             lights: &lights,
             casters: &first.casters,
-            views: &[AtlasView::new(&first.view, width, height)],
+            views: &[view],
             receivers: Some(first.receivers),
         };
         self.atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
@@ -118,6 +124,7 @@ impl Atlas {
             // Depths count along the camera's axis, cascades' distances from its eye.
             let cascades = Cascades {
                 distance: 1.5 * of.seen,
+                fit: self.fit,
                 ..Default::default()
             };
             let sun = DirectionalLight::new(of.light.0.truncate());

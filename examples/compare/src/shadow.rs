@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
-    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
+    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthBounds, DirectionalLight,
     ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
     PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor,
     ShadowVolumeRenderer, SpotLight, View, wgpu,
@@ -39,6 +39,9 @@ pub struct ShadowInputs {
     pub receivers: Bounds,
     /// Up to where along the camera's axis there is something to see.
     pub seen: f32,
+    /// Between which depths there is, as the host's depth buffer says; `None` where the lights have no use
+    /// for it, or it has several samples a pixel.
+    pub depth_bounds: Option<DepthBounds>,
 }
 
 impl ShadowInputs {
@@ -166,11 +169,12 @@ impl Shadow {
             Config::Atlas {
                 size,
                 kept,
+                fit,
                 sampler,
             } => {
                 let sampler = make_sampler(gpu, label, sampler)?;
                 let lit = sampled(gpu, renderer, &sampler, module);
-                let atlas = Atlas::new(gpu, renderer, (*size, *kept), sampler)?;
+                let atlas = Atlas::new(gpu, renderer, (*size, *fit, *kept), sampler)?;
                 (Means::Atlas(Box::new(atlas)), lit)
             }
             Config::Volume(descriptor) => {
@@ -430,9 +434,10 @@ impl Technique {
             Config::Atlas {
                 size,
                 kept,
+                fit,
                 sampler,
             } => (
-                json!({ "tile_texels": size, "cache": kept }),
+                json!({ "tile_texels": size, "cache": kept, "cascade_fit": format!("{fit:?}") }),
                 (sampler, Bias::default()),
             ),
             Config::Peer { peer, size } => {

@@ -1,7 +1,7 @@
 //! The techniques that have a name. A new one is one more row.
 
 use shadows::{
-    ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
+    CascadeFit, ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
@@ -78,9 +78,13 @@ pub static ROWS: &[Row] = &[
     row("flat-disk-full", |side| flat(side, disk(false))),
     row("flat-vogel", |side| flat(side, vogel())),
     row("flat-pcss", |side| flat(side, contact())),
-    row("atlas-hard", |side| atlas(side, Kernel::Hard)),
-    row("atlas-2x2", |side| atlas(side, Kernel::Bilinear)),
-    row("atlas-5x5", |side| atlas(side, Kernel::Weighted5)),
+    row("atlas-hard", |side| atlas(side, STABLE, Kernel::Hard)),
+    row("atlas-2x2", |side| atlas(side, STABLE, Kernel::Bilinear)),
+    row("atlas-5x5", |side| atlas(side, STABLE, Kernel::Weighted5)),
+    row("atlas-tight-hard", |side| atlas(side, TIGHT, Kernel::Hard)),
+    row("atlas-tight-2x2", |side| {
+        atlas(side, TIGHT, Kernel::Bilinear)
+    }),
     usual("volume", |_| Config::Volume(volume())),
     row("volume-auto", |_| {
         Config::Volume(ShadowVolumeDescriptor::default())
@@ -189,10 +193,14 @@ pub fn flat(side: u32, kernel: Kernel) -> Config {
 }
 
 /// All lights in one atlas, every tile drawn every frame.
-fn atlas(size: u32, kernel: Kernel) -> Config {
+const STABLE: CascadeFit = CascadeFit::Stable;
+const TIGHT: CascadeFit = CascadeFit::Tight;
+
+fn atlas(size: u32, fit: CascadeFit, kernel: Kernel) -> Config {
     Config::Atlas {
         size,
         kept: false,
+        fit,
         sampler: PcfDescriptor {
             kernel,
             map: MapKind::Atlas,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CascadeFit, CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -36,6 +36,8 @@ pub enum Config {
         /// Texels along a tile: of a single light; of many at most.
         size: u32,
         kept: bool,
+        /// Of the cascades of directional lights.
+        fit: CascadeFit,
         sampler: PcfDescriptor<'static>,
     },
     Volume(ShadowVolumeDescriptor<'static>),

@@ -1,6 +1,7 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
 mod camera;
+mod cascades;
 mod depth;
 mod flat;
 mod frames;
@@ -62,5 +63,6 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(views::CASES)
         .chain(frames::CASES)
         .chain(flat::CASES)
+        .chain(cascades::CASES)
         .chain(depth::CASES)
 }
