@@ -119,8 +119,12 @@ impl ReferenceImage {
             Verdict::FalseShadowInterior => Some((pixel, Verdict::FalseShadow)),
             _ => None,
         };
-        let errors: Vec<(usize, Verdict)> =
-            verdicts.iter().enumerate().filter_map(inside).take(FEW + 1).collect();
+        let errors: Vec<(usize, Verdict)> = verdicts
+            .iter()
+            .enumerate()
+            .filter_map(inside)
+            .take(FEW + 1)
+            .collect();
         if errors.len() > FEW {
             return;
         }

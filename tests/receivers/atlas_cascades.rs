@@ -37,7 +37,11 @@ impl Field {
         let ground = cuboid(Vec3::new(100.0, 0.5, 100.0)).mesh(&gpu.device);
         let at = Affine3A::from_translation;
         let mut casters = vec![Caster::new(ground, at(-0.5 * Vec3::Y))];
-        casters.extend(posts.iter().map(|&place| Caster::new(post.clone(), at(place))));
+        casters.extend(
+            posts
+                .iter()
+                .map(|&place| Caster::new(post.clone(), at(place))),
+        );
         Self { casters, posts }
     }
 
@@ -65,7 +69,10 @@ impl Field {
             let mut near = near.filter(|from| from.length() < 5.0);
             !near.any(|from| post.nearest(from, toward).is_some())
         };
-        points.iter().map(|(point, _)| is_lit(point.as_dvec3())).collect()
+        points
+            .iter()
+            .map(|(point, _)| is_lit(point.as_dvec3()))
+            .collect()
     }
 }
 
@@ -171,7 +178,7 @@ fn at_a_seam_no_more_is_wrong_than_beside_it() {
     let points = field.points(60_000, Vec3::ZERO, 40.0);
     let lit = field.lit(&points);
     let view = view(4.0, 1.7 * Vec3::Y, Vec3::X);
-    for (kernel, blend) in [Kernel::Hard, Kernel::Bilinear, Kernel::Weighted5]
+    for (kernel, blend) in [Kernel::Hard, Kernel::Bilinear]
         .into_iter()
         .flat_map(|kernel| [0.0, 0.25].map(|blend| (kernel, blend)))
     {
@@ -194,31 +201,25 @@ fn at_a_seam_no_more_is_wrong_than_beside_it() {
             wrong_by_band(&near, band, (&points, &lit), &said)
         };
         let [within, at, beyond] = shares(&|module| module);
-        eprintln!("{kernel:?} {blend}: {within:.4} {at:.4} {beyond:.4}");
         assert!(
             within < beyond && at <= beyond,
             "{kernel:?} {blend}: {within} {at} {beyond}"
         );
-        // The broken twins: a cascade that is read beyond its border, and one that lies aside.
-        let changed = |from: &str, to: &str| {
-            shares(&|module| {
-                let changed = module.replace(from, to);
-                assert_ne!(changed, module);
-                changed
-            })
-        };
-        let [_, at, beyond] = changed("record.middle - (", "record.middle + 20.0 - (");
-        eprintln!("  beyond {at:.4} {beyond:.4}");
-        assert!(at > beyond, "{kernel:?} {blend}: {at} {beyond}");
-        if blend > 0.0 {
-            let [_, at, beyond] = changed(
+        // The broken twins: a cascade that is read beyond its border; the farther one lies aside.
+        let (from, to) = match blend > 0.0 {
+            false => ("record.middle - (", "record.middle + 20.0 - ("),
+            true => (
                 "let other = shadows_light[first.tiles.y + next];",
                 "var other = shadows_light[first.tiles.y + next];
     other.position += 6.0 * other.texel * other.right;",
-            );
-            eprintln!("  aside {at:.4} {beyond:.4}");
-            assert!(at > beyond, "{kernel:?} {blend}: {at} {beyond}");
-        }
+            ),
+        };
+        let [_, at, beyond] = shares(&|module| {
+            let changed = module.replace(from, to);
+            assert_ne!(changed, module);
+            changed
+        });
+        assert!(at > 1.1 * beyond, "{kernel:?} {blend}: {at} {beyond}");
     }
 }
 
@@ -249,7 +250,10 @@ fn flips(gpu: &Gpu, field: &Field, cascades: Cascades, path: &[(Vec3, Vec3)]) ->
         // As the shader chooses, but for points that lie within rounding of a border.
         let cascade = |point: Vec3| {
             let mut at = tiles.iter().position(|tile| inside(tile, point) > 1.5);
-            if tiles.iter().any(|tile| (inside(tile, point) - 1.5).abs() < 1e-2) {
+            if tiles
+                .iter()
+                .any(|tile| (inside(tile, point) - 1.5).abs() < 1e-2)
+            {
                 at = None;
             }
             at.unwrap_or(usize::MAX)
@@ -301,13 +305,11 @@ fn a_camera_that_turns_in_place_flips_no_point() {
     let turn: Vec<_> = (0..65).map(|step| (EYE, around(step))).collect();
     for margin in [0.0, 1.0 / 32.0] {
         let found = flips(&gpu, &field, fitted(CascadeFit::Stable, margin), &turn);
-        eprintln!("turn {margin} {found:?}");
         assert_eq!((found.of_same, found.of_changed), (0, 0), "{found:?}");
         assert!(found.all > 200_000);
     }
     // The broken twin: a fit that turns with what is seen.
     let found = flips(&gpu, &field, fitted(CascadeFit::Tight, 0.0), &turn);
-    eprintln!("turn tight {found:?}");
     assert!(found.of_same > 50 && found.of_changed > 300, "{found:?}");
 }
 
@@ -321,7 +323,6 @@ fn a_camera_that_walks_flips_only_points_that_read_another_cascade() {
         .collect();
     for margin in [0.0, 1.0 / 32.0] {
         let found = flips(&gpu, &field, fitted(CascadeFit::Stable, margin), &walk);
-        eprintln!("walk {margin} {found:?}");
         assert_eq!(found.of_same, 0, "{found:?}");
         // Some do, or there would be nothing to see; each was wrong in one cascade or the other.
         let share = found.of_changed as f64 / found.all as f64;
@@ -329,6 +330,5 @@ fn a_camera_that_walks_flips_only_points_that_read_another_cascade() {
     }
     // The broken twin: a fit whose size changes.
     let found = flips(&gpu, &field, fitted(CascadeFit::Tight, 0.0), &walk);
-    eprintln!("walk tight {found:?}");
     assert!(found.of_same > 30, "{found:?}");
 }

@@ -20,8 +20,8 @@ use shadows::glam::{DVec3, DVec4, Mat4};
 use shadows::reference::{Class, Hit, Interior, ReferenceImage, ReferenceScene, Verdict};
 use shadows::{
     AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DepthBounds,
-    DepthConvention, DirectionalLight, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, ShadowAtlas,
-    ShadowAtlasDescriptor, TileSize, View,
+    DepthConvention, DirectionalLight, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
+    ShadowAtlas, ShadowAtlasDescriptor, TileSize, View,
 };
 
 /// One way to shadow the sun.
@@ -267,7 +267,11 @@ fn main() -> Result<()> {
     say(&format!("reference {:.1} s", start.elapsed().as_secs_f64()))?;
     let bounds = depth_bounds(&stage, &truth);
     let b = stage.scene.bounds();
-    say(&format!("{bounds:?} seen {} scene {:?}", stage.inputs.seen, b.size()))?;
+    say(&format!(
+        "{bounds:?} seen {} scene {:?}",
+        stage.inputs.seen,
+        b.size()
+    ))?;
     let camera = &stage.scene.camera;
     let axis = (camera.target - camera.eye).as_dvec3().normalize();
     let per_pixel = 2.0 * f64::from(camera.fovy * 0.5).tan() / f64::from(size[1]);
@@ -339,7 +343,10 @@ fn main() -> Result<()> {
             picture.push(color);
             if interior && shown_up < 6 {
                 shown_up += 1;
-                say(&format!("{verdict:?} at {x},{y} {} texel {texel}", groups[hit.object as usize]))?;
+                say(&format!(
+                    "{verdict:?} at {x},{y} {} texel {texel}",
+                    groups[hit.object as usize]
+                ))?;
                 say(&close_up(&exact, &stage, &hit, texel)?)?;
             }
             if *verdict != Verdict::NotCounted {
@@ -358,7 +365,11 @@ fn main() -> Result<()> {
         for (at, tally) in &mut by_cascade {
             let (matrix, tile) = seen.tiles[*at];
             let width = 2.0 / matrix.row(0).truncate().length();
-            say(&format!("   cascade {at} {}, width {width:.1} texel {:.4}", tally.line(all), width / tile as f32))?;
+            say(&format!(
+                "   cascade {at} {}, width {width:.1} texel {:.4}",
+                tally.line(all),
+                width / tile as f32
+            ))?;
         }
         for (group, tally) in &mut by_group {
             if tally.pixels * 200 > all {

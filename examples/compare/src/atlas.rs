@@ -6,8 +6,8 @@ use host::interior::radius_in_texels;
 use host::renderer::Renderer;
 use shadows::reference::Interior;
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, CascadeFit, Cascades, DirectionalLight, PcfSampler,
-    ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
+    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, CascadeFit, Cascades, DirectionalLight,
+    PcfSampler, ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
 };
 
 use crate::shadow::ShadowInputs;

@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
-    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthBounds, DirectionalLight,
-    ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
-    PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor,
-    ShadowVolumeRenderer, SpotLight, View, wgpu,
+    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthBounds,
+    DirectionalLight, ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel,
+    PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
 use crate::atlas::Atlas;

@@ -69,7 +69,11 @@ impl Stage {
 
     /// Reads from the host's depth buffer what there is to see, if a light divides it.
     fn find_depths(&mut self, gpu: &Gpu) {
-        let of_use = self.scene.lights.iter().any(|light| light.kind() == LightKind::Directional);
+        let of_use = self
+            .scene
+            .lights
+            .iter()
+            .any(|light| light.kind() == LightKind::Directional);
         self.inputs.depth_bounds = match of_use && self.renderer.look().samples == 1 {
             true => {
                 gpu.run(|encoder| self.renderer.draw_ambient(encoder, &self.scene_gpu));

@@ -1,8 +1,8 @@
 //! The techniques that have a name. A new one is one more row.
 
 use shadows::{
-    CascadeFit, ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
-    RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
+    CascadeFit, ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method,
+    PcfDescriptor, RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
 use crate::technique::{Config, Technique};

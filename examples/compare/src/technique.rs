@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use shadows::{
-    CascadeFit, CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CascadeFit, CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor,
+    ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;

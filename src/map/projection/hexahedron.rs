@@ -70,10 +70,11 @@ impl Hexahedron {
     /// The box around it in a light's axes.
     pub fn around(&self, axes: &LightAxes) -> LightBox {
         let corners = self.corners.map(|corner| axes.local(corner));
-        let (min, max) = corners.into_iter().fold(
-            (corners[0], corners[0]),
-            |(min, max), corner| (min.min(corner), max.max(corner)),
-        );
+        let (min, max) = corners
+            .into_iter()
+            .fold((corners[0], corners[0]), |(min, max), corner| {
+                (min.min(corner), max.max(corner))
+            });
         LightBox { min, max }
     }
 
@@ -83,7 +84,8 @@ impl Hexahedron {
     /// ends within it.
     pub fn overlap(&self, other: &Self, axes: &LightAxes) -> Option<LightBox> {
         let ends = |of: &Self, within: &Self| {
-            let inside = EDGES.map(|edge| within.part_inside(edge.map(|corner| of.corners[corner])));
+            let inside =
+                EDGES.map(|edge| within.part_inside(edge.map(|corner| of.corners[corner])));
             inside.into_iter().flatten().flatten()
         };
         let points = ends(self, other).chain(ends(other, self));
@@ -145,7 +147,9 @@ mod tests {
         let alone = inner.around(&light);
         for found in [inner.overlap(&outer, &light), outer.overlap(&inner, &light)] {
             let found = found.unwrap();
-            let off = (found.min - alone.min).abs().max((found.max - alone.max).abs());
+            let off = (found.min - alone.min)
+                .abs()
+                .max((found.max - alone.max).abs());
             assert!(off.max_element() < 1e-12, "{off}");
         }
         let aside = Hexahedron::of_bounds(&bounds([9.0, -0.2, 5.0], [0.5, 0.0, 0.7]));

@@ -20,7 +20,7 @@ use crate::stage::Stage;
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::random::Random;
-use host::scene::{LightKind, Scene};
+use host::scene::Scene;
 
 /// What is tried.
 pub struct Trial<'a> {
@@ -203,15 +203,11 @@ impl Situation {
 }
 
 /// Whether the technique is for such a light and the device can draw it: volumes reach to infinity,
-/// which a far plane cuts off where the device cannot clamp depth. An atlas is tried with cascades alone: of
-/// other lights it holds what their own maps do, bit by bit.
+/// which a far plane cuts off where the device cannot clamp depth.
 pub fn applies(gpu: &Gpu, technique: &Technique, situation: &Situation) -> bool {
     let clamps = wgpu::Features::DEPTH_CLIP_CONTROL;
     let config = &technique.config;
-    let kind = situation.scene.light().kind();
-    let is_own = !matches!(config, Config::Atlas { .. }) || kind == LightKind::Directional;
-    is_own
-        && config.applies_to(kind)
+    config.applies_to(situation.scene.light().kind())
         && (situation.look.depth == DepthConvention::InfiniteReverse
             || !matches!(config, Config::Volume(_))
             || gpu.device.features().contains(clamps))

@@ -50,8 +50,8 @@ fn four_cascades_leave_a_third_of_the_wrong_pixels_of_one_map_of_as_many_texels(
     };
     let tight = part("atlas-tight-2x2", true);
     let stable = part("atlas-2x2", true);
-    assert!(tight < 0.38, "{tight} of {flat}");
-    assert!(stable < 0.6, "{stable} of {flat}");
+    assert!(tight < 0.42, "{tight} of {flat}");
+    assert!(stable < 0.62, "{stable} of {flat}");
     // The broken twins: cascades that do not know what is seen.
     let unknown = [part("atlas-tight-2x2", false), part("atlas-2x2", false)];
     assert!(unknown[0] > 0.55 && unknown[1] > 0.7, "{unknown:?}");

@@ -1,7 +1,6 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
 mod camera;
-mod cascades;
 mod depth;
 mod flat;
 mod frames;
@@ -63,6 +62,5 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(views::CASES)
         .chain(frames::CASES)
         .chain(flat::CASES)
-        .chain(cascades::CASES)
         .chain(depth::CASES)
 }
