@@ -8,10 +8,6 @@ use super::image::{Class, ReferenceImage};
 use super::interior::{Interior, Radius};
 use crate::error::ReferenceError;
 
-/// The most errors in the interior of a picture that are asked about again: a broken technique has more, and
-/// each takes hundreds of rays.
-const FEW: usize = 256;
-
 /// How a technique's picture says how much light arrives: `f32` from 0 to 1, or `u8` from 0 to 255.
 pub trait Visibility: Copy + Sync {
     /// 0 in shadow, 1 lit.
@@ -101,43 +97,14 @@ impl ReferenceImage {
         }
         let radius = interior.radius(self.lighting.light.w == 0.0)?;
         let square_error = self.square_error(visibility)?;
-        let mut verdicts: Vec<Verdict> = (0..pixels)
+        let verdicts: Vec<Verdict> = (0..pixels)
             .into_par_iter()
             .map(|pixel| self.verdict(pixel, visibility[pixel].fraction(), radius))
             .collect();
-        if let Some(radius) = radius {
-            self.doubt(&mut verdicts, radius);
-        }
         Ok(tally(verdicts, square_error))
     }
 
-    /// Asks again, with more rays, about errors in the interior that are so few that thin shadows may be
-    /// behind them.
-    fn doubt(&self, verdicts: &mut [Verdict], radius: Radius) {
-        let inside = |(pixel, verdict): (usize, &Verdict)| match verdict {
-            Verdict::FalseLitInterior => Some((pixel, Verdict::FalseLit)),
-            Verdict::FalseShadowInterior => Some((pixel, Verdict::FalseShadow)),
-            _ => None,
-        };
-        let errors: Vec<(usize, Verdict)> = verdicts
-            .iter()
-            .enumerate()
-            .filter_map(inside)
-            .take(FEW + 1)
-            .collect();
-        if errors.len() > FEW {
-            return;
-        }
-        let at_edges: Vec<(usize, Verdict)> = errors
-            .into_par_iter()
-            .filter(|&(pixel, _)| !self.is_interior_between_rings(pixel, radius))
-            .collect();
-        for (pixel, verdict) in at_edges {
-            verdicts[pixel] = verdict;
-        }
-    }
-
-    /// The number of pixels facing the light that are in the interior, by rays on rings alone.
+    /// The number of pixels facing the light that are in the interior.
     ///
     /// For [`Interior::Map`] this casts about 40 rays a pixel, more with a wider kernel.
     ///

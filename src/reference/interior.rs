@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::PoisonError;
 
-use glam::{DVec2, DVec3, Mat4, Vec4Swizzles};
+use glam::{DVec3, Mat4, Vec4Swizzles};
 
 use super::geometry::SurfacePoint;
 use super::image::{Class, ReferenceImage, Seen};
@@ -18,10 +18,6 @@ use crate::error::ReferenceError;
 /// room for the creases of a tessellation.
 const STEP: f64 = 2.0;
 
-/// Places in the square around the circle of light rays that are tried between rings: in the circle are about
-/// 800.
-const BETWEEN: u32 = 1024;
-
 /// Where an error counts as an interior error: no shadow edge is near enough to explain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -32,10 +28,6 @@ pub enum Interior {
     /// For cube shadow maps of a point light. Beyond what [`Screen`](Self::Screen) asks, the
     /// reference says the same wherever a light ray within 1.5 texels plus the kernel's radius of
     /// the pixel's own meets the tangent plane. A ray that misses the plane is an edge.
-    ///
-    /// Rays half a texel apart miss the shadow of a wire that is thinner, and a map does not wherever the
-    /// middle of a texel lies behind it. So in pictures with few errors in the interior, up to 256, those
-    /// are held against 800 more rays each.
     Map {
         /// Texels along the edge of a cube face; at least 1.
         face_size: u32,
@@ -157,38 +149,19 @@ impl ReferenceImage {
     /// Whether the reference says `lit` for all light rays within the radius: on rings at most half
     /// a texel apart, as are the rays on each, the outermost first since it most likely disagrees.
     fn light_agrees(&self, seen: &Seen, lit: bool, radius: Radius) -> bool {
-        let rings = (2.0 * radius.texels).ceil();
-        let places = (1..=rings as u32).rev().flat_map(|ring| {
-            let fraction = f64::from(ring) / rings;
-            let count = (2.0 * TAU * radius.texels * fraction).ceil().max(8.0);
-            let on_ring = move |ray| fraction * DVec2::from_angle(TAU * f64::from(ray) / count);
-            (0..count as u32).map(on_ring)
-        });
-        self.agree_at(places, seen, lit, radius)
-    }
-
-    /// Whether a pixel that is in the interior by rays on rings is so by many more between them, too.
-    pub(super) fn is_interior_between_rings(&self, pixel: usize, radius: Radius) -> bool {
-        let width = self.width as usize;
-        let seen = self.seen((pixel % width) as u32, (pixel / width) as u32);
-        let lit = self.pixels[pixel].class == Class::Lit;
-        seen.is_some_and(|seen| self.agree_at(between_rings(), &seen, lit, radius))
-    }
-
-    /// Whether the reference says `lit` at places in a circle of radius 1.
-    fn agree_at(
-        &self,
-        mut places: impl Iterator<Item = DVec2>,
-        seen: &Seen,
-        lit: bool,
-        radius: Radius,
-    ) -> bool {
         let light = self.lighting.light.xyz();
         let rays = Rays::new(&radius.map, light, seen.surface.position, seen.normal);
-        places.all(|place| {
-            let place = radius.across * place;
-            let position = rays.meet(place.x, place.y);
-            position.is_some_and(|position| self.lit_at(seen, position) == lit)
+        let rings = (2.0 * radius.texels).ceil();
+        (1..=rings as u32).rev().all(|ring| {
+            let fraction = f64::from(ring) / rings;
+            let count = (2.0 * TAU * radius.texels * fraction).ceil().max(8.0);
+            (0..count as u32).all(|ray| {
+                let angle = TAU * f64::from(ray) / count;
+                let (v, u) = angle.sin_cos();
+                let length = radius.across * fraction;
+                let position = rays.meet(length * u, length * v);
+                position.is_some_and(|position| self.lit_at(seen, position) == lit)
+            })
         })
     }
 
@@ -206,20 +179,6 @@ impl ReferenceImage {
         };
         self.lighting.class(&self.geometry, &surface, seen.side) == Class::Lit
     }
-}
-
-/// Places within a circle of radius 1, for shadows that are thinner than rings are apart: a map shows a wire
-/// wherever the middle of a texel lies behind it, however thin it is.
-///
-/// They are those of a sequence in the plane whose parts fill it evenly (Roberts, "The Unreasonable
-/// Effectiveness of Quasirandom Sequences", 2018): seen along a line in whatever direction, hardly two are
-/// farther apart than a few times the diameter over their number.
-fn between_rings() -> impl Iterator<Item = DVec2> {
-    // The root of x^3 = x + 1.
-    const PLASTIC: f64 = 1.324_717_957_244_746;
-    let step = DVec2::new(PLASTIC.recip(), (PLASTIC * PLASTIC).recip());
-    let square = (1..=BETWEEN).map(move |number| (f64::from(number) * step).fract() * 2.0 - 1.0);
-    square.filter(|place| place.length() <= 1.0)
 }
 
 /// Whether two neighbouring pixels see one surface without a step: each lies on the other's tangent

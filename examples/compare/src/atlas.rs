@@ -6,8 +6,8 @@ use host::interior::radius_in_texels;
 use host::renderer::Renderer;
 use shadows::reference::Interior;
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, CascadeFit, Cascades, DirectionalLight,
-    PcfSampler, ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
+    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, Cascades, DirectionalLight, PcfSampler,
+    ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
 };
 
 use crate::shadow::ShadowInputs;
@@ -18,7 +18,6 @@ pub struct Atlas {
     sampler: PcfSampler,
     group: (u64, wgpu::BindGroup),
     size: u32,
-    fit: CascadeFit,
     kept: bool,
     target: [u32; 2],
     /// Of the last frame: whether each light has a cube of tiles.
@@ -29,7 +28,7 @@ impl Atlas {
     pub fn new(
         gpu: &Gpu,
         renderer: &Renderer,
-        (size, fit, kept): (u32, CascadeFit, bool),
+        (size, kept): (u32, bool),
         sampler: PcfSampler,
     ) -> Result<Self> {
         let atlas = ShadowAtlas::new(&gpu.device, &ShadowAtlasDescriptor::default())?;
@@ -38,7 +37,6 @@ impl Atlas {
             atlas,
             sampler,
             size,
-            fit,
             kept,
             target: renderer.size(),
             points: Vec::new(),
@@ -59,14 +57,10 @@ impl Atlas {
             .collect();
         self.points = inputs.iter().map(is_point).collect();
         let [width, height] = self.target;
-        let view = AtlasView {
-            depth_bounds: first.depth_bounds,
-            ..AtlasView::new(&first.view, width, height)
-        };
         let frame = AtlasFrame {
             lights: &lights,
             casters: &first.casters,
-            views: &[view],
+            views: &[AtlasView::new(&first.view, width, height)],
             receivers: Some(first.receivers),
         };
         self.atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
@@ -124,7 +118,6 @@ impl Atlas {
             // Depths count along the camera's axis, cascades' distances from its eye.
             let cascades = Cascades {
                 distance: 1.5 * of.seen,
-                fit: self.fit,
                 ..Default::default()
             };
             let sun = DirectionalLight::new(of.light.0.truncate());

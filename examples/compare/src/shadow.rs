@@ -6,10 +6,10 @@ use serde_json::{Value, json};
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
-    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthBounds,
-    DirectionalLight, ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel,
-    PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeRenderer, SpotLight, View, wgpu,
+    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
+    ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
+    PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
 use crate::atlas::Atlas;
@@ -39,9 +39,6 @@ pub struct ShadowInputs {
     pub receivers: Bounds,
     /// Up to where along the camera's axis there is something to see.
     pub seen: f32,
-    /// Between which depths there is, as the host's depth buffer says; `None` where the lights have no use
-    /// for it, or it has several samples a pixel.
-    pub depth_bounds: Option<DepthBounds>,
 }
 
 impl ShadowInputs {
@@ -162,12 +159,11 @@ impl Shadow {
             Config::Atlas {
                 size,
                 kept,
-                fit,
                 sampler,
             } => {
                 let sampler = make_sampler(gpu, label, sampler)?;
                 let lit = sampled(gpu, renderer, &sampler, module);
-                let atlas = Atlas::new(gpu, renderer, (*size, *fit, *kept), sampler)?;
+                let atlas = Atlas::new(gpu, renderer, (*size, *kept), sampler)?;
                 (Means::Atlas(Box::new(atlas)), lit)
             }
             Config::Volume(descriptor) => {
@@ -415,10 +411,9 @@ impl Technique {
             Config::Atlas {
                 size,
                 kept,
-                fit,
                 sampler,
             } => (
-                json!({ "tile_texels": size, "cache": kept, "cascade_fit": format!("{fit:?}") }),
+                json!({ "tile_texels": size, "cache": kept }),
                 (sampler, Bias::default()),
             ),
             Config::Peer { peer, size } => {

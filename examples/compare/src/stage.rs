@@ -7,11 +7,10 @@ use shadows::reference::{ReferenceImage, ReferenceScene};
 use shadows::{HomogeneousLight, View};
 
 use crate::shadow::{Shadow, ShadowInputs};
-use host::depth_bounds::depth_bounds;
 use host::exact;
 use host::gpu::Gpu;
 use host::renderer::{self, Look, Renderer};
-use host::scene::{Camera, LightKind, Scene};
+use host::scene::{Camera, Scene};
 use host::scene_gpu::SceneGpu;
 
 /// A scene, the targets it is drawn to, and what every technique is told about it.
@@ -55,32 +54,13 @@ impl Stage {
             casters: scene_gpu.casters.clone(),
             receivers: receivers(&scene),
             seen: seen(&scene),
-            depth_bounds: None,
         };
-        let mut stage = Self {
+        Ok(Self {
             scene,
             scene_gpu,
             renderer,
             inputs,
-        };
-        stage.find_depths(gpu);
-        Ok(stage)
-    }
-
-    /// Reads from the host's depth buffer what there is to see, if a light divides it.
-    fn find_depths(&mut self, gpu: &Gpu) {
-        let of_use = self
-            .scene
-            .lights
-            .iter()
-            .any(|light| light.kind() == LightKind::Directional);
-        self.inputs.depth_bounds = match of_use && self.renderer.look().samples == 1 {
-            true => {
-                gpu.run(|encoder| self.renderer.draw_ambient(encoder, &self.scene_gpu));
-                depth_bounds(gpu, &self.inputs.view, self.renderer.depth_stencil())
-            }
-            false => None,
-        };
+        })
     }
 
     /// What a technique is told of one of the scene's lights.
@@ -139,7 +119,6 @@ impl Stage {
         self.inputs.light = HomogeneousLight(light);
         self.inputs.seen = seen(&self.scene);
         self.renderer.show(gpu, &self.scene, matrix);
-        self.find_depths(gpu);
         Ok(())
     }
 

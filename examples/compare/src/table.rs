@@ -1,8 +1,8 @@
 //! The techniques that have a name. A new one is one more row.
 
 use shadows::{
-    CascadeFit, ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method,
-    PcfDescriptor, RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
+    ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
+    RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
 use crate::technique::{Config, Technique};
@@ -78,13 +78,9 @@ pub static ROWS: &[Row] = &[
     row("flat-disk-full", |side| flat(side, disk(false))),
     row("flat-vogel", |side| flat(side, vogel())),
     row("flat-pcss", |side| flat(side, contact())),
-    row("atlas-hard", |side| atlas(side, STABLE, Kernel::Hard)),
-    row("atlas-2x2", |side| atlas(side, STABLE, Kernel::Bilinear)),
-    row("atlas-5x5", |side| atlas(side, STABLE, Kernel::Weighted5)),
-    row("atlas-tight-hard", |side| atlas(side, TIGHT, Kernel::Hard)),
-    row("atlas-tight-2x2", |side| {
-        atlas(side, TIGHT, Kernel::Bilinear)
-    }),
+    row("atlas-hard", |side| atlas(side, Kernel::Hard)),
+    row("atlas-2x2", |side| atlas(side, Kernel::Bilinear)),
+    row("atlas-5x5", |side| atlas(side, Kernel::Weighted5)),
     usual("volume", |_| Config::Volume(volume())),
     row("volume-auto", |_| {
         Config::Volume(ShadowVolumeDescriptor::default())
@@ -193,14 +189,10 @@ pub fn flat(side: u32, kernel: Kernel) -> Config {
 }
 
 /// All lights in one atlas, every tile drawn every frame.
-const STABLE: CascadeFit = CascadeFit::Stable;
-const TIGHT: CascadeFit = CascadeFit::Tight;
-
-fn atlas(size: u32, fit: CascadeFit, kernel: Kernel) -> Config {
+fn atlas(size: u32, kernel: Kernel) -> Config {
     Config::Atlas {
         size,
         kept: false,
-        fit,
         sampler: PcfDescriptor {
             kernel,
             map: MapKind::Atlas,

@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 
 use shadows::{
-    CascadeFit, CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor,
-    ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -37,8 +36,6 @@ pub enum Config {
         /// Texels along a tile: of a single light; of many at most.
         size: u32,
         kept: bool,
-        /// Of the cascades of directional lights.
-        fit: CascadeFit,
         sampler: PcfDescriptor<'static>,
     },
     Volume(ShadowVolumeDescriptor<'static>),
