@@ -1,10 +1,9 @@
-//! Cascades as fixed points see them: at their seams, and while the camera turns and walks.
+//! Cascades as fixed points see them while the camera turns and walks.
 
-use crate::common::rays::Triangles;
 use crate::common::shapes::{Random, cuboid};
 use crate::receivers::Questions;
 use glam::camera::rh::{proj::directx as proj, view as camera};
-use glam::{Affine3A, DVec3, DVec4, Vec3};
+use glam::{Affine3A, DVec4, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     AtlasFrame, AtlasLight, AtlasTile, AtlasView, CascadeFit, CascadeSplit, Cascades, Caster,
@@ -58,22 +57,6 @@ impl Field {
         }
         points
     }
-
-    fn lit(&self, points: &[(Vec3, Vec3)]) -> Vec<bool> {
-        let shape = cuboid(HALF);
-        let mut post = Triangles::default();
-        post.add(&shape.positions, &shape.indices, Affine3A::IDENTITY);
-        let toward = TOWARD.as_dvec3();
-        let is_lit = |point: DVec3| {
-            let near = self.posts.iter().map(|post| point - post.as_dvec3());
-            let mut near = near.filter(|from| from.length() < 5.0);
-            !near.any(|from| post.nearest(from, toward).is_some())
-        };
-        points
-            .iter()
-            .map(|(point, _)| is_lit(point.as_dvec3()))
-            .collect()
-    }
 }
 
 /// From a height of 1.7, with shadows from `near` on.
@@ -124,13 +107,9 @@ impl Sun {
         gpu.run(|encoder| self.atlas.encode(encoder));
     }
 
-    fn questions(
-        &self,
-        gpu: &Gpu,
-        points: &[(Vec3, Vec3)],
-        change: impl FnOnce(String) -> String,
-    ) -> Questions {
-        Questions::new(gpu, &self.sampler, &self.descriptor, 0, points, change)
+    fn questions(&self, gpu: &Gpu, points: &[(Vec3, Vec3)]) -> Questions {
+        let same = |module| module;
+        Questions::new(gpu, &self.sampler, &self.descriptor, 0, points, same)
     }
 
     fn ask(&self, gpu: &Gpu, questions: &Questions) -> Vec<f32> {
@@ -143,84 +122,6 @@ impl Sun {
 fn inside(tile: &AtlasTile, point: Vec3) -> f64 {
     let clip = tile.clip_from_world.as_dmat4() * DVec4::from((point.as_dvec3(), 1.0));
     0.5 * f64::from(tile.size) * (1.0 - clip.x.abs().max(clip.y.abs()))
-}
-
-/// Shares of the points that are wrong: well inside the nearest cascade; around its border, as wide to both
-/// sides as it blends; and beyond that, twice as far.
-fn wrong_by_band(
-    tile: &AtlasTile,
-    blend: f64,
-    (points, lit): (&[(Vec3, Vec3)], &[bool]),
-    said: &[f32],
-) -> [f64; 3] {
-    let mut bands = [(0, 0); 3];
-    for (((point, _), &lit), &said) in points.iter().zip(lit).zip(said) {
-        let inside = inside(tile, *point);
-        let band = match inside {
-            _ if inside > 2.0 * blend => 0,
-            _ if inside.abs() < blend => 1,
-            _ if inside < -blend && inside > -3.0 * blend => 2,
-            _ => continue,
-        };
-        bands[band].0 += usize::from((said >= 0.5) != lit);
-        bands[band].1 += 1;
-    }
-    bands.map(|(wrong, all)| {
-        assert!(all > 3000, "{bands:?}");
-        wrong as f64 / f64::from(all)
-    })
-}
-
-#[test]
-fn at_a_seam_no_more_is_wrong_than_beside_it() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    let field = Field::new(&gpu);
-    let points = field.points(60_000, Vec3::ZERO, 40.0);
-    let lit = field.lit(&points);
-    let view = view(4.0, 1.7 * Vec3::Y, Vec3::X);
-    for (kernel, blend) in [Kernel::Hard, Kernel::Bilinear]
-        .into_iter()
-        .flat_map(|kernel| [0.0, 0.25].map(|blend| (kernel, blend)))
-    {
-        // From 4 to 16 and to 64.
-        let cascades = Cascades {
-            count: 2,
-            split: CascadeSplit::Practical { lambda: 1.0 },
-            distance: 64.0,
-            blend,
-            ..Default::default()
-        };
-        let mut sun_of = Sun::new(&gpu, kernel);
-        sun_of.draw(&gpu, &sun(cascades, 256), &view, &field.casters);
-        let near = sun_of.atlas.tiles(0, 0)[0];
-        let texel = 2.0 / f64::from(near.clip_from_world.row(0).truncate().length() * 256.0);
-        let band = 0.25 * 12.0 / texel;
-        let shares = |change: &dyn Fn(String) -> String| {
-            let questions = sun_of.questions(&gpu, &points, change);
-            let said = sun_of.ask(&gpu, &questions);
-            wrong_by_band(&near, band, (&points, &lit), &said)
-        };
-        let [within, at, beyond] = shares(&|module| module);
-        assert!(
-            within < beyond && at <= beyond,
-            "{kernel:?} {blend}: {within} {at} {beyond}"
-        );
-        // The broken twins: a cascade that is read beyond its border; the farther one lies aside.
-        let (from, to) = match blend > 0.0 {
-            false => ("record.middle - (", "record.middle + 20.0 - ("),
-            true => (
-                "let other = shadows_light[first.tiles.y + next];",
-                "var other = shadows_light[first.tiles.y + next];
-    other.position += 6.0 * other.texel * other.right;",
-            ),
-        };
-        let [_, at, beyond] = shares(&|module| {
-            let changed = module.replace(from, to);
-            assert_ne!(changed, module);
-            changed
-        });
-        assert!(at > 1.1 * beyond, "{kernel:?} {blend}: {at} {beyond}");
-    }
 }
 
 /// What became of fixed points from one frame to the next.
@@ -240,7 +141,7 @@ fn flips(gpu: &Gpu, field: &Field, cascades: Cascades, path: &[(Vec3, Vec3)]) ->
     let points = field.points(4000, 4.0 * Vec3::X, 24.0);
     let lights = sun(cascades, 256);
     let mut sun_of = Sun::new(gpu, Kernel::Hard);
-    let questions = sun_of.questions(gpu, &points, |module| module);
+    let questions = sun_of.questions(gpu, &points);
     let mut last: Option<Vec<(usize, bool)>> = None;
     let mut flips = Flips::default();
     for &(eye, along) in path {
