@@ -14,6 +14,9 @@
 //! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
+//! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall that alone receives, exact to the pixel |
+//! | [`PlanarSoftShadow`] | the same from many places of a light with a size | soft shadows on one rectangle |
+//! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
 //!
@@ -175,6 +178,7 @@ pub use {glam, wgpu};
 /// [temporal]: https://docs.rs/crate/shadows/latest/source/docs/temporal.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 /// [limits]: crate::limits
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
@@ -183,6 +187,7 @@ pub mod choosing {}
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]
 pub mod limits {}
@@ -191,12 +196,15 @@ pub mod limits {}
 #[cfg(test)]
 extern crate self as shadows;
 
+mod clock;
 pub mod error;
 mod gl;
 pub mod light;
 pub mod map;
 pub mod mesh;
 pub mod pcf;
+pub mod planar;
+pub mod projected;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod scene;
@@ -228,6 +236,15 @@ pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, Insta
 pub use pcf::{
     AnyMap, ContactHardening, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace,
     PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
+};
+pub use planar::{
+    LightShape, PlanarFrame, PlanarLight, PlanarOutline, PlanarOutput, PlanarReceiver,
+    PlanarRectangle, PlanarShadow, PlanarShadowDescriptor, PlanarSoftFrame, PlanarSoftShadow,
+    PlanarSoftShadowDescriptor, PlanarSoftStatistics, PlanarStatistics,
+};
+pub use projected::{
+    ProjectedCaster, ProjectedFrame, ProjectedShadow, ProjectedShadowDescriptor,
+    ProjectedStatistics, Projector, ProjectorState,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

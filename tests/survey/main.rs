@@ -1,1 +1,9 @@
 //! The cheap and the baked techniques against exact visibility, each with what it cannot do.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod planar;
+mod planar_errors;
+mod planar_host;
+mod planar_soft;
+mod projected;

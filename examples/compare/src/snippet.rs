@@ -3,9 +3,11 @@
 use std::fmt::Debug;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, PcfDescriptor, PlanarSoftShadowDescriptor,
+    ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
+use crate::survey::Survey;
 use crate::technique::Config;
 
 /// Statements that bind `map` and `sampler`, or `volumes`. Fields that are as the default has them
@@ -17,7 +19,17 @@ pub fn of(config: &Config) -> String {
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Atlas { sampler, .. } => pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
-        Config::Survey(survey) => match survey {},
+        Config::Survey(survey) => match survey {
+            Survey::Planar => "let planar = PlanarShadowDescriptor::default();\n".to_owned(),
+            Survey::PlanarSoft { size, samples } => {
+                let default = PlanarSoftShadowDescriptor::default();
+                Literal::new("planar", "PlanarSoftShadowDescriptor")
+                    .field("size", "", &[size; 2], &default.size)
+                    .field("samples", "", &samples, &default.samples)
+                    .finish()
+            }
+            Survey::Projected(projected) => projected.snippet(),
+        },
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",
             peer.name

@@ -5,6 +5,8 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::Survey;
+use crate::survey::projected::Projected;
 use crate::technique::{Config, Technique};
 use host::peers::peer;
 
@@ -102,6 +104,17 @@ pub static ROWS: &[Row] = &[
             counter: Counter::Exact,
             ..volume()
         })
+    }),
+    row("planar", |_| Config::Survey(Survey::Planar)),
+    row("planar-soft", |size| {
+        let samples = 64;
+        Config::Survey(Survey::PlanarSoft { size, samples })
+    }),
+    row("projected", |side| {
+        Config::Survey(Survey::Projected(Projected::new(side, false)))
+    }),
+    row("projected-all", |side| {
+        Config::Survey(Survey::Projected(Projected::new(side, true)))
     }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {

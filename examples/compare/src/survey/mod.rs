@@ -1,5 +1,9 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
+pub mod planar;
+pub mod planar_soft;
+pub mod projected;
+
 use anyhow::Result;
 use serde_json::Value;
 use shadows::reference::Interior;
@@ -13,7 +17,14 @@ use host::scene_gpu::SceneGpu;
 
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
-pub enum Survey {}
+pub enum Survey {
+    /// Projected onto the ground.
+    Planar,
+    /// The same from many places of a light with a size, in a texture of so many texels a side.
+    PlanarSoft { size: u32, samples: u32 },
+    /// Pictures of casters on what receives.
+    Projected(projected::Projected),
+}
 
 /// One at work.
 pub trait SurveyShadow {
@@ -37,19 +48,42 @@ pub trait SurveyShadow {
 }
 
 impl Survey {
+    /// With what its names begin.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Planar | Self::PlanarSoft { .. } => "planar",
+            Self::Projected(_) => "projected",
+        }
+    }
+
+    /// Whether its edges are as soft as those of a light with a size.
+    pub fn is_soft(&self) -> bool {
+        matches!(self, Self::PlanarSoft { .. })
+    }
+
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
-        match *self {}
+        match self {
+            Self::Planar | Self::PlanarSoft { .. } => true,
+            Self::Projected(_) => true,
+        }
     }
 
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
-        match *self {}
+        match self {
+            Self::Planar | Self::PlanarSoft { .. } => "",
+            Self::Projected(_) => "",
+        }
     }
 
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
-        match *self {}
+        match self {
+            Self::Planar => planar::settings(),
+            Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
+            Self::Projected(projected) => projected.settings(),
+        }
     }
 
     /// Makes it, and the lit pass that reads it.
@@ -58,9 +92,15 @@ impl Survey {
     /// If the device cannot do it.
     pub fn make(
         &self,
-        _gpu: &Gpu,
-        _renderer: &Renderer,
+        gpu: &Gpu,
+        renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
-        match *self {}
+        match self {
+            Self::Planar => planar::make(gpu, renderer),
+            &Self::PlanarSoft { size, samples } => {
+                planar_soft::make(gpu, renderer, (size, samples))
+            }
+            Self::Projected(projected) => projected.make(gpu, renderer),
+        }
     }
 }
