@@ -27,6 +27,11 @@ pub enum CascadeError {
     /// The distance up to which a view shows shadows is out of range.
     #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
     Distance(f32),
+    /// The distance of the nearest that a view shows is out of range.
+    #[error(
+        "CascadeSplit::Ground::nearest = {0} is out of range; pass a finite distance of at least 0"
+    )]
+    Nearest(f32),
     /// The depths that are seen are no range.
     #[error(
         "depths seen from {nearest} to {farthest} are no range; pass finite distances, 0 <= nearest <= farthest"

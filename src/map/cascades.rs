@@ -41,7 +41,14 @@ impl Cascades {
                 limit: Self::MOST,
             });
         }
-        let CascadeSplit::Practical { lambda } = self.split;
+        let lambda = match self.split {
+            CascadeSplit::Auto => 0.0,
+            CascadeSplit::Practical { lambda } => lambda,
+            CascadeSplit::Ground { nearest } => match nearest.is_finite() && nearest >= 0.0 {
+                true => 0.0,
+                false => return Err(CascadeError::Nearest(nearest)),
+            },
+        };
         for (field, value, limit) in [
             ("CascadeSplit::Practical::lambda", lambda, 1.0),
             ("Cascades::blend", self.blend, 0.5),
@@ -75,30 +82,43 @@ impl Default for Cascades {
     }
 }
 
-/// The distances at which one cascade ends and the next begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The distances at which one cascade ends and the next begins. (An orthographic view sees all at one scale:
+/// there cascades are equally long whatever is asked.)
+///
+/// Below, `n` is the distance of the view's near plane and `f` the shadows' or the view's far plane's; the
+/// nearest and farthest that is seen, where the host says so ([`DepthBounds`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum CascadeSplit {
+    /// [`Ground`](Self::Ground) where the host says what is seen ([`DepthBounds`]), else
+    /// [`Practical`](Self::Practical) with `lambda` 0.85.
+    #[default]
+    Auto,
     /// Between two rules (Zhang et al., "Parallel-Split Shadow Maps for Large-scale Virtual
     /// Environments", 2006): of m cascades from `n` to `f`, the i-th ends at
     /// `lambda * n * (f / n)^(i / m) + (1 - lambda) * (n + (f - n) * i / m)`.
     ///
-    /// `n` is the distance of the view's near plane, `f` the shadows' or the view's far plane's; the
-    /// nearest and farthest that is seen, where the host says so ([`DepthBounds`]).
+    /// For views of which only the near plane is known, which lies far before all that is seen.
     Practical {
-        /// 1: each cascade is as many times as far as the one before it, so that all have about as many
-        /// texels a pixel, which wastes the first ones where nothing is near. 0: all are equally long.
-        /// Default 0.85: over flat ground seen from 1.7 above it, for distances of 100 to 1000 and near
-        /// planes of 0.01 to 1, the texels that pixels see are in the mean at most 1.33 times as wide as
-        /// with the best value for each. 0 to 1.
+        /// 1: each cascade is as many times as far as the one before it, which wastes the first ones where
+        /// nothing is near. 0: all are equally long. 0.85: over flat ground seen from 1.7 above it, for
+        /// distances of 100 to 1000 and near planes of 0.01 to 1, texels are in the mean at most 1.33 times
+        /// as wide in the world as with the best value for each. 0 to 1.
         lambda: f32,
     },
-}
-
-impl Default for CascadeSplit {
-    fn default() -> Self {
-        Self::Practical { lambda: 0.85 }
-    }
+    /// For a view of which it is known where what it shows begins: texels are as few pixels wide as can be, in
+    /// the mean over the pixels that show ground from there on.
+    ///
+    /// Of ground that is seen from above it, a distance `d` takes a share of the picture of `1 / d^2`, and the
+    /// texels of a cascade that ends at `e` are `e / d` as many pixels wide. The mean is least where each
+    /// cascade ends `r` times as far as the one before it, and the next one `(r^2 + 1) / 2` times as far again.
+    Ground {
+        /// Distance of the nearest surfaces, in world units; what is nearer than that is shadowed by the first
+        /// cascade, too. Less than `n` counts as `n`, which is enough where the host passes
+        /// [`DepthBounds`]; `f` and more, too. Else about 2 for eyes at a person's height, in metres. Finite, at
+        /// least 0.
+        nearest: f32,
+    },
 }
 
 /// What each cascade covers.

@@ -1,6 +1,7 @@
 //! Kernels as receivers ask them: their weights, their bias and their error, against exact visibility.
 
 mod atlas;
+mod atlas_cascades;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_receivers;

@@ -1,9 +1,10 @@
 //! The maps of a directional light, each fitted to a slice of what a view shows.
 
 use super::flat::FlatFrame;
+use super::hexahedron::Hexahedron;
 use super::light_box::{LightAxes, LightBox};
 use super::placement::{COARSE, Cover, FINE, MapShape, Placed, Placement};
-use super::slices::{Slice, box_of, box_of_sphere, slices};
+use super::slices::{Slice, box_of, box_of_sphere, hull, slices};
 use crate::error::CascadeError;
 use crate::map::cascades::{CascadeFit, Cascades, DepthBounds};
 use crate::mesh::Bounds;
@@ -58,11 +59,11 @@ pub(crate) fn fit_cascades(of: &CascadesOf<'_>) -> Result<Vec<Cascade>, CascadeE
     let slices = slices(of.view, of.cascades, of.depth_bounds);
     let place = |(cascade, slice): (usize, Slice)| {
         let seen = match of.cascades.fit {
-            CascadeFit::Stable => box_of_sphere(of.view, &slice, &axes),
-            CascadeFit::Tight => box_of(of.view, &slice, &axes),
+            CascadeFit::Stable => Some(box_of_sphere(of.view, &slice, &axes)),
+            CascadeFit::Tight => seen_tightly(of, &slice, &axes),
         };
         let last = of.last.get(cascade).copied().flatten();
-        let cover = cover(of, &casters, received.as_ref(), &seen, slack);
+        let cover = seen.and_then(|seen| cover(of, &casters, received.as_ref(), &seen, slack));
         let map = cover.map(|cover| placement.place(&cover, last));
         match map {
             Some((frame, _)) if !frame.fits_f32() => Err(CascadeError::BeyondF32 { cascade }),
@@ -88,6 +89,17 @@ fn slack(of: &CascadesOf<'_>) -> Result<f64, CascadeError> {
             size,
         }),
     }
+}
+
+/// The box around what a slice shows, of what receives; `None` if that is nothing.
+fn seen_tightly(of: &CascadesOf<'_>, slice: &Slice, axes: &LightAxes) -> Option<LightBox> {
+    let around = box_of(of.view, slice, axes);
+    let hull = hull(of.view, slice, of.depth_bounds);
+    let shown = match &of.receivers {
+        Some(receivers) => hull.overlap(&Hexahedron::of_bounds(receivers), axes)?,
+        None => hull.around(axes),
+    };
+    Some(around.and(&shown))
 }
 
 /// What a cascade has to cover: what is seen, of what casts and receives. `None` if that is nothing.

@@ -92,6 +92,14 @@ impl LightBox {
         }
     }
 
+    /// What of it lies within another one.
+    pub(super) fn and(&self, other: &Self) -> Self {
+        Self {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+        }
+    }
+
     /// Its size to the right and up: below 0 if there is nothing left of it.
     pub(super) fn extent(&self) -> DVec2 {
         (self.max - self.min).truncate()

@@ -4,6 +4,7 @@ mod cascades;
 mod cube;
 mod directional;
 mod flat;
+mod hexahedron;
 mod light_box;
 mod near;
 mod placement;

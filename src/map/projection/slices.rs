@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::hexahedron::Hexahedron;
 use super::light_box::{LightAxes, LightBox};
 use crate::View;
 use crate::map::cascades::{CascadeSplit, Cascades, DepthBounds};
@@ -54,25 +55,14 @@ pub(crate) fn slices(view: &View, cascades: &Cascades, bounds: Option<DepthBound
     if near >= far {
         return Vec::new();
     }
-    let lambda = match (view.eye_point(), cascades.split) {
-        (Some(_), CascadeSplit::Practical { lambda }) => f64::from(lambda),
-        // All of an orthographic view is seen at one scale.
-        (None, _) => 0.0,
-    };
-    let split = |cascade: u32| {
-        let share = f64::from(cascade) / f64::from(cascades.count);
-        let even = near + (far - near) * share;
-        match lambda {
-            0.0 => even,
-            _ => lambda * near * (far / near).powf(share) + (1.0 - lambda) * even,
-        }
-    };
+    let rule = Rule::of(view, cascades.split, bounds.is_some());
+    let split = rule.splits(near, far, cascades.count as usize);
     let mut from = near;
-    (0..cascades.count)
-        .map(|cascade| {
-            let last = cascade + 1 == cascades.count;
-            let to = if last { far } else { split(cascade + 1) };
-            let blend_from = to - f64::from(cascades.blend) * (to - split(cascade));
+    split
+        .windows(2)
+        .map(|ends| {
+            let to = ends[1];
+            let blend_from = to - f64::from(cascades.blend) * (to - ends[0]);
             let slice = Slice {
                 from,
                 blend_from,
@@ -82,6 +72,85 @@ pub(crate) fn slices(view: &View, cascades: &Cascades, bounds: Option<DepthBound
             slice
         })
         .collect()
+}
+
+/// How distances are divided.
+enum Rule {
+    Practical { lambda: f64 },
+    Ground { nearest: f64 },
+}
+
+impl Rule {
+    fn of(view: &View, split: CascadeSplit, are_depths_known: bool) -> Self {
+        if view.eye_point().is_none() {
+            // All of an orthographic view is seen at one scale.
+            return Self::Practical { lambda: 0.0 };
+        }
+        match split {
+            CascadeSplit::Auto if are_depths_known => Self::Ground { nearest: 0.0 },
+            CascadeSplit::Auto => Self::Practical {
+                lambda: f64::from(0.85_f32),
+            },
+            CascadeSplit::Practical { lambda } => Self::Practical {
+                lambda: lambda.into(),
+            },
+            CascadeSplit::Ground { nearest } => Self::Ground {
+                nearest: nearest.into(),
+            },
+        }
+    }
+
+    /// Where so many cascades begin and end, from one distance to another.
+    fn splits(&self, near: f64, far: f64, count: usize) -> Vec<f64> {
+        let mut splits: Vec<f64> = match *self {
+            Self::Practical { lambda } => {
+                let split = |cascade: usize| {
+                    let share = cascade as f64 / count as f64;
+                    let even = near + (far - near) * share;
+                    match lambda {
+                        0.0 => even,
+                        _ => lambda * near * (far / near).powf(share) + (1.0 - lambda) * even,
+                    }
+                };
+                (0..=count).map(split).collect()
+            }
+            Self::Ground { nearest } => {
+                let first = Some(nearest).filter(|nearest| (near..far).contains(nearest));
+                let first = first.unwrap_or(near);
+                let mut splits = growing(far / first, count);
+                splits.iter_mut().for_each(|split| *split *= first);
+                splits
+            }
+        };
+        (splits[0], splits[count]) = (near, far);
+        splits
+    }
+}
+
+/// From 1 to a number in so many steps, each by a factor of half of 1 and the square of the last.
+fn growing(whole: f64, count: usize) -> Vec<f64> {
+    let from = |first: f64| {
+        let mut factor = first;
+        let mut reached = 1.0;
+        let mut all = vec![reached];
+        for _ in 0..count {
+            reached *= factor;
+            all.push(reached);
+            factor = 0.5 * (factor * factor + 1.0);
+        }
+        all
+    };
+    // Later factors are greater.
+    let (mut low, mut high) = (1.0, whole.powf(1.0 / count as f64));
+    // As many halvings as f64 has digits.
+    for _ in 0..f64::MANTISSA_DIGITS {
+        let middle = 0.5 * (low + high);
+        match from(middle)[count] > whole {
+            true => high = middle,
+            false => low = middle,
+        }
+    }
+    from(low)
 }
 
 /// The least and the greatest distance of what is seen and gets shadows.
@@ -137,6 +206,27 @@ pub(super) fn box_of(view: &View, slice: &Slice, axes: &LightAxes) -> LightBox {
             LightBox { min, max }
         }
     }
+}
+
+/// What holds all that a slice shows: in perspective between two depths.
+pub(super) fn hull(view: &View, slice: &Slice, bounds: Option<DepthBounds>) -> Hexahedron {
+    Hexahedron::between(match view.eye_point() {
+        Some(eye) => {
+            let forward = view.forward().normalize();
+            let lines = view.sight_lines().map(|line| line / forward.dot(line));
+            let stretch = lines.map(DVec3::length).into_iter().fold(1.0, f64::max);
+            let (mut nearest, mut farthest) = (slice.from / stretch, slice.to);
+            if let Some(bounds) = bounds {
+                nearest = nearest.max(bounds.nearest.into());
+                farthest = farthest.min(bounds.farthest.into());
+            }
+            std::array::from_fn(|corner| {
+                let depth = if corner < 4 { nearest } else { farthest };
+                eye + lines[corner % 4] * depth
+            })
+        }
+        None => slab(view, slice),
+    })
 }
 
 /// The box around a sphere that holds a slice, and does so in perspective whichever way the camera
@@ -291,7 +381,18 @@ mod tests {
 
     #[test]
     fn the_default_split_is_nearly_the_best_for_what_stands_on_flat_ground() {
-        let CascadeSplit::Practical { lambda } = CascadeSplit::default();
+        let lambda = 0.85;
+        let auto = |split| {
+            let cascades = Cascades {
+                split,
+                ..Default::default()
+            };
+            ends_of(&slices(&view(50.0, 0.1, None), &cascades, None))
+        };
+        assert_eq!(
+            auto(CascadeSplit::default()),
+            auto(CascadeSplit::Practical { lambda })
+        );
         let mut halves = 0.0_f64;
         for (near, distance) in [0.01, 0.1, 1.0]
             .into_iter()
@@ -305,6 +406,71 @@ mod tests {
         }
         // The broken twin: half way, as is often taken.
         assert!(halves > 2.0, "{halves}");
+    }
+
+    /// How many pixels wide the texels are that pixels see, in the mean over ground of which nothing nearer is
+    /// seen: in units of what is the same for all splits.
+    fn mean_pixels(ends: &[f64], nearest: f64) -> f64 {
+        let mut from = nearest;
+        let of = ends.iter().map(|&to| {
+            let mean = to * (from.powi(-2) - to.powi(-2));
+            from = to;
+            mean
+        });
+        of.sum()
+    }
+
+    #[test]
+    fn over_ground_no_other_split_has_texels_of_fewer_pixels() {
+        let view = view(50.0, 0.1, None);
+        let bounds = DepthBounds {
+            nearest: 3.0,
+            farthest: 1e4,
+        };
+        let of = |count, bounds, nearest| {
+            let cascades = Cascades {
+                count,
+                split: CascadeSplit::Ground { nearest },
+                distance: 700.0,
+                ..Default::default()
+            };
+            ends_of(&slices(&view, &cascades, bounds))
+        };
+        for count in 1..=8 {
+            let ends = of(count, Some(bounds), 0.0);
+            assert_eq!((ends.len(), ends.last()), (count as usize, Some(&700.0)));
+            assert!(same(&of(count, None, 3.0), &ends), "{ends:?}");
+            let least = mean_pixels(&ends, 3.0);
+            for moved in 0..ends.len() - 1 {
+                for by in [0.97, 1.03] {
+                    let mut other = ends.clone();
+                    other[moved] *= by;
+                    assert!(mean_pixels(&other, 3.0) > least, "{count} {moved} {by}");
+                }
+            }
+        }
+        // The broken twin: another rule is far from it, whichever number it takes.
+        let ground = of(4, Some(bounds), 0.0);
+        for lambda in [0.85, 0.95, 1.0] {
+            let practical = slices(
+                &view,
+                &Cascades {
+                    distance: 700.0,
+                    ..cascades(4, lambda, 0.0)
+                },
+                Some(bounds),
+            );
+            let worse = mean_pixels(&ends_of(&practical), 3.0) / mean_pixels(&ground, 3.0);
+            assert!(worse > 1.25, "{lambda}: {worse}");
+        }
+        // Known depths are asked for it, and what is beyond all shadows says nothing.
+        let auto = Cascades {
+            distance: 700.0,
+            ..Default::default()
+        };
+        assert!(same(&ends_of(&slices(&view, &auto, Some(bounds))), &ground));
+        assert!(same(&of(4, None, 800.0), &of(4, None, 0.0)));
+        assert!(!same(&of(4, None, 3.0), &of(4, None, 0.0)));
     }
 
     #[test]

@@ -173,6 +173,73 @@ fn a_cascade_covers_no_more_than_casts_and_receives() {
 }
 
 #[test]
+fn a_tight_cascade_covers_of_what_receives_all_that_is_seen() {
+    let light = sun();
+    let cascades = Cascades {
+        count: 4,
+        margin: 0.0,
+        ..fitted(CascadeFit::Tight)
+    };
+    // A low room, in which the views look up and down at an angle: most of what they show is not in it.
+    let low = Bounds {
+        min: Vec3::new(-900.0, 3.0, -900.0),
+        max: Vec3::new(900.0, 9.0, 900.0),
+    };
+    let bounds = Some(DepthBounds {
+        nearest: 2.0,
+        farthest: 50.0,
+    });
+    let eye = Vec3::new(13.0, 7.0, 5.0);
+    let mut outside = 0;
+    for view in views(eye, Vec3::new(0.3, -0.4, 1.0)) {
+        for depth_bounds in [None, bounds] {
+            let of = CascadesOf {
+                receivers: Some(low),
+                depth_bounds,
+                ..of(&view, &light, &cascades)
+            };
+            let fitted = fit_cascades(&of).unwrap();
+            let inside = |point: &DVec3, low: &Bounds| {
+                let point = point.as_vec3();
+                point.cmpge(low.min).all() && point.cmple(low.max).all()
+            };
+            let forward = view.forward().normalize();
+            let is_seen = |point: &DVec3| match (view.eye_point(), depth_bounds) {
+                (Some(eye), Some(bounds)) => {
+                    let depth = forward.dot(*point - eye);
+                    (bounds.nearest.into()..=f64::from(bounds.farthest)).contains(&depth)
+                }
+                _ => true,
+            };
+            for cascade in &fitted {
+                let received: Vec<DVec3> = dense_points(&view, &cascade.slice)
+                    .into_iter()
+                    .filter(|point| is_seen(point))
+                    .collect();
+                for point in received.iter().filter(|point| inside(point, &low)) {
+                    let (frame, _) = cascade.map.unwrap();
+                    assert!(spare(&frame, *point) > 12.499, "{view:?} {point}");
+                }
+                // The broken twin: what receives is higher than was said.
+                let high = Bounds {
+                    max: low.max + 60.0 * Vec3::Y,
+                    min: low.min - 60.0 * Vec3::Y,
+                };
+                outside += received
+                    .iter()
+                    .filter(|point| inside(point, &high))
+                    .filter(|point| {
+                        let frame = cascade.map.map(|(frame, _)| frame);
+                        frame.is_none_or(|frame| spare(&frame, **point) < 0.0)
+                    })
+                    .count();
+            }
+        }
+    }
+    assert!(outside > 16, "{outside}");
+}
+
+#[test]
 fn casters_before_the_near_plane_are_pulled_onto_it_where_that_can_be() {
     let light = sun();
     let along = LightAxes::of(&light).exact[2];

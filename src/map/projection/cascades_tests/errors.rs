@@ -43,6 +43,11 @@ fn what_is_out_of_range_is_named() {
         let error = error(&Cascades { distance, ..sound });
         assert!(matches!(error, CascadeError::Distance(_)), "{error}");
     }
+    for nearest in [-1.0, f32::NAN, f32::INFINITY] {
+        let split = CascadeSplit::Ground { nearest };
+        let error = error(&Cascades { split, ..sound });
+        assert!(matches!(error, CascadeError::Nearest(_)), "{error}");
+    }
     for (nearest, farthest) in [
         (-1.0, 2.0),
         (3.0, 2.0),

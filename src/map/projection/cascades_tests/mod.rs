@@ -107,17 +107,26 @@ fn placed(cascades: &[Cascade]) -> Vec<Option<Placed>> {
 
 /// Points of a slice: on its corners, its faces and inside.
 fn points(view: &View, slice: &Slice) -> Vec<DVec3> {
+    points_at(view, slice, &[0.0, 0.2, 0.5, 0.9, 1.0])
+}
+
+/// Many of them.
+fn dense_points(view: &View, slice: &Slice) -> Vec<DVec3> {
+    let shares: Vec<f64> = (0..=16).map(|i| f64::from(i) / 16.0).collect();
+    points_at(view, slice, &shares)
+}
+
+fn points_at(view: &View, slice: &Slice, shares: &[f64]) -> Vec<DVec3> {
     let [a, b, _, d] = view.near_corners();
     let lines = view
         .sight_lines()
         .map(|line| line / view.forward().dot(line));
     let [e, f, _, h] = lines;
-    let shares = [0.0, 0.2, 0.5, 0.9, 1.0];
     let mut points = Vec::new();
     for (u, v, w) in shares.iter().flat_map(|&u| {
         shares
             .iter()
-            .flat_map(move |&v| shares.map(move |w| (u, v, w)))
+            .flat_map(move |&v| shares.iter().map(move |&w| (u, v, w)))
     }) {
         let distance = slice.from + (slice.to - slice.from) * w;
         points.push(match view.eye_point() {

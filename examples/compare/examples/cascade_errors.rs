@@ -1,0 +1,382 @@
+//! Where the wrong pixels of a sun's cascades are, and why: by cascade, by what is seen, and how large
+//! texels are beside pixels.
+//!
+//! ```text
+//! cargo run --all-features --example cascade_errors -- --scene valley --size 640x360 TRY..
+//! ```
+//! A try is a name or `name=settings`, see [`Try::parse`]; without one a table of usual ones is made.
+
+use std::collections::BTreeMap;
+
+use anyhow::{Context as _, Result, bail, ensure};
+use compare::stage::Stage;
+use host::gpu::Gpu;
+use host::image::rgb_png;
+use host::pipelines::visibility_module;
+use host::renderer::ShadowAccess;
+use host::terminal::say;
+use shadows::glam::camera::rh::{proj::directx, view as camera};
+use shadows::glam::{DVec3, DVec4, Mat4};
+use shadows::reference::{Class, Hit, Interior, ReferenceImage, ReferenceScene, Verdict};
+use shadows::{
+    AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DepthBounds,
+    DepthConvention, DirectionalLight, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
+    ShadowAtlas, ShadowAtlasDescriptor, TileSize, View,
+};
+
+/// One way to shadow the sun.
+#[derive(Clone, Debug)]
+struct Try {
+    name: String,
+    size: u32,
+    cascades: Cascades,
+    whole: bool,
+    kernel: Kernel,
+    reach: f32,
+    sampled: bool,
+}
+
+impl Try {
+    /// `size:1024,count:4,lambda:0.85,fit:tight,distance:900,margin:0.03,blend:0.1,kernel:hard,reach:1,depths:1`
+    fn parse(text: &str, distance: f32) -> Result<Self> {
+        let mut made = Self {
+            name: text.into(),
+            size: 1024,
+            cascades: Cascades {
+                distance,
+                ..Default::default()
+            },
+            whole: false,
+            kernel: Kernel::Bilinear,
+            reach: 12.0,
+            sampled: false,
+        };
+        for setting in text.split(',').filter(|setting| !setting.is_empty()) {
+            let (key, value) = setting.split_once(':').context("KEY:VALUE")?;
+            let number = || value.parse::<f32>();
+            match key {
+                "size" => made.size = value.parse()?,
+                "count" => made.cascades.count = value.parse()?,
+                "lambda" => made.cascades.split = CascadeSplit::Practical { lambda: number()? },
+                "fit" => {
+                    made.cascades.fit = match value {
+                        "tight" => CascadeFit::Tight,
+                        "stable" => CascadeFit::Stable,
+                        _ => bail!("stable or tight"),
+                    }
+                }
+                "distance" => made.cascades.distance = number()?,
+                "margin" => made.cascades.margin = number()?,
+                "blend" => made.cascades.blend = number()?,
+                "reach" => made.reach = number()?,
+                "depths" => made.sampled = number()? > 0.0,
+                "ground" => made.cascades.split = CascadeSplit::Ground { nearest: number()? },
+                "whole" => made.whole = number()? > 0.0,
+                "kernel" => {
+                    made.kernel = match value {
+                        "hard" => Kernel::Hard,
+                        "2x2" => Kernel::Bilinear,
+                        "5x5" => Kernel::Weighted5,
+                        _ => bail!("hard, 2x2 or 5x5"),
+                    }
+                }
+                _ => bail!("{key}?"),
+            }
+        }
+        Ok(made)
+    }
+}
+
+struct Seen {
+    visibility: Vec<u8>,
+    tiles: Vec<(Mat4, u32)>,
+}
+
+fn depth_bounds(stage: &Stage, truth: &ReferenceImage) -> DepthBounds {
+    let camera = &stage.scene.camera;
+    let eye = camera.eye.as_dvec3();
+    let axis = (camera.target - camera.eye).as_dvec3().normalize();
+    let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);
+    for y in 0..truth.height() {
+        for x in 0..truth.width() {
+            if let Some(hit) = truth.hit(x, y) {
+                let depth = axis.dot(hit.position - eye);
+                (nearest, farthest) = (nearest.min(depth), farthest.max(depth));
+            }
+        }
+    }
+    DepthBounds {
+        nearest: nearest as f32 * 0.99,
+        farthest: farthest as f32 * 1.01,
+    }
+}
+
+fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen> {
+    let mut atlas = ShadowAtlas::new(
+        &gpu.device,
+        &ShadowAtlasDescriptor {
+            layer_size: of.size.max(2048),
+            reach: Radius::Texels(of.reach),
+            memory: 1 << 30,
+            ..Default::default()
+        },
+    )?;
+    let sampler = PcfSampler::new(
+        &gpu.device,
+        &gpu.queue,
+        &PcfDescriptor {
+            kernel: of.kernel,
+            map: MapKind::Atlas,
+            ..Default::default()
+        },
+    )?;
+    let lit = stage.renderer.lit_pipeline(
+        gpu,
+        &ShadowAccess {
+            module: Some(&visibility_module(&sampler)),
+            layout: Some(sampler.bind_group_layout()),
+            ..Default::default()
+        },
+    );
+    let sun = DirectionalLight::new(stage.inputs.light.0.truncate());
+    let light = AtlasLight::directional(sun, of.cascades).with_size(TileSize::Fixed(of.size));
+    let [width, height] = stage.renderer.size();
+    let mut view = AtlasView::new(&stage.inputs.view, width, height);
+    view.depth_bounds = of.sampled.then_some(bounds);
+    let views = [view];
+    let frame = AtlasFrame {
+        lights: &[light],
+        casters: &stage.inputs.casters,
+        views: if of.whole { &[] } else { &views },
+        receivers: Some(stage.inputs.receivers),
+    };
+    atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
+    let group = sampler.bind_group(&gpu.device, &atlas)?;
+    gpu.run(|encoder| {
+        stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
+        atlas.encode(encoder);
+        stage
+            .renderer
+            .draw_lit_by(encoder, &stage.scene_gpu, 0, &lit, Some(&group));
+    });
+    let tiles = atlas.tiles(0, 0);
+    Ok(Seen {
+        visibility: stage.renderer.read_visibility(gpu),
+        tiles: tiles
+            .iter()
+            .map(|tile| (tile.clip_from_world, tile.size))
+            .collect(),
+    })
+}
+
+/// The cascade that a point reads.
+fn cascade(seen: &Seen, reads: f64, position: DVec3) -> usize {
+    let holds = |(matrix, size): &(Mat4, u32)| {
+        let clip = matrix.as_dmat4() * DVec4::from((position, 1.0));
+        let half = 0.5 * f64::from(*size);
+        half - reads - half * clip.x.abs().max(clip.y.abs()) > 0.0 && clip.z <= 1.0
+    };
+    let last = seen.tiles.len() - 1;
+    seen.tiles.iter().position(holds).unwrap_or(last)
+}
+
+/// The surface around a point, four texels to each side: `#` in shadow, `.` lit.
+fn close_up(exact: &ReferenceScene, stage: &Stage, hit: &Hit, texel: f64) -> Result<String> {
+    let (half, normal) = (4.0 * texel as f32, hit.normal.as_vec3());
+    let up = normal.any_orthonormal_vector();
+    let camera = camera::look_to_mat4(hit.position.as_vec3() + 0.2 * normal, -normal, up);
+    let projection = directx::orthographic(-half, half, -half, half, 0.0, 0.4);
+    let view = View::new(projection * camera, DepthConvention::Standard)?;
+    let image = exact.render(&view, 96, 48, stage.inputs.light, None)?;
+    let letters: Vec<char> = image
+        .classes()
+        .map(|class| match class {
+            Class::Lit => '.',
+            Class::Shadowed => '#',
+            _ => ' ',
+        })
+        .collect();
+    let rows = letters.chunks(96).map(|row| row.iter().collect::<String>());
+    Ok(rows.collect::<Vec<_>>().join("\n"))
+}
+
+#[derive(Default, Clone)]
+struct Tally {
+    pixels: usize,
+    lit: usize,
+    shadow: usize,
+    interior: usize,
+    ratios: Vec<f64>,
+}
+
+impl Tally {
+    fn add(&mut self, verdict: Verdict, interior: bool, ratio: f64) {
+        self.pixels += 1;
+        match verdict {
+            Verdict::FalseLit | Verdict::FalseLitInterior => self.lit += 1,
+            Verdict::FalseShadow | Verdict::FalseShadowInterior => self.shadow += 1,
+            _ => {}
+        }
+        self.interior += usize::from(interior);
+        self.ratios.push(ratio);
+    }
+
+    fn line(&mut self, all: usize) -> String {
+        self.ratios.sort_by(f64::total_cmp);
+        let median = self.ratios.get(self.ratios.len() / 2).copied();
+        let per = |count: usize, of: usize| 100.0 * count as f64 / of.max(1) as f64;
+        format!(
+            "{:6.2} % of pixels, wrong {:6.2} % of these ({:5.2} % of all: {:5.2} lit, {:5.2} dark), interior {}, texel/pixel {:.2}",
+            per(self.pixels, all),
+            per(self.lit + self.shadow, self.pixels),
+            per(self.lit + self.shadow, all),
+            per(self.lit, all),
+            per(self.shadow, all),
+            self.interior,
+            median.unwrap_or(0.0)
+        )
+    }
+}
+
+fn main() -> Result<()> {
+    let mut scene = "valley".to_owned();
+    let mut size = [640, 360];
+    let mut tries = Vec::new();
+    let mut out = std::path::PathBuf::from("target/cascade-errors");
+    let mut inside = false;
+    let mut args = std::env::args().skip(1);
+    while let Some(arg) = args.next() {
+        let mut value = || args.next().context("a value");
+        match arg.as_str() {
+            "--scene" => scene = value()?,
+            "--size" => {
+                let text = value()?;
+                let (w, h) = text.split_once('x').context("WxH")?;
+                size = [w.parse()?, h.parse()?];
+            }
+            "--out" => out = value()?.into(),
+            "--interior" => inside = true,
+            _ => tries.push(arg),
+        }
+    }
+    ensure!(!tries.is_empty(), "no try");
+    let gpu = Gpu::new(None)?;
+    let stage = Stage::new(&gpu, host::scene::load(&scene, false, None)?, size)?;
+    let start = std::time::Instant::now();
+    let truth = stage.reference(|_| ())?;
+    say(&format!("reference {:.1} s", start.elapsed().as_secs_f64()))?;
+    let bounds = depth_bounds(&stage, &truth);
+    let b = stage.scene.bounds();
+    say(&format!(
+        "{bounds:?} seen {} scene {:?}",
+        stage.inputs.seen,
+        b.size()
+    ))?;
+    let camera = &stage.scene.camera;
+    let axis = (camera.target - camera.eye).as_dvec3().normalize();
+    let per_pixel = 2.0 * f64::from(camera.fovy * 0.5).tan() / f64::from(size[1]);
+    std::fs::create_dir_all(&out)?;
+    let exact = stage.reference_scene()?;
+    let all = truth.lit_facing();
+    let groups: Vec<String> = stage
+        .scene
+        .objects
+        .iter()
+        .map(|object| stage.scene.meshes[object.mesh].name.clone())
+        .collect();
+    for (number, text) in tries.iter().enumerate() {
+        let of = Try::parse(text, 1.5 * stage.inputs.seen)?;
+        let seen = shown(&gpu, &stage, bounds, &of)?;
+        let kernel_radius = host::interior::radius_in_texels(of.kernel);
+        let found = truth.compare(&seen.visibility, Interior::Screen)?;
+        // Each cascade by its own texels.
+        let own: Vec<_> = match inside {
+            false => Vec::new(),
+            true => seen
+                .tiles
+                .iter()
+                .map(|&(clip_from_world, size)| {
+                    let interior = Interior::FlatMap {
+                        clip_from_world,
+                        size,
+                        kernel_radius,
+                    };
+                    truth.compare(&seen.visibility, interior)
+                })
+                .collect::<Result<_, _>>()?,
+        };
+        let mut total = Tally::default();
+        let mut shown_up = 0;
+        let mut by_cascade: BTreeMap<usize, Tally> = BTreeMap::new();
+        let mut by_group: BTreeMap<&str, Tally> = BTreeMap::new();
+        let mut picture = Vec::new();
+        for (pixel, verdict) in found.verdicts.iter().enumerate() {
+            let [x, y] = [pixel as u32 % size[0], pixel as u32 / size[0]];
+            let Some(hit) = truth.hit(x, y) else {
+                picture.push([90, 100, 120]);
+                continue;
+            };
+            let reads = match of.kernel {
+                Kernel::Weighted5 => 3.5,
+                Kernel::Bilinear => 2.5,
+                _ => 1.5,
+            };
+            let at = cascade(&seen, reads, hit.position);
+            let (matrix, tile) = seen.tiles[at];
+            let texel = 2.0 / f64::from(matrix.row(0).truncate().length()) / f64::from(tile);
+            let depth = axis.dot(hit.position - camera.eye.as_dvec3());
+            let ratio = texel / (depth * per_pixel);
+            let interior = own.get(at).is_some_and(|own| {
+                matches!(
+                    own.verdicts[pixel],
+                    Verdict::FalseLitInterior | Verdict::FalseShadowInterior
+                )
+            });
+            let tint = [[200, 80, 80], [80, 200, 80], [80, 80, 200], [200, 200, 80]][at % 4];
+            let right = if seen.visibility[pixel] >= 128 { 3 } else { 6 };
+            let color = match verdict {
+                Verdict::NotCounted => [40, 40, 40],
+                Verdict::Right => tint.map(|c: u8| c / right),
+                Verdict::FalseLit | Verdict::FalseLitInterior => [255, 255, 255],
+                Verdict::FalseShadow | Verdict::FalseShadowInterior => [255, 0, 255],
+            };
+            picture.push(color);
+            if interior && shown_up < 6 {
+                shown_up += 1;
+                say(&format!(
+                    "{verdict:?} at {x},{y} {} texel {texel}",
+                    groups[hit.object as usize]
+                ))?;
+                say(&close_up(&exact, &stage, &hit, texel)?)?;
+            }
+            if *verdict != Verdict::NotCounted {
+                total.add(*verdict, interior, ratio);
+                by_cascade
+                    .entry(at)
+                    .or_default()
+                    .add(*verdict, interior, ratio);
+                by_group
+                    .entry(&groups[hit.object as usize])
+                    .or_default()
+                    .add(*verdict, interior, ratio);
+            }
+        }
+        say(&format!("== {}\n   all       {}", of.name, total.line(all)))?;
+        for (at, tally) in &mut by_cascade {
+            let (matrix, tile) = seen.tiles[*at];
+            let width = 2.0 / matrix.row(0).truncate().length();
+            say(&format!(
+                "   cascade {at} {}, width {width:.1} texel {:.4}",
+                tally.line(all),
+                width / tile as f32
+            ))?;
+        }
+        for (group, tally) in &mut by_group {
+            if tally.pixels * 200 > all {
+                say(&format!("   {group:10} {}", tally.line(all)))?;
+            }
+        }
+        std::fs::write(out.join(format!("{number}.png")), rgb_png(size, &picture)?)?;
+    }
+    Ok(())
+}
