@@ -1,1 +1,7 @@
 //! The cheap and the baked techniques against exact visibility, each with what it cannot do.
+
+mod bake;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/receivers.rs"]
+mod receivers;

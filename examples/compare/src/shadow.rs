@@ -1,5 +1,7 @@
 //! The shadow techniques behind one interface: prepare, generate, shade.
 
+use std::sync::Arc;
+
 use anyhow::Result;
 use host::one_light::{OneLight, PrepareOne as _};
 use serde_json::{Value, json};
@@ -21,7 +23,7 @@ use host::peer_light::PeerInputs;
 use host::peer_map::PeerMap;
 use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, Renderer, ShadowAccess};
-use host::scene::Cone;
+use host::scene::{Cone, Scene};
 use host::scene_gpu::SceneGpu;
 
 /// What a technique is told each frame.
@@ -39,6 +41,8 @@ pub struct ShadowInputs {
     pub receivers: Bounds,
     /// Up to where along the camera's axis there is something to see.
     pub seen: f32,
+    /// What there is, for what is made of it once.
+    pub scene: Arc<Scene>,
 }
 
 impl ShadowInputs {

@@ -5,6 +5,7 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::{Baked, Survey};
 use crate::technique::{Config, Technique};
 use host::peers::peer;
 
@@ -102,6 +103,10 @@ pub static ROWS: &[Row] = &[
             counter: Counter::Exact,
             ..volume()
         })
+    }),
+    row("baked", |side| baked(side, 0.0)),
+    row("baked-soft", |side| {
+        baked(side, ContactHardening::default().light_size)
     }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {
@@ -207,6 +212,15 @@ pub fn volume() -> ShadowVolumeDescriptor<'static> {
         keep_between_frames: false,
         ..Default::default()
     }
+}
+
+/// A light map of all casters; the light's radius in world units, or 0.
+fn baked(texels: u32, radius: f32) -> Config {
+    Config::Survey(Survey::Baked(Baked {
+        texels,
+        samples: 16,
+        radius,
+    }))
 }
 
 fn volume_by(silhouettes: Silhouettes) -> Config {

@@ -1,5 +1,7 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
+mod baked;
+
 use anyhow::Result;
 use serde_json::Value;
 use shadows::reference::Interior;
@@ -11,9 +13,14 @@ use host::renderer::{LitPipeline, Renderer};
 use host::scene::LightKind;
 use host::scene_gpu::SceneGpu;
 
+pub use baked::Baked;
+
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
-pub enum Survey {}
+pub enum Survey {
+    /// Baked into a light map.
+    Baked(Baked),
+}
 
 /// One at work.
 pub trait SurveyShadow {
@@ -37,19 +44,32 @@ pub trait SurveyShadow {
 }
 
 impl Survey {
+    /// With what its names begin.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Baked(_) => "baked",
+        }
+    }
+
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
-        match *self {}
+        match self {
+            Self::Baked(_) => true,
+        }
     }
 
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
-        match *self {}
+        match self {
+            Self::Baked(_) => "",
+        }
     }
 
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
-        match *self {}
+        match self {
+            Self::Baked(baked) => baked.settings(),
+        }
     }
 
     /// Makes it, and the lit pass that reads it.
@@ -58,9 +78,11 @@ impl Survey {
     /// If the device cannot do it.
     pub fn make(
         &self,
-        _gpu: &Gpu,
-        _renderer: &Renderer,
+        gpu: &Gpu,
+        renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
-        match *self {}
+        match self {
+            Self::Baked(baked) => baked.make(gpu, renderer),
+        }
     }
 }
