@@ -11,6 +11,7 @@ pub const JOINED: &[&[&str]] = &[
     &["cube_caster", "cube_caster_gl"],
     &["light_record", "cube_cross"],
     &["tile_fill"],
+    &["atlas_debug"],
     PULLED,
     PULLED_STEPS,
     RECORDS,
