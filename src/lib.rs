@@ -15,7 +15,7 @@
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
-//! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
+//! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above; light maps |
 //!
 //! Each type has the same three calls: `new` for what never changes, `prepare` once a frame for the CPU's
 //! part, and `encode` (into the host's encoder) or `render` (into the host's pass) for the GPU's.
@@ -175,6 +175,7 @@ pub use {glam, wgpu};
 /// [temporal]: https://docs.rs/crate/shadows/latest/source/docs/temporal.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 /// [limits]: crate::limits
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
@@ -182,6 +183,7 @@ pub mod choosing {}
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]

@@ -10,7 +10,7 @@ use crate::reference::bake::TexelRectangle;
 #[non_exhaustive]
 pub enum LightMapError {
     /// The map has no texels, or too many a side.
-    #[error("a light map of {} x {} texels is none; pass 1 to 16384 each", .0[0], .0[1])]
+    #[error("a light map of {} x {} texels is none; pass 1 to 8192 each", .0[0], .0[1])]
     Size([u32; 2]),
     /// A receiver's rectangle is empty or not inside the map.
     #[error(
@@ -113,7 +113,7 @@ pub enum LightMapError {
         triangles: [usize; 2],
     },
     /// More receivers or triangles than 32-bit numbers can count.
-    #[error("{0} receivers or triangles are too many; at most 2^32 - 1 are possible")]
+    #[error("{0} receivers or triangles are too many; at most 2^32 - 3 are possible")]
     TooLarge(usize),
     /// The light is not one.
     #[error(transparent)]

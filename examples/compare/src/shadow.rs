@@ -25,6 +25,7 @@ use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use host::scene::{Cone, Scene};
 use host::scene_gpu::SceneGpu;
+use host::warped::Seen;
 
 /// What a technique is told each frame.
 #[derive(Clone)]
@@ -257,6 +258,10 @@ impl Shadow {
                     cone: inputs.cone,
                     range: inputs.range,
                     bounds: inputs.receivers,
+                    seen: Seen {
+                        clip_from_world: inputs.view.clip_from_world(),
+                        far: inputs.seen,
+                    },
                 },
             ),
         }

@@ -7,7 +7,7 @@ use shadows::{
 
 use crate::survey::{Baked, Survey};
 use crate::technique::{Config, Technique};
-use host::peers::peer;
+use host::peers::{WARPED, peer};
 
 /// A technique but for the size of its maps.
 #[derive(Debug)]
@@ -121,6 +121,10 @@ pub static ROWS: &[Row] = &[
         of_peer("flat/bevy-spot-gaussian", side)
     }),
     row("peer-bevy-sun-2x2", |side| of_peer("flat/bevy-2x2", side)),
+    row("peer-lispsm", |size| Config::Peer {
+        peer: &WARPED,
+        size,
+    }),
     row("peer-bevy-sun-gaussian", |side| {
         of_peer("flat/bevy-gaussian", side)
     }),

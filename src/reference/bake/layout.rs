@@ -13,8 +13,12 @@ use super::piece::Piece;
 use crate::error::LightMapError;
 use crate::reference::geometry::Triangle;
 
-/// Texels along a side of the largest map.
-const MOST: u32 = 16_384;
+/// Texels along a side of the largest map: of textures on any WebGPU device.
+const MOST: u32 = 8192;
+
+/// Of a texel's charts: none, and more than one.
+const NONE: u32 = u32::MAX;
+const SEVERAL: u32 = u32::MAX - 1;
 
 /// Texels of a map, from its top left.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -127,7 +131,7 @@ impl fmt::Debug for LightMapLayout {
 }
 
 impl LightMapLayout {
-    /// Checks receivers for a map of `size` texels (columns and rows, each from 1 to 16384).
+    /// Checks receivers for a map of `size` texels (columns and rows, each from 1 to 8192).
     ///
     /// Triangles without area in the world, or so thin that rounding of the positions to f32 decides it, have no place in
     /// the map, and theirs is not asked for. Touching charts may overlap by what rounding of texture coordinates
@@ -142,12 +146,13 @@ impl LightMapLayout {
         }
         check_rectangles(size, receivers)?;
         let parts = receivers.par_iter().enumerate();
-        let parts: Vec<Vec<ChartTriangle>> = parts
+        let parts: Vec<Result<Vec<ChartTriangle>, LightMapError>> = parts
             .map(|(number, receiver)| charted(number, receiver))
-            .collect::<Result<_, _>>()?;
+            .collect();
         let mut triangles = Vec::new();
-        for mut part in parts {
-            let first = triangles.len() as u32;
+        for part in parts {
+            let mut part = part?;
+            let first = number(triangles.len(), part.len())?;
             part.iter_mut().for_each(|triangle| triangle.chart += first);
             triangles.append(&mut part);
         }
@@ -214,8 +219,6 @@ impl LightMapLayout {
 
     /// Finds coverage, and what is crowded.
     fn cover(&mut self) {
-        const NONE: u32 = u32::MAX;
-        const SEVERAL: u32 = u32::MAX - 1;
         let row = |y: u32| {
             let mut texels = vec![(0.0_f64, NONE); self.size[0] as usize];
             for (x, triangle, piece) in self.pieces(y) {
@@ -360,13 +363,9 @@ impl Face<'_> {
         for (corner, index) in corners.iter_mut().zip(self.face) {
             *corner = self.corner(index)?;
         }
-        let source = [self.number, self.place].map(u32::try_from);
-        let [Ok(receiver), Ok(place)] = source else {
-            return Err(LightMapError::TooLarge(self.number.max(self.place)));
-        };
         let world = Triangle {
             corners,
-            source: [receiver, place],
+            source: [number(self.number, 0)?, number(self.place, 0)?],
         };
         if is_thin(&world) {
             return Ok(None);
@@ -414,6 +413,15 @@ impl Face<'_> {
                 uv,
             }),
         }
+    }
+}
+
+/// A count in 32 bits, if as many more could be counted, too.
+fn number(count: usize, more: usize) -> Result<u32, LightMapError> {
+    let all = count.saturating_add(more);
+    match (u32::try_from(count), u32::try_from(all)) {
+        (Ok(count), Ok(all)) if all < SEVERAL => Ok(count),
+        _ => Err(LightMapError::TooLarge(all)),
     }
 }
 
@@ -470,4 +478,20 @@ fn rows(size: [u32; 2], triangles: &[ChartTriangle]) -> Vec<Vec<u32>> {
         }
     }
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_than_32_bits_can_count_is_refused() {
+        let most = SEVERAL as usize - 1;
+        assert_eq!(number(most, 0), Ok(SEVERAL - 1));
+        assert_eq!(number(most - 2, 2), Ok(SEVERAL - 3));
+        for (count, more) in [(most + 1, 0), (0, most + 1), (usize::MAX, 1)] {
+            let all = count.saturating_add(more);
+            assert_eq!(number(count, more), Err(LightMapError::TooLarge(all)));
+        }
+    }
 }

@@ -59,7 +59,8 @@
 //! | the light map holds | the shadow map holds | join | right |
 //! |---|---|---|---|
 //! | static casters | dynamic casters alone | `baked * dynamic` | exactly for hard lights; for a light with a size within 1/4 |
-//! | static casters | all casters | `min(baked, dynamic)` | exactly for hard lights; for a light with a size within 1/2 |
+//! | static casters | dynamic casters alone | `min(baked, dynamic)` | exactly for hard lights; for a light with a size up to 1/2 too light |
+//! | static casters | all casters | `min(baked, dynamic)` | exactly for hard lights; a static penumbra is the darker of its two renditions |
 //! | static casters | all casters | `baked * dynamic` | **wrong**: in the penumbrae of static casters `v` becomes `v * v` |
 //!
 //! The first is what this crate is made for. Give static and dynamic casters a bit each in
@@ -72,7 +73,7 @@
 //! product lies between them too, at most 1/4 from either, and is exact where the parts overlap as chance would have it.
 //!
 //! Receivers that move have no light map. They need all casters in a shadow map: a second `AtlasLight` at the same
-//! place with both bits, or the second row of the table for all receivers.
+//! place with both bits, or the third row of the table for all receivers.
 //!
 //! # Why here
 //!

@@ -120,7 +120,6 @@ struct Reading {
 struct Map {
     light: Light,
     frame: wgpu::Buffer,
-    objects: wgpu::Buffer,
     group: wgpu::BindGroup,
     vertices: wgpu::Buffer,
     /// Of each object the end of its vertices.
@@ -254,7 +253,6 @@ impl Map {
         Ok(Self {
             light,
             frame,
-            objects,
             group,
             vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
             ends,
