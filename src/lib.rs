@@ -14,6 +14,7 @@
 //! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
+//! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above; light maps |
 //!
@@ -183,8 +184,8 @@ pub mod choosing {}
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
-/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]
 pub mod limits {}
@@ -193,12 +194,14 @@ pub mod limits {}
 #[cfg(test)]
 extern crate self as shadows;
 
+mod clock;
 pub mod error;
 mod gl;
 pub mod light;
 pub mod map;
 pub mod mesh;
 pub mod pcf;
+pub mod projected;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod scene;
@@ -230,6 +233,10 @@ pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, Insta
 pub use pcf::{
     AnyMap, ContactHardening, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace,
     PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
+};
+pub use projected::{
+    ProjectedCaster, ProjectedFrame, ProjectedShadow, ProjectedShadowDescriptor,
+    ProjectedStatistics, Projector, ProjectorState,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

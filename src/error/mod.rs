@@ -8,6 +8,7 @@ mod light_map;
 mod map;
 mod mesh;
 mod names;
+mod projected;
 #[cfg(feature = "reference")]
 mod reference;
 mod tiles;
@@ -21,6 +22,7 @@ pub use light::{LightError, ViewError};
 pub use light_map::LightMapError;
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
+pub use projected::ProjectedShadowError;
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
 pub use tiles::TileSizeError;

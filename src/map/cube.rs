@@ -9,7 +9,8 @@ use super::gpu::{
 };
 use super::one_light::{OneLightMap, OneLightSettings, TooMany};
 use super::projection::{CubeFace, LightProjection, TileProjection};
-use super::statistics::{Clock, CubeStatistics, TileStatistics};
+use super::statistics::{CubeStatistics, TileStatistics};
+use crate::clock::Clock;
 use crate::error::CubeShadowMapError;
 use crate::{PointLight, Radius, gl};
 

@@ -7,8 +7,9 @@ use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 use super::gpu::{HostDraw, LightRecord, OneLightKind, PipelineKind, can_pull_casters};
 use super::one_light::{OneLightMap, OneLightSettings, TooMany};
 use super::plan::FlatPlace;
-use super::statistics::{Clock, ShadowMapStatistics};
+use super::statistics::ShadowMapStatistics;
 use crate::Radius;
+use crate::clock::Clock;
 use crate::error::ShadowMapError;
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned

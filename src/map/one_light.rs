@@ -3,7 +3,8 @@
 use super::gpu::{Draw, DrawByHost, OneLightGpu, OneLightKind, TooLarge};
 use super::plan::{Rules, Slot, SlotPlan, Slots, Tally, casters_drawn, choose_tiles, follow};
 use super::projection::LightProjection;
-use super::statistics::{Clock, TileStatistics};
+use super::statistics::TileStatistics;
+use crate::clock::Clock;
 use crate::error::CasterError;
 use crate::mesh::Caster;
 use crate::scene::Casters;

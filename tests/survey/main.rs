@@ -3,5 +3,6 @@
 mod bake;
 #[path = "../common/mod.rs"]
 mod common;
+mod projected;
 #[path = "../common/receivers.rs"]
 mod receivers;

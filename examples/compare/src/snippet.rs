@@ -20,6 +20,7 @@ pub fn of(config: &Config) -> String {
         Config::Volume(volume) => volumes(&volume),
         Config::Survey(survey) => match survey {
             Survey::Baked(baked) => baked.snippet(),
+            Survey::Projected(projected) => projected.snippet(),
         },
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",

@@ -5,6 +5,8 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::Survey;
+use crate::survey::projected::Projected;
 use crate::survey::{Baked, Survey};
 use crate::technique::{Config, Technique};
 use host::peers::{WARPED, peer};
@@ -107,6 +109,12 @@ pub static ROWS: &[Row] = &[
     row("baked", |side| baked(side, 0.0)),
     row("baked-soft", |side| {
         baked(side, ContactHardening::default().light_size)
+    }),
+    row("projected", |side| {
+        Config::Survey(Survey::Projected(Projected::new(side, false)))
+    }),
+    row("projected-all", |side| {
+        Config::Survey(Survey::Projected(Projected::new(side, true)))
     }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {

@@ -14,8 +14,9 @@ use super::plan::{
     Place, Residents, Rules, Slot, SlotPlan, Slots, Tally, Tile, casters_drawn, choose_tiles,
     follow, longest_wait,
 };
-use super::statistics::{Clock, TileState, TileStatistics};
+use super::statistics::{TileState, TileStatistics};
 use super::{Cascades, CasterSides, DepthBounds, StaticLayers};
+use crate::clock::Clock;
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
 use crate::submissions::Submissions;

@@ -240,9 +240,9 @@ fn a_penumbra_is_not_darkened_twice() {
     // In the penumbra of what stands, away from what moves and its filtered edges.
     let mean = |seen: &[f64]| {
         let penumbra =
-            (0..seen.len()).filter(|&at| (0.2..0.8).contains(&fixed[at]) && dynamic[at] == 1.0);
+            (0..seen.len()).filter(|&at| (0.2..0.8).contains(&fixed[at]) && dynamic[at] > 0.999);
         let differences: Vec<f64> = penumbra.map(|at| seen[at] - fixed[at]).collect();
-        assert!(differences.len() > 50, "{}", differences.len());
+        assert!(differences.len() > 40, "{}", differences.len());
         differences.iter().sum::<f64>() / differences.len() as f64
     };
     let right = mean(&joined(&map, &dynamic, product));

@@ -1,6 +1,7 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
 mod baked;
+pub mod projected;
 
 use anyhow::Result;
 use serde_json::Value;
@@ -20,6 +21,8 @@ pub use baked::Baked;
 pub enum Survey {
     /// Baked into a light map.
     Baked(Baked),
+    /// Pictures of casters on what receives.
+    Projected(projected::Projected),
 }
 
 /// One at work.
@@ -48,6 +51,7 @@ impl Survey {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Baked(_) => "baked",
+            Self::Projected(_) => "projected",
         }
     }
 
@@ -55,6 +59,7 @@ impl Survey {
     pub fn applies_to(&self, _light: LightKind) -> bool {
         match self {
             Self::Baked(_) => true,
+            Self::Projected(_) => true,
         }
     }
 
@@ -62,6 +67,7 @@ impl Survey {
     pub fn limit(&self) -> &'static str {
         match self {
             Self::Baked(_) => "",
+            Self::Projected(_) => "",
         }
     }
 
@@ -69,6 +75,7 @@ impl Survey {
     pub fn settings(&self) -> Value {
         match self {
             Self::Baked(baked) => baked.settings(),
+            Self::Projected(projected) => projected.settings(),
         }
     }
 
@@ -83,6 +90,7 @@ impl Survey {
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
         match self {
             Self::Baked(baked) => baked.make(gpu, renderer),
+            Self::Projected(projected) => projected.make(gpu, renderer),
         }
     }
 }
