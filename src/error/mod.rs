@@ -8,6 +8,7 @@ mod light_map;
 mod map;
 mod mesh;
 mod names;
+mod planar;
 mod projected;
 #[cfg(feature = "reference")]
 mod reference;
@@ -22,6 +23,7 @@ pub use light::{LightError, ViewError};
 pub use light_map::LightMapError;
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
+pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
 pub use projected::ProjectedShadowError;
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;

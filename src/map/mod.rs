@@ -30,7 +30,9 @@ pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 pub use gpu::HostDraw;
-pub(crate) use gpu::{LightRecord, UNIFORM_LIGHTS};
+pub(crate) use gpu::{
+    INSTANCE_SIZE, Instance, LightRecord, UNIFORM_LIGHTS, UNIFORM_STRIDE, buffer, instance,
+};
 pub use plan::TileSize;
 pub(crate) use plan::{Place, TileAllocator};
 pub use projection::CubeFace;

@@ -3,6 +3,10 @@
 mod bake;
 #[path = "../common/mod.rs"]
 mod common;
+mod planar;
+mod planar_errors;
+mod planar_host;
+mod planar_soft;
 mod projected;
 #[path = "../common/receivers.rs"]
 mod receivers;

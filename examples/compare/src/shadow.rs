@@ -5,6 +5,7 @@ use std::sync::Arc;
 use anyhow::Result;
 use host::one_light::{OneLight, PrepareOne as _};
 use serde_json::{Value, json};
+use shadows::glam::Vec3;
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
@@ -44,6 +45,8 @@ pub struct ShadowInputs {
     pub seen: f32,
     /// What there is, for what is made of it once.
     pub scene: Arc<Scene>,
+    /// The corners of a horizontal rectangle that receives and does not cast, if there is one.
+    pub ground: Option<[Vec3; 4]>,
 }
 
 impl ShadowInputs {

@@ -3,7 +3,8 @@
 use std::fmt::Debug;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, PcfDescriptor, PlanarSoftShadowDescriptor,
+    ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -20,6 +21,14 @@ pub fn of(config: &Config) -> String {
         Config::Volume(volume) => volumes(&volume),
         Config::Survey(survey) => match survey {
             Survey::Baked(baked) => baked.snippet(),
+            Survey::Planar => "let planar = PlanarShadowDescriptor::default();\n".to_owned(),
+            Survey::PlanarSoft { size, samples } => {
+                let default = PlanarSoftShadowDescriptor::default();
+                Literal::new("planar", "PlanarSoftShadowDescriptor")
+                    .field("size", "", &[size; 2], &default.size)
+                    .field("samples", "", &samples, &default.samples)
+                    .finish()
+            }
             Survey::Projected(projected) => projected.snippet(),
         },
         Config::Peer { peer, size } => format!(

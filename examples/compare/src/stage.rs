@@ -9,6 +9,7 @@ use shadows::reference::{ReferenceImage, ReferenceScene};
 use shadows::{HomogeneousLight, View};
 
 use crate::shadow::{Shadow, ShadowInputs};
+use crate::survey;
 use host::exact;
 use host::gpu::Gpu;
 use host::renderer::{self, Look, Renderer};
@@ -57,6 +58,7 @@ impl Stage {
             receivers: receivers(&scene),
             seen: seen(&scene),
             scene: Arc::new(scene.clone()),
+            ground: survey::planar::ground(&scene),
         };
         Ok(Self {
             scene,

@@ -5,7 +5,6 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
-use crate::survey::Survey;
 use crate::survey::projected::Projected;
 use crate::survey::{Baked, Survey};
 use crate::technique::{Config, Technique};
@@ -109,6 +108,11 @@ pub static ROWS: &[Row] = &[
     row("baked", |side| baked(side, 0.0)),
     row("baked-soft", |side| {
         baked(side, ContactHardening::default().light_size)
+    }),
+    row("planar", |_| Config::Survey(Survey::Planar)),
+    row("planar-soft", |size| {
+        let samples = 64;
+        Config::Survey(Survey::PlanarSoft { size, samples })
     }),
     row("projected", |side| {
         Config::Survey(Survey::Projected(Projected::new(side, false)))

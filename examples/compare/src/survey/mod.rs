@@ -1,6 +1,8 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
 mod baked;
+pub mod planar;
+pub mod planar_soft;
 pub mod projected;
 
 use anyhow::Result;
@@ -21,6 +23,10 @@ pub use baked::Baked;
 pub enum Survey {
     /// Baked into a light map.
     Baked(Baked),
+    /// Projected onto the ground.
+    Planar,
+    /// The same from many places of a light with a size, in a texture of so many texels a side.
+    PlanarSoft { size: u32, samples: u32 },
     /// Pictures of casters on what receives.
     Projected(projected::Projected),
 }
@@ -51,14 +57,21 @@ impl Survey {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Baked(_) => "baked",
+            Self::Planar | Self::PlanarSoft { .. } => "planar",
             Self::Projected(_) => "projected",
         }
+    }
+
+    /// Whether its edges are as soft as those of a light with a size.
+    pub fn is_soft(&self) -> bool {
+        matches!(self, Self::PlanarSoft { .. })
     }
 
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
         match self {
             Self::Baked(_) => true,
+            Self::Planar | Self::PlanarSoft { .. } => true,
             Self::Projected(_) => true,
         }
     }
@@ -67,6 +80,7 @@ impl Survey {
     pub fn limit(&self) -> &'static str {
         match self {
             Self::Baked(_) => "",
+            Self::Planar | Self::PlanarSoft { .. } => "",
             Self::Projected(_) => "",
         }
     }
@@ -75,6 +89,8 @@ impl Survey {
     pub fn settings(&self) -> Value {
         match self {
             Self::Baked(baked) => baked.settings(),
+            Self::Planar => planar::settings(),
+            Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
             Self::Projected(projected) => projected.settings(),
         }
     }
@@ -90,6 +106,10 @@ impl Survey {
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
         match self {
             Self::Baked(baked) => baked.make(gpu, renderer),
+            Self::Planar => planar::make(gpu, renderer),
+            &Self::PlanarSoft { size, samples } => {
+                planar_soft::make(gpu, renderer, (size, samples))
+            }
             Self::Projected(projected) => projected.make(gpu, renderer),
         }
     }
