@@ -1,7 +1,5 @@
 //! The shadow techniques behind one interface: prepare, generate, shade.
 
-use std::sync::Arc;
-
 use anyhow::Result;
 use host::one_light::{OneLight, PrepareOne as _};
 use serde_json::{Value, json};
@@ -24,9 +22,8 @@ use host::peer_light::PeerInputs;
 use host::peer_map::PeerMap;
 use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, Renderer, ShadowAccess};
-use host::scene::{Cone, Scene};
+use host::scene::Cone;
 use host::scene_gpu::SceneGpu;
-use host::warped::Seen;
 
 /// What a technique is told each frame.
 #[derive(Clone)]
@@ -43,8 +40,6 @@ pub struct ShadowInputs {
     pub receivers: Bounds,
     /// Up to where along the camera's axis there is something to see.
     pub seen: f32,
-    /// What there is, for what is made of it once.
-    pub scene: Arc<Scene>,
     /// The corners of a horizontal rectangle that receives and does not cast, if there is one.
     pub ground: Option<[Vec3; 4]>,
 }
@@ -261,10 +256,6 @@ impl Shadow {
                     cone: inputs.cone,
                     range: inputs.range,
                     bounds: inputs.receivers,
-                    seen: Seen {
-                        clip_from_world: inputs.view.clip_from_world(),
-                        far: inputs.seen,
-                    },
                 },
             ),
         }

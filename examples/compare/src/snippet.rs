@@ -20,7 +20,6 @@ pub fn of(config: &Config) -> String {
         Config::Atlas { sampler, .. } => pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
         Config::Survey(survey) => match survey {
-            Survey::Baked(baked) => baked.snippet(),
             Survey::Planar => "let planar = PlanarShadowDescriptor::default();\n".to_owned(),
             Survey::PlanarSoft { size, samples } => {
                 let default = PlanarSoftShadowDescriptor::default();

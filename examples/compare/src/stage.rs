@@ -1,7 +1,5 @@
 //! A scene set up to be seen: on the GPU, with a renderer, and as exact geometry for the reference.
 
-use std::sync::Arc;
-
 use anyhow::Result;
 use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
@@ -57,7 +55,6 @@ impl Stage {
             casters: scene_gpu.casters.clone(),
             receivers: receivers(&scene),
             seen: seen(&scene),
-            scene: Arc::new(scene.clone()),
             ground: survey::planar::ground(&scene),
         };
         Ok(Self {

@@ -5,10 +5,10 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::Survey;
 use crate::survey::projected::Projected;
-use crate::survey::{Baked, Survey};
 use crate::technique::{Config, Technique};
-use host::peers::{WARPED, peer};
+use host::peers::peer;
 
 /// A technique but for the size of its maps.
 #[derive(Debug)]
@@ -105,10 +105,6 @@ pub static ROWS: &[Row] = &[
             ..volume()
         })
     }),
-    row("baked", |side| baked(side, 0.0)),
-    row("baked-soft", |side| {
-        baked(side, ContactHardening::default().light_size)
-    }),
     row("planar", |_| Config::Survey(Survey::Planar)),
     row("planar-soft", |size| {
         let samples = 64;
@@ -133,10 +129,6 @@ pub static ROWS: &[Row] = &[
         of_peer("flat/bevy-spot-gaussian", side)
     }),
     row("peer-bevy-sun-2x2", |side| of_peer("flat/bevy-2x2", side)),
-    row("peer-lispsm", |size| Config::Peer {
-        peer: &WARPED,
-        size,
-    }),
     row("peer-bevy-sun-gaussian", |side| {
         of_peer("flat/bevy-gaussian", side)
     }),
@@ -228,15 +220,6 @@ pub fn volume() -> ShadowVolumeDescriptor<'static> {
         keep_between_frames: false,
         ..Default::default()
     }
-}
-
-/// A light map of all casters; the light's radius in world units, or 0.
-fn baked(texels: u32, radius: f32) -> Config {
-    Config::Survey(Survey::Baked(Baked {
-        texels,
-        samples: 16,
-        radius,
-    }))
 }
 
 fn volume_by(silhouettes: Silhouettes) -> Config {

@@ -23,5 +23,3 @@ mod targets;
 pub mod terminal;
 pub mod timer;
 mod uniforms;
-pub mod unwrap;
-pub mod warped;

@@ -10,7 +10,6 @@ use shadows::wgpu;
 
 use super::peers::{Engine, Peer, PeerLight};
 use super::scene::Cone;
-use super::warped::{Seen, warped};
 
 /// The axis and the upper side of a cube's faces.
 const FACES: [(Vec3, Vec3); 6] = [
@@ -62,7 +61,7 @@ impl Convention {
                 near: 0.5,
                 ..usual
             },
-            Engine::WgpuExample | Engine::Warped => Self {
+            Engine::WgpuExample => Self {
                 near: 1.0,
                 bias: wgpu::DepthBiasState {
                     constant: 2,
@@ -100,8 +99,6 @@ pub struct PeerInputs {
     pub range: f32,
     /// All that casts or receives.
     pub bounds: Bounds,
-    /// By what a warped map is fitted.
-    pub seen: Seen,
 }
 
 /// An orthographic map of everything.
@@ -120,9 +117,6 @@ impl Convention {
         }
         vec![match inputs.cone {
             Some(cone) => self.spot(place, cone, inputs.range),
-            None if peer.engine == Engine::Warped => {
-                warped(place, &inputs.seen, &inputs.bounds).unwrap_or_default()
-            }
             None => self.sun(inputs).clip_from_world,
         }]
     }
@@ -163,10 +157,8 @@ impl Convention {
         match (peer.light, inputs.cone) {
             (PeerLight::Point, _) => self.cube_light(peer, place, inputs.range, size),
             (PeerLight::Spot, Some(cone)) => self.spot_light(place, cone, size),
-            (_, cone) if cone.is_some() || peer.engine == Engine::Warped => {
-                flat_light(self.faces(peer, inputs)[0], place, 0.0, size)
-            }
-            _ => {
+            (_, Some(_)) => flat_light(self.faces(peer, inputs)[0], place, 0.0, size),
+            (_, None) => {
                 let Sun {
                     clip_from_world,
                     width,

@@ -1,6 +1,5 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
-mod baked;
 pub mod planar;
 pub mod planar_soft;
 pub mod projected;
@@ -16,13 +15,9 @@ use host::renderer::{LitPipeline, Renderer};
 use host::scene::LightKind;
 use host::scene_gpu::SceneGpu;
 
-pub use baked::Baked;
-
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
 pub enum Survey {
-    /// Baked into a light map.
-    Baked(Baked),
     /// Projected onto the ground.
     Planar,
     /// The same from many places of a light with a size, in a texture of so many texels a side.
@@ -56,7 +51,6 @@ impl Survey {
     /// With what its names begin.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Baked(_) => "baked",
             Self::Planar | Self::PlanarSoft { .. } => "planar",
             Self::Projected(_) => "projected",
         }
@@ -70,7 +64,6 @@ impl Survey {
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
         match self {
-            Self::Baked(_) => true,
             Self::Planar | Self::PlanarSoft { .. } => true,
             Self::Projected(_) => true,
         }
@@ -79,7 +72,6 @@ impl Survey {
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
         match self {
-            Self::Baked(_) => "",
             Self::Planar | Self::PlanarSoft { .. } => "",
             Self::Projected(_) => "",
         }
@@ -88,7 +80,6 @@ impl Survey {
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
         match self {
-            Self::Baked(baked) => baked.settings(),
             Self::Planar => planar::settings(),
             Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
             Self::Projected(projected) => projected.settings(),
@@ -105,7 +96,6 @@ impl Survey {
         renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
         match self {
-            Self::Baked(baked) => baked.make(gpu, renderer),
             Self::Planar => planar::make(gpu, renderer),
             &Self::PlanarSoft { size, samples } => {
                 planar_soft::make(gpu, renderer, (size, samples))

@@ -2,5 +2,3 @@
 
 mod scene_files;
 mod scenes;
-mod unwrap;
-mod warped;
