@@ -1,12 +1,13 @@
 //! Which receiver has which texels.
 
-use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec2};
 use rayon::prelude::*;
 
+use super::charts::Charts;
+use super::face::{Face, number};
 use super::margin::neighbours;
 use super::overlap::first_overlap;
 use super::piece::Piece;
@@ -18,7 +19,7 @@ const MOST: u32 = 8192;
 
 /// Of a texel's charts: none, and more than one.
 const NONE: u32 = u32::MAX;
-const SEVERAL: u32 = u32::MAX - 1;
+pub(super) const SEVERAL: u32 = u32::MAX - 1;
 
 /// Texels of a map, from its top left.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -339,134 +340,6 @@ fn texels(rectangle: &TexelRectangle, uv: DVec2) -> DVec2 {
     first + uv * DVec2::new(rectangle.width.into(), rectangle.height.into())
 }
 
-/// A triangle of a receiver, before it is known to be one.
-struct Face<'a> {
-    receiver: &'a LightMapReceiver<'a>,
-    number: usize,
-    place: usize,
-    face: [u32; 3],
-}
-
-impl Face<'_> {
-    /// Position and texture coordinates of each corner, bit by bit.
-    fn vertices(&self) -> [Vertex; 3] {
-        self.face.map(|index| {
-            let [x, y, z] = self.receiver.positions[index as usize];
-            let [u, v] = self.receiver.uvs[index as usize];
-            [x, y, z, u, v].map(f32::to_bits)
-        })
-    }
-
-    /// World corners and texture coordinates; `None` if there is no area that could be seen.
-    fn checked(&self) -> Result<Option<(Triangle, [DVec2; 3])>, LightMapError> {
-        let mut corners = [DVec3::ZERO; 3];
-        for (corner, index) in corners.iter_mut().zip(self.face) {
-            *corner = self.corner(index)?;
-        }
-        let world = Triangle {
-            corners,
-            source: [number(self.number, 0)?, number(self.place, 0)?],
-        };
-        if is_thin(&world) {
-            return Ok(None);
-        }
-        let mut uvs = [DVec2::ZERO; 3];
-        for (uv, index) in uvs.iter_mut().zip(self.face) {
-            *uv = self.uv(index)?;
-        }
-        let [a, b, c] = uvs;
-        match (b - a).perp_dot(c - a) == 0.0 {
-            true => Err(LightMapError::UvNoArea {
-                receiver: self.number,
-                triangle: self.place,
-            }),
-            false => Ok(Some((world, uvs))),
-        }
-    }
-
-    fn corner(&self, index: u32) -> Result<DVec3, LightMapError> {
-        let position = self.receiver.positions.get(index as usize);
-        let position = position.ok_or(LightMapError::IndexOutOfRange {
-            receiver: self.number,
-            triangle: self.place,
-            index,
-            vertices: self.receiver.positions.len(),
-        })?;
-        let position = DVec3::from_array(position.map(f64::from));
-        let world = self.receiver.transform.transform_point3(position);
-        match world.is_finite() {
-            true => Ok(world),
-            false => Err(LightMapError::Position {
-                receiver: self.number,
-                vertex: index,
-            }),
-        }
-    }
-
-    fn uv(&self, index: u32) -> Result<DVec2, LightMapError> {
-        let uv = self.receiver.uvs[index as usize];
-        match uv.iter().all(|part| (0.0..=1.0).contains(part)) {
-            true => Ok(DVec2::from_array(uv.map(f64::from))),
-            false => Err(LightMapError::Uv {
-                receiver: self.number,
-                triangle: self.place,
-                uv,
-            }),
-        }
-    }
-}
-
-/// A count in 32 bits, if as many more could be counted, too.
-fn number(count: usize, more: usize) -> Result<u32, LightMapError> {
-    let all = count.saturating_add(more);
-    match (u32::try_from(count), u32::try_from(all)) {
-        (Ok(count), Ok(all)) if all < SEVERAL => Ok(count),
-        _ => Err(LightMapError::TooLarge(all)),
-    }
-}
-
-/// Whether a triangle is no thicker than what rounding its corners to f32 could make of it.
-fn is_thin(triangle: &Triangle) -> bool {
-    let [a, b, c] = triangle.corners;
-    let longest = [b - a, c - b, a - c].map(DVec3::length).into_iter();
-    let longest = longest.fold(0.0, f64::max);
-    let size = a.abs().max(b.abs()).max(c.abs()).max_element();
-    let thickness = 4.0 * f64::from(f32::EPSILON) * size;
-    triangle.normal().length() <= thickness * longest
-}
-
-type Vertex = [u32; 5];
-
-/// Triangles joined by vertices that they share.
-#[derive(Default)]
-struct Charts {
-    /// Of each triangle one that it is joined with, itself for the first of a chart.
-    parents: Vec<u32>,
-    of_vertices: HashMap<Vertex, u32>,
-}
-
-impl Charts {
-    fn add(&mut self, vertices: [Vertex; 3]) {
-        let own = self.parents.len() as u32;
-        self.parents.push(own);
-        for vertex in vertices {
-            let other = *self.of_vertices.entry(vertex).or_insert(own);
-            let (a, b) = (self.of(own), self.of(other));
-            self.parents[a.max(b) as usize] = a.min(b);
-        }
-    }
-
-    /// The first triangle of a chart.
-    fn of(&mut self, mut triangle: u32) -> u32 {
-        while self.parents[triangle as usize] != triangle {
-            let parent = self.parents[triangle as usize];
-            self.parents[triangle as usize] = self.parents[parent as usize];
-            triangle = parent;
-        }
-        triangle
-    }
-}
-
 fn rows(size: [u32; 2], triangles: &[ChartTriangle]) -> Vec<Vec<u32>> {
     let mut rows = vec![Vec::new(); size[1] as usize];
     for (number, triangle) in triangles.iter().enumerate() {
@@ -478,20 +351,4 @@ fn rows(size: [u32; 2], triangles: &[ChartTriangle]) -> Vec<Vec<u32>> {
         }
     }
     rows
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn more_than_32_bits_can_count_is_refused() {
-        let most = SEVERAL as usize - 1;
-        assert_eq!(number(most, 0), Ok(SEVERAL - 1));
-        assert_eq!(number(most - 2, 2), Ok(SEVERAL - 3));
-        for (count, more) in [(most + 1, 0), (0, most + 1), (usize::MAX, 1)] {
-            let all = count.saturating_add(more);
-            assert_eq!(number(count, more), Err(LightMapError::TooLarge(all)));
-        }
-    }
 }

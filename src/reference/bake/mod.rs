@@ -80,7 +80,9 @@
 //! The rays, their bounds on rounding and the feature are the reference's: a point of a surface is never hidden by its
 //! own triangle, nor by those in its plane, without an offset and at any scale. Nothing else of the crate needs them.
 
+mod charts;
 mod emitter;
+mod face;
 mod layout;
 mod map;
 mod margin;
