@@ -18,7 +18,7 @@
 //! | [`PlanarSoftShadow`] | the same from many places of a light with a size | soft shadows on one rectangle |
 //! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
-//! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
+//! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above; light maps |
 //!
 //! Each type has the same three calls: `new` for what never changes, `prepare` once a frame for the CPU's
 //! part, and `encode` (into the host's encoder) or `render` (into the host's pass) for the GPU's.

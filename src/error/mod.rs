@@ -3,6 +3,8 @@
 mod atlas;
 mod cascades;
 mod light;
+#[cfg(feature = "reference")]
+mod light_map;
 mod map;
 mod mesh;
 mod names;
@@ -17,6 +19,8 @@ mod volume_debug;
 pub use atlas::ShadowAtlasError;
 pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
+#[cfg(feature = "reference")]
+pub use light_map::LightMapError;
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
 pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};

@@ -98,4 +98,9 @@ pub enum ReferenceError {
         /// Radius of the filter in texels.
         kernel_radius: f32,
     },
+    /// An interior of light map texels that cannot be.
+    #[error(
+        "an interior around texels of {0} does not exist; pass the side of a texel on the surface, a finite length above 0"
+    )]
+    Texel(f32),
 }

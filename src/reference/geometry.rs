@@ -56,7 +56,13 @@ impl Triangle {
         }
     }
 
-    fn size(&self) -> f64 {
+    /// On which side a light is.
+    pub(super) fn light_side(&self, light: DVec4) -> f64 {
+        self.side(light, light.xyz().abs().max_element())
+    }
+
+    /// The largest coordinate.
+    pub(super) fn size(&self) -> f64 {
         self.corners
             .iter()
             .map(|corner| corner.abs().max_element())

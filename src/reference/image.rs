@@ -102,7 +102,7 @@ impl Lighting {
     }
 
     /// Whether there is any of the light at a place, shadows aside.
-    fn reaches(&self, position: DVec3) -> bool {
+    pub(super) fn reaches(&self, position: DVec3) -> bool {
         let along = position - self.light.xyz();
         let inside = |(axis, cosine): (DVec3, f64)| axis.dot(along) >= cosine * along.length();
         self.light.w == 0.0 || (along.length() <= self.range && self.cone.is_none_or(inside))
@@ -111,8 +111,7 @@ impl Lighting {
     /// The class of a point seen on the side of its triangle that `side` (+1 or -1) names.
     pub(super) fn class(&self, geometry: &Geometry, surface: &SurfacePoint, side: f64) -> Class {
         let light = self.light;
-        let size = light.xyz().abs().max_element();
-        if geometry.triangle(surface.triangle).side(light, size) * side <= 0.0 {
+        if geometry.triangle(surface.triangle).light_side(light) * side <= 0.0 {
             Class::Away
         } else if !self.reaches(surface.position) {
             Class::OutOfRange

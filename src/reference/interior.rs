@@ -1,6 +1,6 @@
 //! Which pixels are so far from any shadow edge that resolution is no excuse.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::PoisonError;
 
@@ -45,6 +45,13 @@ pub enum Interior {
         /// Largest offset of a tap in texels, from the middle of the map; 0 for one tap.
         kernel_radius: f32,
     },
+    /// For light maps, of any light. Beyond what [`Screen`](Self::Screen) asks, the reference says the same within
+    /// 3.54 texels on the pixel's tangent plane: a texel is the mean over itself, a bilinear filter reads its
+    /// neighbours, and those in the margin are means of theirs.
+    LightMap {
+        /// Sides of a texel on the surface, world units, above 0; of the largest where they differ.
+        texel: f32,
+    },
 }
 
 impl Interior {
@@ -52,6 +59,15 @@ impl Interior {
     pub(super) fn radius(self, directional: bool) -> Result<Option<Radius>, ReferenceError> {
         let (map, face_size, kernel_radius, possible) = match self {
             Self::Screen => return Ok(None),
+            Self::LightMap { texel } if texel.is_finite() && texel > 0.0 => {
+                let texels = 2.5 * SQRT_2;
+                return Ok(Some(Radius {
+                    texels,
+                    across: texels * f64::from(texel),
+                    map: MapRays::Surface,
+                }));
+            }
+            Self::LightMap { texel } => return Err(ReferenceError::Texel(texel)),
             Self::Map {
                 face_size,
                 kernel_radius,
@@ -86,7 +102,7 @@ impl Interior {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Radius {
     texels: f64,
-    /// In units in which a map's edge is 2 long.
+    /// In units in which a map's edge is 2 long; of a light map in world units.
     across: f64,
     map: MapRays,
 }
@@ -96,6 +112,7 @@ impl Radius {
     fn key(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         self.across.to_bits().hash(&mut hasher);
+        matches!(self.map, MapRays::Surface).hash(&mut hasher);
         if let MapRays::Flat(clip_from_world) = &self.map {
             for entry in clip_from_world.to_cols_array() {
                 entry.to_bits().hash(&mut hasher);

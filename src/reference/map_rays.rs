@@ -9,6 +9,8 @@ pub(super) enum MapRays {
     Cube,
     /// With this matrix from world to clip space.
     Flat(DMat4),
+    /// A light map's, whose texels lie on the surface.
+    Surface,
 }
 
 /// The rays around the one through a point.
@@ -24,6 +26,10 @@ pub(super) enum Rays {
         place: [f64; 2],
         position: DVec3,
         normal: DVec3,
+    },
+    Surface {
+        position: DVec3,
+        axes: (DVec3, DVec3),
     },
 }
 
@@ -46,13 +52,21 @@ impl Rays {
                     normal,
                 }
             }
+            MapRays::Surface => Self::Surface {
+                position,
+                axes: normal.any_orthonormal_pair(),
+            },
         }
     }
 
     /// Where the ray `u` and `v` beside meets the point's tangent plane, in units in which the
-    /// map's edge is 2 long; `None` if it does not.
+    /// map's edge is 2 long, of a light map in world units; `None` if it does not.
     pub fn meet(&self, u: f64, v: f64) -> Option<DVec3> {
         match self {
+            Self::Surface {
+                position,
+                axes: (across, along),
+            } => Some(position + u * across + v * along),
             Self::Cube {
                 light,
                 toward,

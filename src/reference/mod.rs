@@ -40,6 +40,7 @@
 //! ```
 
 mod area;
+pub mod bake;
 mod camera;
 mod compare;
 mod flips;
@@ -136,8 +137,8 @@ impl ReferenceScene {
         self
     }
 
-    /// The same scene, which tells `progress` during [`render`](Self::render), from any thread, what
-    /// part of the picture is done: above 0, up to 1.
+    /// The same scene, which tells `progress` during [`render`](Self::render) and [`bake`](Self::bake), from any
+    /// thread, what part of the picture or of the map is done: above 0, up to 1.
     #[must_use]
     pub fn with_progress(mut self, progress: impl Fn(f64) + Send + Sync + 'static) -> Self {
         self.progress = Some(Arc::new(progress));

@@ -116,11 +116,28 @@ fn the_map_interior_is_as_far_from_the_edge_as_the_kernel_reaches() {
             DVec3::new((u - 0.5).max(0.0), (v - 0.5).max(0.0), 0.0).length()
         }
     };
-    for (face_size, kernel_radius) in [(64, 0.0), (64, 2.5), (128, 6.5)] {
+    let of_cube = |face_size: u32, kernel_radius: f32| {
         let map = Interior::Map {
             face_size,
             kernel_radius,
         };
+        (
+            map,
+            (1.5 + f64::from(kernel_radius)) * 2.0 / f64::from(face_size),
+        )
+    };
+    // Texels that lie on the ground, four times as far from the light as a cube's face.
+    let of_light_map = |texel: f32| {
+        let reach = 2.5 * 2.0_f64.sqrt() * f64::from(texel);
+        (Interior::LightMap { texel }, reach / 4.0)
+    };
+    for (map, radius) in [
+        of_cube(64, 0.0),
+        of_cube(64, 2.5),
+        of_cube(128, 6.5),
+        of_light_map(0.05),
+        of_light_map(0.2),
+    ] {
         let inside = interior(&image, map);
         let judge = |radius: f64| {
             let wrong = |&i: &usize| {
@@ -131,7 +148,6 @@ fn the_map_interior_is_as_far_from_the_edge_as_the_kernel_reaches() {
             };
             (0..inside.len()).filter(wrong).count()
         };
-        let radius = (1.5 + f64::from(kernel_radius)) * 2.0 / f64::from(face_size);
         assert_eq!(judge(radius), 0, "{map:?}");
         assert!(
             judge(1.2 * radius) > 0 && judge(0.8 * radius) > 0,

@@ -130,6 +130,12 @@ fn every_bad_input_is_named() {
         let error = image.compare(&visibility, wrong);
         assert!(matches!(error, Err(ReferenceError::Interior { .. })));
     }
+    let of_light_map = |texel| Interior::LightMap { texel };
+    assert!(image.compare(&visibility, of_light_map(0.1)).is_ok());
+    for texel in [0.0, -1.0, f32::INFINITY] {
+        let error = image.interior_pixels(of_light_map(texel));
+        assert_eq!(error, Err(ReferenceError::Texel(texel)));
+    }
     let spot = SpotLight::new(Vec3::Y, Vec3::NEG_Y, 0.0, 9.0);
     assert_eq!(
         scene.render_spot(&view, 4, 4, &spot).err(),

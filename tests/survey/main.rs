@@ -1,5 +1,6 @@
 //! The cheap and the baked techniques against exact visibility, each with what it cannot do.
 
+mod bake;
 #[path = "../common/mod.rs"]
 mod common;
 mod planar;
@@ -7,3 +8,5 @@ mod planar_errors;
 mod planar_host;
 mod planar_soft;
 mod projected;
+#[path = "../common/receivers.rs"]
+mod receivers;
