@@ -14,6 +14,7 @@
 //! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
+//! | [`BlobShadow`] | an ellipsoid for each caster, its penumbra computed | soft shadows of thousands of things whose shape does not matter |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
 //!
@@ -176,6 +177,7 @@ pub use {glam, wgpu};
 /// [temporal]: https://docs.rs/crate/shadows/latest/source/docs/temporal.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 /// [limits]: crate::limits
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
@@ -183,6 +185,7 @@ pub mod choosing {}
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
+/// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
 /// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]
@@ -192,6 +195,7 @@ pub mod limits {}
 #[cfg(test)]
 extern crate self as shadows;
 
+pub mod blob;
 pub mod error;
 mod gl;
 pub mod light;
@@ -216,6 +220,10 @@ mod wgsl_layout;
 #[doc(hidden)]
 pub use shader::rewriting;
 
+pub use blob::{
+    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor,
+    BlobStatistics,
+};
 pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight};
 pub use map::{
     Allocation, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit,

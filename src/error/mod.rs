@@ -1,6 +1,7 @@
 //! Errors: one enum per operation. Every message says what to change.
 
 mod atlas;
+mod blob;
 mod cascades;
 mod light;
 mod map;
@@ -13,6 +14,7 @@ mod volume;
 mod volume_debug;
 
 pub use atlas::ShadowAtlasError;
+pub use blob::{BlobRenderError, BlobShadowError};
 pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};

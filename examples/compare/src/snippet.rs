@@ -6,6 +6,7 @@ use shadows::{
     CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
+use crate::survey::Survey;
 use crate::technique::Config;
 
 /// Statements that bind `map` and `sampler`, or `volumes`. Fields that are as the default has them
@@ -17,7 +18,7 @@ pub fn of(config: &Config) -> String {
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Atlas { sampler, .. } => pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
-        Config::Survey(survey) => match survey {},
+        Config::Survey(Survey::Blob(blobs)) => blobs.snippet(),
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",
             peer.name

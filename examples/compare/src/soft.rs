@@ -10,6 +10,7 @@ use shadows::{ContactHardening, Kernel};
 use crate::measure::Measured;
 use crate::shadow::Shadow;
 use crate::stage::Stage;
+use crate::technique::Config;
 use host::gpu::Gpu;
 use host::scene::Scene;
 
@@ -98,6 +99,9 @@ pub fn judge(
 }
 
 fn is_soft(measured: &Measured) -> bool {
+    if let Config::Survey(survey) = &measured.technique.config {
+        return survey.is_soft();
+    }
     let kernel = measured.technique.config.kernel();
     kernel.is_some_and(|kernel| {
         let weighted = matches!(

@@ -5,6 +5,7 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::{Blobs, Survey};
 use crate::technique::{Config, Technique};
 use host::peers::peer;
 
@@ -102,6 +103,10 @@ pub static ROWS: &[Row] = &[
             counter: Counter::Exact,
             ..volume()
         })
+    }),
+    row("blob", |_| Config::Survey(Survey::Blob(Blobs::Asked))),
+    row("blob-decals", |_| {
+        Config::Survey(Survey::Blob(Blobs::Decals))
     }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {

@@ -1,5 +1,7 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
+mod blob;
+
 use anyhow::Result;
 use serde_json::Value;
 use shadows::reference::Interior;
@@ -11,9 +13,14 @@ use host::renderer::{LitPipeline, Renderer};
 use host::scene::LightKind;
 use host::scene_gpu::SceneGpu;
 
+pub use blob::Blobs;
+
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
-pub enum Survey {}
+pub enum Survey {
+    /// An ellipsoid for each caster.
+    Blob(Blobs),
+}
 
 /// One at work.
 pub trait SurveyShadow {
@@ -39,17 +46,30 @@ pub trait SurveyShadow {
 impl Survey {
     /// Whether it can shadow this kind of light.
     pub fn applies_to(&self, _light: LightKind) -> bool {
-        match *self {}
+        match self {
+            Self::Blob(_) => true,
+        }
+    }
+
+    /// Whether its edges are soft.
+    pub fn is_soft(&self) -> bool {
+        match self {
+            Self::Blob(_) => true,
+        }
     }
 
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
-        match *self {}
+        match self {
+            Self::Blob(_) => "",
+        }
     }
 
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
-        match *self {}
+        match self {
+            Self::Blob(blobs) => blobs.settings(),
+        }
     }
 
     /// Makes it, and the lit pass that reads it.
@@ -58,9 +78,11 @@ impl Survey {
     /// If the device cannot do it.
     pub fn make(
         &self,
-        _gpu: &Gpu,
-        _renderer: &Renderer,
+        gpu: &Gpu,
+        renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
-        match *self {}
+        match self {
+            Self::Blob(blobs) => blobs.make(gpu, renderer),
+        }
     }
 }
