@@ -5,17 +5,17 @@
 //!   fragment shader).
 //! - `one_moving_vs_all_moving`, `still_vs_all_moving`: the same scene, one sphere or none moving, the
 //!   latter for 33 frames in a row, of which the median counts.
-//! - `prepare_still_vs_moving`: `prepare` alone for 16 lights and 2,500 casters, none moving
+//! - `prepare_still_vs_moving`: `prepare` alone of an atlas for 16 lights and 2,500 casters, none moving
 //!   against all moving; the first frame in which none moves.
 //! - `flat_prepare_still_vs_moving`: the same for a flat map of a directional light and 10,000 casters;
-//!   `flat_vs_cube_prepare_still`: against a cube map's of 16 lights, none of the casters moving.
+//!   `flat_vs_cube_prepare_still`: against an atlas's of 16 lights, none of the casters moving.
 //! - `one_of_N_vs_still`, `light_among_N_vs_still`: `prepare` with one caster of N, or one light
 //!   among them, moving, against none: what moves beside what does not.
 //!
 //! - `moved_among_1e5_vs_among_1e3`: what 100 casters that move near a light add to `prepare`, among
 //!   that many.
-//! - `culling_N_vs_linear`: on the CPU alone, a hundredth of N casters and 16 lights moving: the map's
-//!   own tree, kept up to date and asked for what each light reaches, against testing every
+//! - `culling_N_vs_linear`: on the CPU alone, a hundredth of N casters and 16 lights moving: the
+//!   library's own tree, kept up to date and asked for what each light reaches, against testing every
 //!   caster's sphere for each light. `culling_N_vs_compute`: against a compute shader that does so, its
 //!   uploads not counted.
 //!
@@ -49,7 +49,10 @@ use host::gpu::Gpu;
 use host::scene::spheres_moving;
 use host::scene_gpu::SceneGpu;
 use shadows::glam::{Affine3A, Vec3, Vec3A};
-use shadows::{Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, wgpu};
+use shadows::{
+    AtlasFrame, AtlasLight, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight,
+    ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
+};
 use shapes::cuboid;
 
 fn main() {
@@ -88,11 +91,7 @@ fn new_map(gpu: &Gpu, descriptor: &CubeShadowMapDescriptor<'_>) -> CubeShadowMap
 
 /// Prepare, encode and wait.
 fn frame(gpu: &Gpu, map: &mut CubeShadowMap, light: PointLight, casters: &[Caster]) -> Duration {
-    let frame = CubeFrame {
-        lights: &[light],
-        casters,
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(light, casters);
     let start = Instant::now();
     map.prepare(&gpu.device, &gpu.queue, &frame)
         .expect("the frame is in range");
@@ -146,7 +145,7 @@ fn many_in_a_row(mut work: impl FnMut() -> Duration) -> Duration {
 struct World {
     casters: Vec<Caster>,
     lights: Vec<PointLight>,
-    map: CubeShadowMap,
+    atlas: ShadowAtlas,
 }
 
 impl World {
@@ -166,31 +165,28 @@ impl World {
                 .map(|i| Caster::new(mesh.clone(), place(i)))
                 .collect(),
             lights: lights.collect(),
-            map: new_map(
-                gpu,
-                &CubeShadowMapDescriptor {
-                    size: 16,
-                    lights: 16,
-                    cube_array: true,
-                    ..Default::default()
-                },
-            ),
+            atlas: ShadowAtlas::new(&gpu.device, &ShadowAtlasDescriptor::default())
+                .expect("the descriptor is in range"),
         }
     }
 
     /// Time of `prepare` alone; the frame is drawn after.
     fn prepare(&mut self, gpu: &Gpu) -> Duration {
-        let frame = CubeFrame {
-            lights: &self.lights,
+        let size = TileSize::Fixed(16);
+        let lights: Vec<_> = (self.lights.iter())
+            .map(|&light| AtlasLight::new(light).with_size(size))
+            .collect();
+        let frame = AtlasFrame {
+            lights: &lights,
             casters: &self.casters,
             ..Default::default()
         };
         let start = Instant::now();
-        self.map
+        self.atlas
             .prepare(&gpu.device, &gpu.queue, &frame)
             .expect("the frame is in range");
         let time = start.elapsed();
-        gpu.run(|encoder: &mut wgpu::CommandEncoder| self.map.encode(encoder));
+        gpu.run(|encoder: &mut wgpu::CommandEncoder| self.atlas.encode(encoder));
         time
     }
 }

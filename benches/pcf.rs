@@ -127,11 +127,7 @@ impl Yard {
         let renderer = Renderer::new(&gpu, SIZE, &scene, &scene_gpu)?;
         let mut map = CubeShadowMap::new(&gpu.device, &CubeShadowMapDescriptor::default())?;
         let light = PointLight::new(scene.light().place.truncate(), scene.light().range);
-        let frame = CubeFrame {
-            lights: &[light],
-            casters: &scene_gpu.casters,
-            ..Default::default()
-        };
+        let frame = CubeFrame::new(light, &scene_gpu.casters);
         map.prepare(&gpu.device, &gpu.queue, &frame)?;
         gpu.run(|encoder| {
             map.encode(encoder);

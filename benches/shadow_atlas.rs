@@ -95,11 +95,7 @@ fn one_light(gpu: &Gpu, rounds: u32) {
             caster.world_from_object = object.transform;
         }
         let start = Instant::now();
-        let cube = CubeFrame {
-            lights: &[light],
-            casters: &casters,
-            ..Default::default()
-        };
+        let cube = CubeFrame::new(light, &casters);
         map.prepare(&gpu.device, &gpu.queue, &cube)
             .expect("the frame is in range");
         gpu.run(|encoder| map.encode(encoder));

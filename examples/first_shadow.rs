@@ -57,6 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let light = PointLight::new(Vec3::new(-1.3, 2.6, 2.2), 20.0);
     let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
     let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
+    let shadow_group = sampler.bind_group(&device, &map)?;
 
     // The host's own pipeline; group 1 is the shadows'.
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -164,17 +165,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     });
 
     // Every frame: decide, record the map, then the host's own pass.
-    map.prepare(
-        &device,
-        &queue,
-        &CubeFrame {
-            lights: &[light],
-            casters: &casters,
-            ..Default::default()
-        },
-    )?;
-    // Again whenever `map.texture_revision()` changes.
-    let shadow_group = sampler.bind_group(&device, &map)?;
+    map.prepare(&device, &queue, &CubeFrame::new(light, &casters))?;
     let mut encoder = device.create_command_encoder(&Default::default());
     map.encode(&mut encoder);
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -73,6 +73,7 @@
 //! // A shadow map, and how shaders read it.
 //! let mut map = CubeShadowMap::new(&device, &CubeShadowMapDescriptor::default())?;
 //! let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default())?;
+//! let group = sampler.bind_group(&device, &map)?;
 //! let lighting = sampler.wgsl_module(1)
 //!     + "@fragment fn light(@location(0) world: vec3f) -> @location(0) vec4f {
 //!            return vec4f(shadows_visibility(world)); // times the light's colour
@@ -107,9 +108,7 @@
 //! #     .create_view(&Default::default());
 //!
 //! // Every frame: decide, then record into the host's own encoder and pass.
-//! let frame = CubeFrame { lights: &[light], casters: &casters, ..Default::default() };
-//! map.prepare(&device, &queue, &frame)?;
-//! let group = sampler.bind_group(&device, &map)?; // again when `map.texture_revision()` changes
+//! map.prepare(&device, &queue, &CubeFrame::new(light, &casters))?;
 //! let frame = ShadowVolumeFrame {
 //!     lights: &[light.into()],
 //!     views: &[view.into()],
@@ -196,6 +195,7 @@ pub mod limits {}
 extern crate self as shadows;
 
 pub mod blob;
+mod clock;
 pub mod error;
 mod gl;
 pub mod light;
@@ -226,12 +226,12 @@ pub use blob::{
 };
 pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight};
 pub use map::{
-    Allocation, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, Bias, CascadeFit,
-    CascadeSplit, Cascades, CasterSides, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame,
-    CubeShadowMap, CubeShadowMapDescriptor, CubeStatistics, DepthBounds, DepthEncoding, FlatLight,
-    HostDraw, LocalLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap,
-    ShadowMapDescriptor, ShadowMapStatistics, StaticLayers, TileSize, TileState, TileStatistics,
-    texture_from_clip,
+    AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,
+    AtlasView, Bias, CascadeFit, CascadeSplit, Cascades, CasterSides, CubeCross,
+    CubeCrossDescriptor, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
+    CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw, LocalLight, ShadowAtlas,
+    ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
+    StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{

@@ -17,7 +17,7 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 /// - It converts clip z to `2 z - w`, which loses most of the precision of reverse-Z, and everything
 ///   farther away than 2^23 near planes. Shadow maps avoid this: their fragments write the depth, so they hold the
 ///   same values as elsewhere, but have no early depth test. A host that draws into a map itself
-///   ([`begin_face`](crate::CubeShadowMap::begin_face)) must do the same. The host's own depth buffer has
+///   ([`encode_with`](crate::ShadowAtlas::encode_with)) must do the same. The host's own depth buffer has
 ///   the loss, and shadow volumes depend on it: of 260 random scenes that are exact elsewhere, 257
 ///   are exact there (`tests/volume/random.rs`). 1.4 % of the pixels of receivers a million near planes away are
 ///   wrong, and 0.07 % (at light caps) in a host that does not compute its positions with

@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use shadows::{
-    Caster, CubeCross, CubeCrossDescriptor, CubeFace, CubeFrame, CubeShadowMap,
-    CubeShadowMapDescriptor, PointLight, wgpu,
+    Caster, CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
+    PointLight, wgpu,
 };
 
 use crate::clock::Bench;
@@ -33,11 +33,7 @@ impl<'a> Cube<'a> {
     }
 
     fn prepare(&mut self) {
-        let frame = CubeFrame {
-            lights: &[self.light],
-            casters: &self.casters,
-            ..Default::default()
-        };
+        let frame = CubeFrame::new(self.light, &self.casters);
         self.map
             .prepare(&self.gpu.device, &self.gpu.queue, &frame)
             .expect("the frame is in range");
@@ -80,16 +76,6 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
             cube.map.encode(encoder);
         });
     }
-    bench.gpu(
-        "cube map/begin_face, six of the host's passes",
-        &mut cube,
-        |_| {},
-        |cube, encoder| {
-            for face in CubeFace::ALL {
-                drop(cube.map.begin_face(encoder, 0, face).expect("texels"));
-            }
-        },
-    );
     cross(bench, stage)
 }
 
@@ -112,9 +98,9 @@ fn cross(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         "cube cross/bind_group",
         &mut cube,
         |_| {},
-        |cube| cross.bind_group(device, &cube.map, 0).unwrap(),
+        |cube| cross.bind_group(device, &cube.map).unwrap(),
     );
-    let group = cross.bind_group(device, &cube.map, 0)?;
+    let group = cross.bind_group(device, &cube.map)?;
     let draw = |_: &mut Cube<'_>, encoder: &mut wgpu::CommandEncoder| {
         cross.render(&mut stage.host.begin_overlay_pass(encoder), &group);
     };

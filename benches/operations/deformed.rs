@@ -55,11 +55,7 @@ trait Shown {
 
 impl Shown for CubeShadowMap {
     fn prepare(&mut self, stage: &Stage<'_>, casters: &[Caster]) {
-        let frame = CubeFrame {
-            lights: &[stage.point()],
-            casters,
-            ..Default::default()
-        };
+        let frame = CubeFrame::new(stage.point(), casters);
         self.prepare(&stage.gpu.device, &stage.gpu.queue, &frame)
             .expect("the frame is in range");
     }

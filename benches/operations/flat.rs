@@ -69,13 +69,6 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         bench.gpu(&name, &mut flat, before, |flat, encoder| {
             flat.map.encode(encoder);
         });
-        let name = format!("flat map/begin_pass, {kind}, the host's own");
-        bench.gpu(
-            &name,
-            &mut flat,
-            |_| {},
-            |flat, encoder| drop(flat.map.begin_pass(encoder)),
-        );
     }
     Ok(())
 }

@@ -79,11 +79,7 @@ fn name(kernel: Kernel) -> String {
 
 fn drawn(stage: &Stage<'_>, mut map: CubeShadowMap) -> Result<CubeShadowMap> {
     let gpu = stage.gpu;
-    let frame = CubeFrame {
-        lights: &[stage.point()],
-        casters: &stage.scene_gpu.casters,
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(stage.point(), &stage.scene_gpu.casters);
     map.prepare(&gpu.device, &gpu.queue, &frame)?;
     gpu.run(|encoder| map.encode(encoder));
     Ok(map)
@@ -125,8 +121,6 @@ fn samplers(
     bench.cpu("sampler/bind_group, cube", &mut (), |()| {}, group);
     let group = |(): &mut ()| of_flat.bind_group(device, &flat.map);
     bench.cpu("sampler/bind_group, flat", &mut (), |()| {}, group);
-    let group = |(): &mut ()| of_cube.bind_group_of(device, cube, 0);
-    bench.cpu("sampler/bind_group_of", &mut (), |()| {}, group);
     bench.plain("sampler/wgsl", || of_cube.wgsl());
     bench.plain("sampler/wgsl_module", || of_cube.wgsl_module(1));
     let text = of_cube.wgsl();

@@ -109,12 +109,7 @@ fn lamp(n: usize) -> PointLight {
 
 /// Microseconds that a cube map takes, nothing having changed.
 fn maps(gpu: &Gpu, map: &mut CubeShadowMap, casters: &[Caster]) -> f64 {
-    let lights = [lamp(0)];
-    let frame = CubeFrame {
-        lights: &lights,
-        casters,
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(lamp(0), casters);
     // What moved is taken over first.
     map.prepare(&gpu.device, &gpu.queue, &frame)
         .expect("a frame");

@@ -1,10 +1,10 @@
-//! Frames of a cube map: any lights, casters, views and budgets.
+//! Frames of a cube map: any light, casters and views.
 #![no_main]
 
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use shadows::{
-    Allocation, Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
+    Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
     StaticLayers,
 };
 use shadows_fuzz::Length;
@@ -16,18 +16,14 @@ use shadows_fuzz::scene::{Camera, Cast, Light, Projection, Story};
 struct Settings {
     size: u8,
     bias: [Length; 2],
-    lights: u8,
-    cube_array: bool,
     linear: bool,
     cull_casters: bool,
     cache: bool,
     sides: u8,
-    budget: Option<u8>,
-    at_once: bool,
     reach: Reach,
     format: u8,
     static_layers: Still,
-    /// Whether the first lights stay and every frame is encoded: what is drawn again and again shows
+    /// Whether the first light stays and every frame is encoded: what is drawn again and again shows
     /// only then what is kept under it.
     steady: bool,
 }
@@ -44,11 +40,10 @@ enum Still {
 
 #[derive(Arbitrary, Debug)]
 struct Frame {
-    /// `None`: those of the frame before.
-    lights: Option<[Option<Light>; 3]>,
+    /// `None`: that of the frame before.
+    light: Option<Light>,
     casters: Cast,
     camera: Option<(Camera, Projection)>,
-    pinned: Option<u8>,
     encoded: bool,
 }
 
@@ -61,8 +56,6 @@ impl Settings {
                 constant: self.bias[1].0,
                 ..Bias::default()
             },
-            lights: 4 - u32::from(self.lights % 5),
-            cube_array: self.cube_array,
             encoding: match self.linear {
                 true => DepthEncoding::LinearDistance,
                 false => DepthEncoding::MajorAxis,
@@ -70,11 +63,6 @@ impl Settings {
             cull_casters: self.cull_casters,
             cache: self.cache,
             sides: map::sides(self.sides),
-            max_faces_per_frame: self.budget.map(u32::from),
-            allocation: match self.at_once {
-                true => Allocation::AtOnce,
-                false => Allocation::WithFirstCaster,
-            },
             reach: self.reach.radius(),
             format: map::format(self.format),
             static_layers: match self.static_layers {
@@ -100,14 +88,16 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
         return;
     };
     let scenes = story.upload();
-    let mut lights = Vec::new();
+    let mut light = None;
     for frame in &story.frames {
-        if let Some(new) = &frame.lights
-            && (lights.is_empty() || !settings.steady)
+        if let Some(new) = &frame.light
+            && (light.is_none() || !settings.steady)
         {
-            lights = new.iter().flatten().map(Light::point).collect();
+            light = Some(new.point());
         }
-        let pinned: Vec<usize> = frame.pinned.iter().map(|&light| light.into()).collect();
+        let Some(light) = light else {
+            continue;
+        };
         let camera = frame.camera.as_ref();
         let view = camera.and_then(|(camera, projection)| camera.view(*projection));
         let casters = &frame.casters.of(&scenes)[..];
@@ -116,14 +106,13 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
             device,
             queue,
             &CubeFrame {
-                lights: &lights,
+                light,
                 casters,
                 view: view.as_ref(),
-                pinned: &pinned,
             },
         );
         match result {
-            Ok(()) => check(&map, lights.len(), casters.len()),
+            Ok(()) => check(&map, casters.len()),
             Err(error) => {
                 assert!(!error.to_string().is_empty());
                 assert_eq!(map.statistics(), before, "{error}: as it was");
@@ -136,17 +125,15 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
     tidy();
 });
 
-/// Each face is one of five things, and each caster in or out of each light's range.
-fn check(map: &CubeShadowMap, lights: usize, casters: usize) {
+/// Each face is one of four things, and each caster in or out of the light's range.
+fn check(map: &CubeShadowMap, casters: usize) {
     let s = map.statistics();
     let faces = s.faces_rendered + s.faces_kept + s.faces_empty + s.faces_hidden;
-    assert_eq!((faces + s.faces_postponed) as usize, 6 * lights, "{s:?}");
+    assert_eq!(faces, 6, "{s:?}");
     let counted = (s.casters_in_range + s.casters_out_of_range) as usize;
-    assert_eq!(counted, lights * casters, "{s:?}");
-    for light in 0..lights {
-        for face in CubeFace::ALL {
-            let matrix = map.clip_from_world(light, face).expect("such a light");
-            assert!(matrix.is_finite(), "{matrix}");
-        }
+    assert_eq!(counted, casters, "{s:?}");
+    for face in CubeFace::ALL {
+        let matrix = map.clip_from_world(face).expect("it is prepared");
+        assert!(matrix.is_finite(), "{matrix}");
     }
 }

@@ -47,25 +47,12 @@ pub enum CubeShadowMapError {
         /// Bytes allowed.
         limit: u64,
     },
-    /// No light at all, or more than the texture's layers or a buffer of matrices can hold.
-    #[error(
-        "a map for {lights} lights is out of range; 1 to {limit} (six layers each in one texture if they share it, and 128 lights then on devices without storage buffers; 1536 bytes of matrices each)"
-    )]
-    Slots {
-        /// Lights asked for.
-        lights: u32,
-        /// The most that work.
-        limit: u32,
-    },
     /// The format is none that a map can have.
     #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
     Format(wgpu::TextureFormat),
     /// The reach of the kernels is out of range.
     #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
     Reach(crate::Radius),
-    /// A budget of no face at all.
-    #[error("max_faces_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
-    Budget,
     /// A slope-scaled bias where the fragment shader writes the depth.
     #[error(
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
@@ -95,30 +82,6 @@ pub enum CubeShadowMapError {
         map: crate::DepthEncoding,
         /// What the view shows.
         cross: crate::DepthEncoding,
-    },
-    /// A light that the map has no place for.
-    #[error("light {light} was asked for of a map for {lights}, counted from 0")]
-    NoSuchLight {
-        /// The place that was passed.
-        light: usize,
-        /// Lights the map was made for.
-        lights: usize,
-    },
-    /// More lights in a frame than the map was made for.
-    #[error("{lights} lights were passed to a map for {slots}; make it with more `lights`")]
-    TooManyLights {
-        /// Lights passed.
-        lights: usize,
-        /// Lights the map was made for.
-        slots: usize,
-    },
-    /// A pinned light that is not in the frame.
-    #[error("light {pinned} is pinned, but the frame has {lights} lights, counted from 0")]
-    Pinned {
-        /// The place that was passed.
-        pinned: usize,
-        /// Lights in the frame.
-        lights: usize,
     },
 }
 
@@ -255,11 +218,6 @@ pub enum PcfError {
         "the device has no texture gathers (it is a GL device without compute shaders, as WebGL 2); pass Gather::Auto or Gather::Never"
     )]
     Gather,
-    /// A sampler for many lights and a map with one texture for each.
-    #[error(
-        "the sampler reads many lights from one texture, the map has a texture for each; make the map with cube_array, or the sampler without many_lights"
-    )]
-    NoCubeArray,
     /// A kernel that reaches farther than the map was made for.
     #[error(
         "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `reach: Radius::{kernel:?}` or more of that unit, or the sampler with a narrower kernel"
@@ -308,16 +266,6 @@ pub enum PcfError {
         "the prefix of a module's names is no beginning of a name in WGSL; pass letters, digits and underscores, the first no digit, and not two underscores first"
     )]
     Prefix,
-    /// A bind group for a light that the map has no place for.
-    #[error(
-        "light {light} was asked for of a map for {lights}, counted from 0; make the map with more `lights`"
-    )]
-    Light {
-        /// The place that was passed.
-        light: usize,
-        /// Lights the map was made for.
-        lights: usize,
-    },
     /// A hardware comparison of depths of which a plane's are not linear.
     #[error(
         "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass encoding: MajorAxis, or another kernel"

@@ -212,14 +212,6 @@ pub enum CasterError {
         /// Place in the slice of casters.
         index: usize,
     },
-    /// Geometry that only the host can draw, on a map that does not ask it to.
-    #[error(
-        "caster {index} is drawn by the host (CasterMesh::host_drawn), which this map has no callback for; leave it out here, or use a ShadowAtlas and `encode_with`"
-    )]
-    HostDrawn {
-        /// Place in the slice of casters.
-        index: usize,
-    },
     /// The mesh's buffers belong to another device.
     #[error("caster {index}: its mesh was made on another device; make a CasterMesh on this one")]
     Device {

@@ -1,5 +1,7 @@
 //! Errors of the reference.
 
+use std::ops::Range;
+
 use thiserror::Error;
 
 use super::LightError;
@@ -49,6 +51,14 @@ pub enum ReferenceError {
         /// Width in pixels.
         width: u32,
         /// Height in pixels.
+        height: u32,
+    },
+    /// Rows that the picture does not have, or none.
+    #[error("a picture of {height} rows has no rows {rows:?}; pass some of 0..{height}")]
+    Rows {
+        /// The rows asked for.
+        rows: Range<u32>,
+        /// Rows of the whole picture.
         height: u32,
     },
     /// Two frames to compare have different sizes.

@@ -32,7 +32,7 @@ impl Default for CubeCrossDescriptor<'_> {
     }
 }
 
-/// Draws one light's cube map unfolded as a cross into a host's pass, to see what it holds.
+/// Draws a cube map unfolded as a cross into a host's pass, to see what it holds.
 ///
 /// Four cells by three of the viewport: +Y above, -X, +Z, +X, -Z in the middle row, -Y below, each
 /// as seen from the light and joined to +Z as on the cube. White is at the light, black at its
@@ -67,16 +67,14 @@ impl CubeCross {
         }
     }
 
-    /// The bind group for the light at place `light` of a map's frame. To be made again when
-    /// [`CubeShadowMap::texture_revision`] changes.
+    /// The bind group for a map; it stays right.
     ///
     /// # Errors
-    /// [`CubeShadowMapError`] if the map has another encoding or was made for fewer lights.
+    /// [`CubeShadowMapError`] if the map has another encoding.
     pub fn bind_group(
         &self,
         device: &wgpu::Device,
         map: &CubeShadowMap,
-        light: usize,
     ) -> Result<wgpu::BindGroup, CubeShadowMapError> {
         if map.encoding() != self.encoding {
             return Err(CubeShadowMapError::Encoding {
@@ -84,18 +82,13 @@ impl CubeCross {
                 cross: self.encoding,
             });
         }
-        let lights = map.most_lights();
-        if light >= lights {
-            return Err(CubeShadowMapError::NoSuchLight { light, lights });
-        }
-        let view = map.layers(light);
         Ok(device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&self.label),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry {
                     binding: 0,
-                    resource: wgpu::BindingResource::TextureView(view),
+                    resource: wgpu::BindingResource::TextureView(map.layers()),
                 },
                 wgpu::BindGroupEntry {
                     binding: 1,
@@ -103,7 +96,7 @@ impl CubeCross {
                 },
                 wgpu::BindGroupEntry {
                     binding: 2,
-                    resource: map.light_uniform(light),
+                    resource: map.light_uniform().as_entire_binding(),
                 },
             ],
         }))

@@ -2,21 +2,15 @@
 
 use glam::{Mat4, Vec4};
 
-use super::encoding::{DepthEncoding, texel_bytes};
+use super::encoding::DepthEncoding;
 use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
-use super::gpu::{
-    Casting, Draw, FlatLightBuffer, INSTANCE_SIZE, LightRecord, PipelineKind, TilePlace,
-    TileTexture, Tiles, TooLarge, array_view, begin_depth_pass, can_pull_casters, create_texture,
-    layer_view,
-};
-use super::plan::{FlatPlace, Rules, SlotPlan, Slots, choose_tiles, follow};
+use super::gpu::{HostDraw, LightRecord, OneLightKind, PipelineKind, can_pull_casters};
+use super::one_light::{OneLightMap, OneLightSettings, TooMany};
+use super::plan::FlatPlace;
 use super::statistics::ShadowMapStatistics;
+use crate::Radius;
+use crate::clock::Clock;
 use crate::error::ShadowMapError;
-use crate::gl;
-use crate::mesh::Caster;
-use crate::scene::Casters;
-use crate::submissions::Submissions;
-use crate::{Bias, Radius};
 
 /// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
 /// over because rows of a texture count down, and z left as it is because WebGPU's clip space has
@@ -50,22 +44,8 @@ pub fn texture_from_clip() -> Mat4 {
 /// are read, and nothing is uploaded.
 #[derive(Debug)]
 pub struct ShadowMap {
-    label: String,
-    size: u32,
-    bias: Bias,
-    pub(crate) reach: Radius,
-    cache: bool,
-    texture: wgpu::Texture,
-    /// What is drawn on, and what is read.
-    layer: wgpu::TextureView,
-    layers: wgpu::TextureView,
-    light: FlatLightBuffer,
-    casting: Casting,
-    casters: Casters,
+    map: OneLightMap,
     place: FlatPlace,
-    /// One, with one tile.
-    slots: Slots,
-    submissions: Submissions,
     statistics: ShadowMapStatistics,
 }
 
@@ -84,32 +64,33 @@ impl ShadowMap {
             None => "shadows map".to_owned(),
         };
         let (size, bias, reach) = (descriptor.size, descriptor.bias, descriptor.reach);
-        let layers = gl::array_layers(device, 1);
-        let texture = create_texture(device, &label, size, descriptor.format, layers);
-        let kind = PipelineKind {
-            format: texture.format(),
-            encoding: DepthEncoding::MajorAxis,
-            slope_scale: bias.slope_scale,
-            unclipped_depth: descriptor.unclipped_depth && can_pull_casters(device),
-        };
-        let unclipped_depth = kind.unclipped_depth;
-        let casting = Casting::new(device, &label, kind, descriptor.sides, (1, 1));
+        let map = OneLightMap::new(
+            device,
+            OneLightSettings {
+                kind: OneLightKind {
+                    label,
+                    size,
+                    tiles: 1,
+                    bias,
+                    pipelines: PipelineKind {
+                        format: descriptor.format,
+                        encoding: DepthEncoding::MajorAxis,
+                        slope_scale: bias.slope_scale,
+                        unclipped_depth: descriptor.unclipped_depth && can_pull_casters(device),
+                    },
+                    sides: descriptor.sides,
+                },
+                reach,
+                cache: descriptor.cache,
+                cull: true,
+                layer_least: None,
+            },
+        );
+        let gpu = &map.gpu;
         Ok(Self {
-            size,
-            bias,
-            reach,
-            cache: descriptor.cache,
-            layer: layer_view(&texture, &label, 0),
-            layers: array_view(&texture, &label),
-            texture,
-            place: FlatPlace::new(size, reach, casting.near_plane(), unclipped_depth),
-            light: FlatLightBuffer::new(device, &label),
-            casting,
-            casters: Casters::default(),
-            slots: Slots::new(1, true),
-            submissions: Submissions::default(),
+            place: FlatPlace::new(size, reach, gpu.near_plane(), gpu.unclipped_depth()),
+            map,
             statistics: ShadowMapStatistics::default(),
-            label,
         })
     }
 
@@ -126,40 +107,36 @@ impl ShadowMap {
         _: &wgpu::Queue,
         frame: &ShadowFrame<'_>,
     ) -> Result<(), ShadowMapError> {
+        let clock = Clock::start();
         frame.validate()?;
         self.validate_reach(&frame.light)?;
-        self.validate_count(device, frame.casters.len())?;
-        self.casters.compare(frame.casters, device)?;
-        self.casters.update(frame.casters);
-        let placed = self.place.take_over(frame, &self.casters);
+        self.map.take_casters(device, frame.casters)?;
+        let placed = self.place.take_over(frame, self.map.casters());
         if placed.is_err() {
-            self.slots.miss_update();
+            self.map.refuse();
         }
         placed?;
         let light = self.place.projection();
-        self.slots.take_over(&[light.into()], &mut self.casters);
-
-        let encoder_dropped = self.submissions.take_dropped();
-        if encoder_dropped {
-            self.invalidate();
-        }
-        let not_encoded = self.is_pending() || self.casting.uploaded() > 0;
-        if not_encoded {
-            self.forget_uploads();
-        }
-        let plans = self.plan();
-        follow(&plans, &mut self.slots);
-        self.casting.clear();
-        if self.is_pending() {
-            self.record_draws(device, frame.casters)?;
-        }
-        let record = self.light_record();
-        self.light.write(self.casting.uploads(), record);
-        self.statistics = ShadowMapStatistics {
-            not_encoded,
-            encoder_dropped,
-            ..self.count(frame.casters.len())
+        let prepared = self.map.prepare(device, light, &[], frame.casters);
+        prepared.map_err(|too_many| {
+            let TooMany {
+                instances,
+                size,
+                limit,
+            } = too_many;
+            ShadowMapError::TooManyCasters {
+                casters: instances,
+                size,
+                limit,
+            }
+        })?;
+        let gpu = &mut self.map.gpu;
+        let record = match self.place.frame() {
+            Some(frame) => LightRecord::flat(frame, gpu.places(), &gpu.tile_texture()),
+            None => LightRecord::lit(),
         };
+        gpu.write_light(record);
+        self.statistics = ShadowMapStatistics::of(&self.map.taken(&clock));
         Ok(())
     }
 
@@ -170,17 +147,24 @@ impl ShadowMap {
     /// light as they were; of a map that was never drawn they see a dark light. What is recorded must
     /// be submitted: if its encoder is dropped, the `prepare` after that draws the map again
     /// ([`ShadowMapStatistics::encoder_dropped`]).
+    ///
+    /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
+    /// missing from what this draws ([`ShadowMapStatistics::incomplete`]), and the next frame draws the map
+    /// again. Hosts that have any call [`encode_with`](Self::encode_with).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let copied = self.casting.uploads().record(encoder);
-        if copied || self.is_pending() {
-            self.submissions.watch(encoder);
-        }
-        if !self.is_pending() {
-            return;
-        }
-        let draws = &self.casting.draws().of(0, 0).tile.draws;
-        self.casting.record(&mut self.pass(encoder), (0, 0), draws);
-        self.slots[0].encoded(1);
+        self.map.encode(encoder, None);
+        self.statistics.incomplete = self.map.incomplete() > 0;
+    }
+
+    /// As [`encode`](Self::encode), and asks the host to draw what only it can (skinned, alpha-tested): `draw`
+    /// is called within the pass, after all else, if such casters touch the map. What holds for such draws is
+    /// said at [`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with).
+    pub fn encode_with(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        mut draw: impl FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>),
+    ) {
+        self.map.encode(encoder, Some(&mut draw));
     }
 
     /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the map drawn again. What the
@@ -189,29 +173,7 @@ impl ShadowMap {
     /// For a host that has written to the map's texture, or has lost what was recorded in a way that
     /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
     pub fn invalidate(&mut self) {
-        self.slots[0].doubt_texels();
-        self.forget_uploads();
-    }
-
-    /// Begins a pass that clears the map, for a host that draws its own geometry (skinned,
-    /// alpha-tested) with [`clip_from_world`](Self::clip_from_world): the map's format, one sample,
-    /// depth compare `Greater`. For spots on wgpu's GL back end see
-    /// [`begin_face`](crate::CubeShadowMap::begin_face).
-    ///
-    /// Call it after [`encode`](Self::encode) (or instead of it): what `encode` drew is cleared, so
-    /// pass such a host's other casters through its own draws too. The casters of
-    /// [`prepare`](Self::prepare) still decide where a directional light's map lies.
-    pub fn begin_pass<'encoder>(
-        &mut self,
-        encoder: &'encoder mut wgpu::CommandEncoder,
-    ) -> wgpu::RenderPass<'encoder> {
-        if self.casting.uploads().record(encoder) {
-            self.submissions.watch(encoder);
-        }
-        if !self.slots[0].tiles.is_empty() {
-            self.slots[0].touched(0);
-        }
-        self.pass(encoder)
+        self.map.invalidate();
     }
 
     /// World space to clip space, as the last [`prepare`](Self::prepare) placed the map; `None`
@@ -229,18 +191,18 @@ impl ShadowMap {
 
     /// The texture, of [`ShadowMapDescriptor::format`].
     pub fn texture(&self) -> &wgpu::Texture {
-        &self.texture
+        self.map.gpu.texture()
     }
 
     /// The map as layer 0 of a 2D array (`texture_2d_array`, `texture_depth_2d_array`), for hosts that
     /// sample it themselves. On wgpu's GL back end it has a spare layer, which nothing is drawn into.
     pub fn view(&self) -> &wgpu::TextureView {
-        &self.layers
+        self.map.gpu.layers()
     }
 
     /// Texels along each side.
     pub fn size(&self) -> u32 {
-        self.size
+        self.map.gpu.size()
     }
 
     /// What the last [`prepare`](Self::prepare) found.
@@ -248,118 +210,23 @@ impl ShadowMap {
         self.statistics
     }
 
-    pub(crate) fn light_uniform(&self) -> &wgpu::Buffer {
-        self.light.buffer()
+    pub(crate) fn reach(&self) -> Radius {
+        self.map.reach
     }
 
-    fn pass<'encoder>(
-        &self,
-        encoder: &'encoder mut wgpu::CommandEncoder,
-    ) -> wgpu::RenderPass<'encoder> {
-        begin_depth_pass(encoder, &self.label, &self.layer, wgpu::LoadOp::Clear(0.0))
+    pub(crate) fn light_uniform(&self) -> &wgpu::Buffer {
+        self.map.gpu.light()
     }
 
     /// A directional light's map is made wider by what kernels reach beside what is seen; of texels, a
     /// small map has not that many.
     fn validate_reach(&self, light: &FlatLight) -> Result<(), ShadowMapError> {
-        let ((reach, _), size) = (self.reach.reach(), self.size);
+        let ((reach, _), size) = (self.map.reach.reach(), self.size());
         match light {
             FlatLight::Directional(_) if 4.0 * (reach + 1.0) > size as f32 => {
                 Err(ShadowMapError::ReachOfSize { reach, size })
             }
             _ => Ok(()),
-        }
-    }
-
-    fn validate_count(&self, device: &wgpu::Device, casters: usize) -> Result<(), ShadowMapError> {
-        let limit = device.limits().max_buffer_size;
-        let size = casters as u64 * INSTANCE_SIZE;
-        match size > limit {
-            true => Err(ShadowMapError::TooManyCasters {
-                casters,
-                size,
-                limit,
-            }),
-            false => Ok(()),
-        }
-    }
-
-    /// Whether the next encode draws.
-    fn is_pending(&self) -> bool {
-        self.slots[0].pending != 0
-    }
-
-    /// Decides whether the map is drawn. Changes nothing.
-    fn plan(&self) -> Vec<SlotPlan> {
-        let rules = Rules {
-            views: &[],
-            reach: self.reach,
-            cache: self.cache,
-            budget: None,
-            pinned: &[],
-        };
-        choose_tiles(&self.slots, &rules, |_| Some(self.size))
-    }
-
-    /// Lists the draws of the casters on the map, and stages what they need.
-    fn record_draws(
-        &mut self,
-        device: &wgpu::Device,
-        casters: &[Caster],
-    ) -> Result<(), ShadowMapError> {
-        let slot = &self.slots[0];
-        let casters = (&self.casters, casters);
-        self.casting
-            .add((0, slot), slot.pending, self.size, casters);
-        let instances = self.casting.draws().instances().len();
-        let reserved = self.casting.reserve(device, instances, 1);
-        reserved.map_err(|TooLarge { size, limit }| ShadowMapError::TooManyCasters {
-            casters: instances,
-            size,
-            limit,
-        })?;
-        self.casting.finish(device);
-        Ok(())
-    }
-
-    /// What receivers are told of the light.
-    fn light_record(&self) -> LightRecord {
-        let texture = TileTexture {
-            side: self.size,
-            bias: self.bias,
-            format: self.texture.format(),
-        };
-        let tile = Tiles::At {
-            size: self.size,
-            places: [TilePlace::layer(0)],
-        };
-        match self.place.frame() {
-            Some(frame) => LightRecord::flat(frame, tile, &texture),
-            None => LightRecord::lit(),
-        }
-    }
-
-    /// Forgets what was to be written, and what has been.
-    fn forget_uploads(&mut self) {
-        self.casting.forget_uploads();
-        self.light.forget();
-    }
-
-    fn count(&self, casters: usize) -> ShadowMapStatistics {
-        let drawn = self.slots[0].casting as u32;
-        ShadowMapStatistics {
-            rendered: self.is_pending(),
-            casters_drawn: drawn,
-            casters_outside: casters as u32 - drawn,
-            draws: self.casting.draws().iter().count() as u32,
-            triangles: self.casting.draws().iter().map(Draw::triangles).sum(),
-            bytes: u64::from(self.texture.depth_or_array_layers())
-                * u64::from(self.size).pow(2)
-                * texel_bytes(self.texture.format())
-                + self.casting.bytes()
-                + self.light.buffer().size(),
-            uploaded: self.casting.uploaded(),
-            ..Default::default()
         }
     }
 }

@@ -40,6 +40,7 @@ pub struct ShadowMapDescriptor<'a> {
     pub reach: Radius,
     /// Whether a map whose content has not changed is left alone. Default true; false draws every
     /// frame, for measuring what that is worth.
+    #[doc(hidden)]
     pub cache: bool,
 }
 

@@ -10,6 +10,7 @@ mod encoding;
 mod flat;
 mod flat_descriptor;
 mod gpu;
+mod one_light;
 mod plan;
 mod projection;
 mod sides;
@@ -17,14 +18,14 @@ mod static_layers;
 mod statistics;
 
 pub use atlas::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, LocalLight, ShadowAtlas,
-    ShadowAtlasDescriptor,
+    AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,
+    AtlasView, LocalLight, ShadowAtlas, ShadowAtlasDescriptor,
 };
 pub use bias::Bias;
 pub use cascades::{CascadeFit, CascadeSplit, Cascades, DepthBounds};
 pub use cross::{CubeCross, CubeCrossDescriptor};
 pub use cube::CubeShadowMap;
-pub use cube_descriptor::{Allocation, CubeFrame, CubeShadowMapDescriptor};
+pub use cube_descriptor::{CubeFrame, CubeShadowMapDescriptor};
 pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};

@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use super::plan::Tally;
+use super::one_light::Taken;
 
 /// What the last [`CubeShadowMap::prepare`](crate::CubeShadowMap::prepare) found and the next
 /// `encode` will do.
 ///
-/// Each face of each light in the frame is one of rendered, kept, empty, hidden and postponed.
+/// Each of the six faces is one of rendered, kept, empty and hidden.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CubeStatistics {
@@ -15,20 +15,21 @@ pub struct CubeStatistics {
     pub faces_rendered: u32,
     /// Faces with casters whose content has not changed since they were drawn.
     pub faces_kept: u32,
-    /// Faces without a caster, clear already or without texels.
+    /// Faces without a caster, clear already.
     pub faces_empty: u32,
     /// Faces that changed but can hold no receiver that the view shows.
     pub faces_hidden: u32,
-    /// Faces that changed and wait for a later frame's budget.
-    pub faces_postponed: u32,
+    /// Faces that [`encode`](crate::CubeShadowMap::encode) has drawn without the casters that only the host
+    /// can draw: 0 before it, and after [`encode_with`](crate::CubeShadowMap::encode_with).
+    pub faces_incomplete: u32,
     /// Those of `faces_rendered` whose static casters are copied from a second layer
     /// ([`StaticLayers`](crate::StaticLayers)), not drawn.
     pub faces_copied: u32,
     /// Second layers that are drawn, to be copied in this frame and later ones.
     pub layers_drawn: u32,
-    /// Casters that touch a face, counted once for each light.
+    /// Casters that touch a face.
     pub casters_in_range: u32,
-    /// Casters beyond the light's range, counted once for each light.
+    /// Casters beyond the light's range.
     pub casters_out_of_range: u32,
     /// Draw calls.
     pub draws: u32,
@@ -87,6 +88,9 @@ pub struct TileStatistics {
 pub struct ShadowMapStatistics {
     /// Whether the map will be drawn or cleared; false where it shows all that it must already.
     pub rendered: bool,
+    /// Whether [`encode`](crate::ShadowMap::encode) has drawn it without the casters that only the host can
+    /// draw: false before it, and after [`encode_with`](crate::ShadowMap::encode_with).
+    pub incomplete: bool,
     /// Casters on the map.
     pub casters_drawn: u32,
     /// Casters that cannot be on it.
@@ -106,43 +110,48 @@ pub struct ShadowMapStatistics {
     /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
     /// the last `prepare`: the map is drawn again.
     pub encoder_dropped: bool,
+    /// CPU time of `prepare`. Zero on the web, where the standard library has no clock.
+    pub prepare: Duration,
 }
 
 impl CubeStatistics {
-    pub(crate) fn of(tally: &Tally) -> Self {
+    pub(super) fn of(taken: &Taken) -> Self {
+        let tally = &taken.tally;
         Self {
             faces_rendered: tally.rendered,
             faces_kept: tally.kept,
             faces_empty: tally.empty,
             faces_hidden: tally.hidden,
-            faces_postponed: tally.postponed,
+            faces_incomplete: 0,
             faces_copied: tally.copied,
             layers_drawn: tally.layers_drawn,
             casters_in_range: tally.casting,
             casters_out_of_range: tally.not_casting,
-            ..Self::default()
+            draws: taken.draws,
+            triangles: taken.triangles,
+            bytes: taken.bytes,
+            uploaded: taken.uploaded,
+            not_encoded: taken.not_encoded,
+            encoder_dropped: taken.encoder_dropped,
+            prepare: taken.prepare,
         }
     }
 }
 
-/// Measures `prepare` where there is a clock.
-pub(crate) struct Clock {
-    #[cfg(not(target_arch = "wasm32"))]
-    start: std::time::Instant,
-}
-
-impl Clock {
-    pub fn start() -> Self {
+impl ShadowMapStatistics {
+    pub(super) fn of(taken: &Taken) -> Self {
         Self {
-            #[cfg(not(target_arch = "wasm32"))]
-            start: std::time::Instant::now(),
+            rendered: taken.tally.rendered > 0,
+            incomplete: false,
+            casters_drawn: taken.tally.casting,
+            casters_outside: taken.tally.not_casting,
+            draws: taken.draws,
+            triangles: taken.triangles,
+            bytes: taken.bytes,
+            uploaded: taken.uploaded,
+            not_encoded: taken.not_encoded,
+            encoder_dropped: taken.encoder_dropped,
+            prepare: taken.prepare,
         }
-    }
-
-    pub fn elapsed(&self) -> Duration {
-        #[cfg(not(target_arch = "wasm32"))]
-        return self.start.elapsed();
-        #[cfg(target_arch = "wasm32")]
-        return Duration::ZERO;
     }
 }

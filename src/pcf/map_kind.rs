@@ -111,8 +111,8 @@ impl<'a> AnyMap<'a> {
     /// The widest kernels that it was made for.
     pub(super) fn reach(self) -> Radius {
         match self {
-            Self::Cube(map) => map.reach,
-            Self::Flat(map) => map.reach,
+            Self::Cube(map) => map.reach(),
+            Self::Flat(map) => map.reach(),
             Self::Atlas(map) => map.reach,
         }
     }
@@ -268,11 +268,6 @@ impl MapWgsl {
             slope: include_str!("../../shaders/cube_slope.wgsl"),
             hardware: include_str!("../../shaders/cube_hardware.wgsl"),
         }
-    }
-
-    /// How shaders get at its lights.
-    pub fn lights(&self) -> Lights {
-        self.reads.lights
     }
 
     /// Kernels are written for cube maps, and are WGSL as they stand. On flat ones they differ in the

@@ -9,9 +9,9 @@ use super::map_kind::{Lights, MapWgsl, Reads};
 use super::{
     AnyMap, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace, atlas_text, offsets, text,
 };
+use crate::DepthEncoding;
 use crate::error::PcfError;
 use crate::support::has_storage;
-use crate::{CubeShadowMap, DepthEncoding};
 
 /// How to make a [`PcfSampler`].
 #[derive(Clone, Debug, Default)]
@@ -24,14 +24,11 @@ pub struct PcfDescriptor<'a> {
     pub map: MapKind,
     /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]; flat maps have no other.
     pub encoding: DepthEncoding,
-    /// Whether shaders name a light by its place in the frame, from one bind group for all lights of
-    /// a cube map. Such maps are made with `cube_array`. Default false: one light a bind group. For cube
-    /// maps.
-    pub many_lights: bool,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
     /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). `kernel` is
     /// then its default, or [`Kernel::Hard`]. Default false. For cube maps.
+    #[doc(hidden)]
     pub textbook: bool,
     /// Which lights its flat maps are prepared for. Default [`FlatLights::Any`]; a sampler for one kind
     /// of light takes fewer instructions. For flat maps.
@@ -47,7 +44,6 @@ impl PcfDescriptor<'_> {
     fn validate_combination(&self) -> Result<(), PcfError> {
         if self.map != MapKind::Cube {
             let cubes_only = [
-                ("many_lights", self.many_lights),
                 ("textbook", self.textbook),
                 ("encoding", self.encoding != DepthEncoding::default()),
             ];
@@ -88,7 +84,8 @@ impl PcfDescriptor<'_> {
     }
 }
 
-/// Reads a [`CubeShadowMap`] or a [`ShadowMap`](crate::ShadowMap) in the host's lighting shader.
+/// Reads a [`CubeShadowMap`](crate::CubeShadowMap), a [`ShadowMap`](crate::ShadowMap) or a
+/// [`ShadowAtlas`](crate::ShadowAtlas) in the host's lighting shader.
 ///
 /// Gives three things: a bind group layout, a bind group for a map, and WGSL, either as functions
 /// without bindings ([`wgsl`](Self::wgsl)) or as a module for a group number
@@ -134,7 +131,6 @@ impl PcfSampler {
             kernel,
             map,
             encoding,
-            many_lights,
             textbook,
             flat_lights,
             light_kinds,
@@ -154,10 +150,10 @@ impl PcfSampler {
         let reads = Reads {
             map,
             encoding,
-            lights: match many_lights {
-                false if map != MapKind::Atlas => Lights::One,
-                _ if has_storage(device) => Lights::Storage,
-                _ => Lights::Uniform,
+            lights: match map {
+                MapKind::Atlas if has_storage(device) => Lights::Storage,
+                MapKind::Atlas => Lights::Uniform,
+                _ => Lights::One,
             },
             flat_lights,
             kinds: light_kinds,
@@ -227,7 +223,7 @@ impl PcfSampler {
 
     /// Layout of the bind group: 0 the map (`texture_2d_array<f32>`, unfilterable), 1 a sampler
     /// (non-filtering); for [`Kernel::HardwareBilinear`] a `texture_depth_2d_array` and a comparison
-    /// sampler; 2 the light (uniform buffer of 128 bytes; with `many_lights` a read-only storage buffer of
+    /// sampler; 2 the light (uniform buffer of 128 bytes; of an atlas a read-only storage buffer of
     /// all lights, or without storage buffers a uniform buffer of 128); for disks also 3, the kernel's
     /// parameters (uniform buffer of 32 bytes), and 4, its offsets (`texture_3d<f32>`). Fragment and
     /// compute stages.
@@ -242,36 +238,21 @@ impl PcfSampler {
         layout_entries(self.kernel, self.reads, first_binding)
     }
 
-    /// The bind group for a map: all its lights with `many_lights`, else its first. Maps of any
-    /// size may be read with one sampler.
+    /// The bind group for a map. Maps of any size may be read with one sampler.
     ///
-    /// It stays right whatever light the map is prepared for, until
-    /// [`CubeShadowMap::texture_revision`] changes; after that, all lights are dark to it. A flat map's
-    /// stays right for good.
+    /// It stays right whatever light the map is prepared for, and whatever kind. An atlas's stays right until
+    /// [`ShadowAtlas::revision`](crate::ShadowAtlas::revision) changes; after that, all lights are dark to
+    /// it.
     ///
     /// # Errors
-    /// [`PcfError`] if the map is of another kind, has another encoding, has a texture for each light, or was made
-    /// for kernels that do not reach as far as this one.
+    /// [`PcfError`] if the map is of another kind, has another encoding, or was made for kernels that do not
+    /// reach as far as this one.
     pub fn bind_group<'a>(
         &self,
         device: &wgpu::Device,
         map: impl Into<AnyMap<'a>>,
     ) -> Result<wgpu::BindGroup, PcfError> {
-        Ok(self.group(device, &self.bound(map.into(), 0)?.entries(0)))
-    }
-
-    /// The bind group for one light of a cube map that has a texture for each; `light` is its place
-    /// in the frame. With `many_lights` it holds all of them.
-    ///
-    /// # Errors
-    /// As [`bind_group`](Self::bind_group); and if the map was made for fewer lights than that.
-    pub fn bind_group_of(
-        &self,
-        device: &wgpu::Device,
-        map: &CubeShadowMap,
-        light: usize,
-    ) -> Result<wgpu::BindGroup, PcfError> {
-        Ok(self.group(device, &self.bound(map.into(), light)?.entries(0)))
+        Ok(self.group(device, &self.bound(map.into())?.entries(0)))
     }
 
     /// What [`bind_group`](Self::bind_group) binds, for a bind group of the host's with
@@ -284,64 +265,34 @@ impl PcfSampler {
         map: impl Into<AnyMap<'a>>,
         first_binding: u32,
     ) -> Result<Vec<wgpu::BindGroupEntry<'a>>, PcfError> {
-        Ok(self.bound(map.into(), 0)?.entries(first_binding))
+        Ok(self.bound(map.into())?.entries(first_binding))
     }
 
-    /// The same for one light of a cube map that has a texture for each:
-    /// [`bind_group_of`](Self::bind_group_of).
-    ///
-    /// # Errors
-    /// As [`bind_group_of`](Self::bind_group_of).
-    pub fn entries_of<'a>(
-        &'a self,
-        map: &'a CubeShadowMap,
-        light: usize,
-        first_binding: u32,
-    ) -> Result<Vec<wgpu::BindGroupEntry<'a>>, PcfError> {
-        Ok(self.bound(map.into(), light)?.entries(first_binding))
-    }
-
-    /// What is bound for a map and, if it is read light by light, one of its lights.
-    fn bound<'a>(&'a self, map: AnyMap<'a>, light: usize) -> Result<Bound<'a>, PcfError> {
+    /// What is bound for a map.
+    fn bound<'a>(&'a self, map: AnyMap<'a>) -> Result<Bound<'a>, PcfError> {
         if map.kind() != self.map() {
             let (made_for, given) = (self.map(), map.kind());
             return Err(PcfError::Map { made_for, given });
         }
         self.check_reach(map)?;
         let (map, lights) = match map {
-            AnyMap::Cube(map) => (map.layers(light), self.lights_of(map, light)?),
-            AnyMap::Flat(map) => (map.view(), map.light_uniform().as_entire_binding()),
-            AnyMap::Atlas(map) => (map.view(), map.light_buffer().as_entire_binding()),
+            AnyMap::Cube(map) if map.encoding() != self.reads.encoding => {
+                return Err(PcfError::Encoding {
+                    map: map.encoding(),
+                    sampler: self.reads.encoding,
+                });
+            }
+            AnyMap::Cube(map) => (map.layers(), map.light_uniform()),
+            AnyMap::Flat(map) => (map.view(), map.light_uniform()),
+            AnyMap::Atlas(map) => (map.view(), map.light_buffer()),
         };
         Ok(Bound {
             map,
             sampler: &self.sampler,
-            lights,
+            lights: lights.as_entire_binding(),
             parameters: self.parameters.as_ref(),
             offsets: self.offsets.as_ref(),
         })
-    }
-
-    fn lights_of<'a>(
-        &self,
-        map: &'a CubeShadowMap,
-        light: usize,
-    ) -> Result<wgpu::BindingResource<'a>, PcfError> {
-        if map.encoding() != self.reads.encoding {
-            return Err(PcfError::Encoding {
-                map: map.encoding(),
-                sampler: self.reads.encoding,
-            });
-        }
-        match (self.reads.lights, map.all_lights()) {
-            (Lights::One, _) if light >= map.most_lights() => {
-                let lights = map.most_lights();
-                Err(PcfError::Light { light, lights })
-            }
-            (Lights::One, _) => Ok(map.light_uniform(light)),
-            (_, Some(lights)) => Ok(lights.as_entire_binding()),
-            (_, None) => Err(PcfError::NoCubeArray),
-        }
     }
 
     /// What a kernel reads beyond a map's reach may be out of date, or beside the map.
@@ -407,8 +358,8 @@ impl PcfSampler {
     /// Disks ([`Kernel::uses_pixel`]) take one more argument, `pixel: vec2f`: the x and y of
     /// `@builtin(position)`.
     ///
-    /// With `many_lights` both take the light's place in the frame first, as `light: u32`; of an atlas the
-    /// number that [`ShadowAtlas::light_index`](crate::ShadowAtlas::light_index) gives. For flat
+    /// For atlases both take the light first, as `light: u32`: the number that
+    /// [`ShadowAtlas::light_index`](crate::ShadowAtlas::light_index) gives. For flat
     /// maps the names begin with `shadows_flat_`: `shadows_flat_visibility` and
     /// `shadows_flat_visibility_flat`, so that a shader may hold a cube sampler's module and a flat
     /// one's.

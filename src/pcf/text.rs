@@ -246,10 +246,6 @@ pub(super) fn bindings(
     first_binding: u32,
 ) -> String {
     let function = kernel.map_or(TEXTBOOK_FUNCTION, Kernel::function);
-    let (index, light, element) = match own.lights() {
-        Lights::One => ("", "", ""),
-        _ => ("light: u32, ", "light, ", "[light]"),
-    };
     let takes_pixel = kernel.is_some_and(Kernel::uses_pixel);
     let extra = Extra::of(takes_pixel);
     let (parameter, pixel) = (extra.pixel_parameter, extra.pixel);
@@ -257,17 +253,17 @@ pub(super) fn bindings(
         false => "",
         true => ", shadows_kernel, shadows_offsets",
     };
-    let declarations = declarations(kernel, own.lights(), group, first_binding);
-    let derived = derived(kernel, &format!("shadows_light{element}"), light);
+    let declarations = declarations(kernel, Lights::One, group, first_binding);
+    let derived = derived(kernel, "shadows_light", "");
     own.adapt_module(&format!(
         "{declarations}
-fn shadows_visibility_flat({index}position: vec3f, normal: vec3f{parameter}) -> f32 {{
+fn shadows_visibility_flat(position: vec3f, normal: vec3f{parameter}) -> f32 {{
     return {function}(
-        shadows_map, shadows_map_sampler, shadows_light{element}{disk}, position, normal{pixel}
+        shadows_map, shadows_map_sampler, shadows_light{disk}, position, normal{pixel}
     );
 }}
 
-fn shadows_visibility({index}position: vec3f{parameter}) -> f32 {{
+fn shadows_visibility(position: vec3f{parameter}) -> f32 {{
     let x = dpdx(position);
     let y = dpdy(position);
 {derived}}}

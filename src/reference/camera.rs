@@ -33,6 +33,8 @@ pub(super) struct Camera {
     clips_far: bool,
     width: u32,
     height: u32,
+    /// The row that is asked for as 0.
+    first_row: u32,
 }
 
 impl Camera {
@@ -45,7 +47,13 @@ impl Camera {
             clips_far: view.depth().clips_far(),
             width,
             height,
+            first_row: 0,
         }
+    }
+
+    /// The same, with rows counted from this one.
+    pub(super) fn starting_at(self, first_row: u32) -> Self {
+        Self { first_row, ..self }
     }
 
     /// The ray through the centre of a pixel; `(0, 0)` is top left.
@@ -55,7 +63,8 @@ impl Camera {
     /// their quotient at the near plane is the direction, for either kind and either handedness.
     pub(super) fn ray(&self, x: u32, y: u32) -> PixelRay {
         let clip_x = (2.0 * f64::from(x) + 1.0) / f64::from(self.width) - 1.0;
-        let clip_y = 1.0 - (2.0 * f64::from(y) + 1.0) / f64::from(self.height);
+        let row = f64::from(y) + f64::from(self.first_row);
+        let clip_y = 1.0 - (2.0 * row + 1.0) / f64::from(self.height);
         let at = |z| self.world_from_clip * DVec4::new(clip_x, clip_y, z, 1.0);
         let near = at(self.near);
         let axis = self.world_from_clip.z_axis * (self.far - self.near);

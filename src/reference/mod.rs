@@ -50,9 +50,10 @@ mod map_rays;
 mod ray;
 mod survey;
 
+use crate::clock::Clock;
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -88,6 +89,8 @@ pub struct ReferenceObject<'a> {
 pub struct ReferenceScene {
     geometry: Geometry,
     progress: Option<Arc<dyn Fn(f64) + Send + Sync>>,
+    /// All, if `None`.
+    rows: Option<Range<u32>>,
 }
 
 impl ReferenceScene {
@@ -113,6 +116,7 @@ impl ReferenceScene {
         Ok(Self {
             geometry: Geometry::new(casting, others),
             progress: None,
+            rows: None,
         })
     }
 
@@ -137,6 +141,18 @@ impl ReferenceScene {
     #[must_use]
     pub fn with_progress(mut self, progress: impl Fn(f64) + Send + Sync + 'static) -> Self {
         self.progress = Some(Arc::new(progress));
+        self
+    }
+
+    /// The same scene, of whose pictures only these rows are computed, counted from the top: for a
+    /// picture that is made a few rows at a time, so that it can be given up in between. The image has
+    /// as many rows, and they are those of the whole picture. [`Interior`] looks one row further; take
+    /// one more on either side, if there is one, and ignore what is said of it.
+    ///
+    /// [`render`](Self::render) refuses rows that are none, or below the picture's last.
+    #[must_use]
+    pub fn with_rows(mut self, rows: Range<u32>) -> Self {
+        self.rows = Some(rows);
         self
     }
 
@@ -183,11 +199,16 @@ impl ReferenceScene {
         height: u32,
         lighting: Lighting,
     ) -> Result<ReferenceImage, ReferenceError> {
-        let start = Instant::now();
+        let start = Clock::start();
         if width == 0 || height == 0 {
             return Err(ReferenceError::Size { width, height });
         }
-        let camera = Camera::new(view, width, height);
+        let rows = self.rows.clone().unwrap_or(0..height);
+        if rows.is_empty() || rows.end > height {
+            return Err(ReferenceError::Rows { rows, height });
+        }
+        let count = rows.end - rows.start;
+        let camera = Camera::new(view, width, height).starting_at(rows.start);
         let done = AtomicUsize::new(0);
         let row = |y: u32| -> Vec<Pixel> {
             let pixels = (0..width)
@@ -195,17 +216,17 @@ impl ReferenceScene {
                 .collect();
             if let Some(progress) = &self.progress {
                 let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
-                progress(rows as f64 / f64::from(height));
+                progress(rows as f64 / f64::from(count));
             }
             pixels
         };
-        let pixels = (0..height).into_par_iter().map(row).flatten_iter();
+        let pixels = (0..count).into_par_iter().map(row).flatten_iter();
         Ok(ReferenceImage {
             geometry: self.geometry.clone(),
             camera,
             lighting,
             width,
-            height,
+            height: count,
             pixels: pixels.collect(),
             seconds: start.elapsed().as_secs_f64(),
             interiors: Default::default(),

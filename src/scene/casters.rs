@@ -93,8 +93,6 @@ pub(crate) struct Casters {
     replaced: Vec<(u32, Option<Record>)>,
     /// Counts the updates.
     frame: u64,
-    /// Whether the host is asked to draw what only it can.
-    asks_host: bool,
 }
 
 impl std::fmt::Debug for Casters {
@@ -106,14 +104,6 @@ impl std::fmt::Debug for Casters {
 }
 
 impl Casters {
-    /// Casters of a map that asks the host to draw what only it can. (Others, by default, refuse those.)
-    pub fn with_host_drawn() -> Self {
-        Self {
-            asks_host: true,
-            ..Self::default()
-        }
-    }
-
     pub fn records(&self) -> &[Record] {
         &self.records
     }
@@ -143,9 +133,6 @@ impl Casters {
         for (index, caster) in casters.iter().enumerate() {
             if self.compared.get(index) != Some(&Compared::of(caster)) {
                 caster.validate(index, device)?;
-                if caster.mesh.is_host_drawn() && !self.asks_host {
-                    return Err(CasterError::HostDrawn { index });
-                }
                 self.different.push(index as u32);
             }
         }

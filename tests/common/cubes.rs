@@ -8,13 +8,8 @@ use shadows::{
 use host::gpu::Gpu;
 
 /// A frame of a map, drawn; any validation error panics.
-pub fn draw(gpu: &Gpu, map: &mut CubeShadowMap, lights: &[PointLight], casters: &[Caster]) {
-    let frame = CubeFrame {
-        lights,
-        casters,
-        ..Default::default()
-    };
-    draw_frame(gpu, map, &frame);
+pub fn draw(gpu: &Gpu, map: &mut CubeShadowMap, light: PointLight, casters: &[Caster]) {
+    draw_frame(gpu, map, &CubeFrame::new(light, casters));
 }
 
 pub fn draw_frame(gpu: &Gpu, map: &mut CubeShadowMap, frame: &CubeFrame<'_>) {
@@ -28,21 +23,18 @@ pub fn draw_frame(gpu: &Gpu, map: &mut CubeShadowMap, frame: &CubeFrame<'_>) {
 pub fn fresh(
     gpu: &Gpu,
     descriptor: &CubeShadowMapDescriptor<'_>,
-    lights: &[PointLight],
+    light: PointLight,
     casters: &[Caster],
 ) -> CubeShadowMap {
     let mut map = gpu.checked(|| CubeShadowMap::new(&gpu.device, descriptor).unwrap());
-    draw(gpu, &mut map, lights, casters);
+    draw(gpu, &mut map, light, casters);
     map
 }
 
-/// The bytes of a light's six faces; none if it has no texels.
-pub fn faces(gpu: &Gpu, map: &CubeShadowMap, light: usize) -> Vec<Vec<u8>> {
-    let Some((texture, first)) = map.texture(light) else {
-        return Vec::new();
-    };
+/// The bytes of its six faces.
+pub fn faces(gpu: &Gpu, map: &CubeShadowMap) -> Vec<Vec<u8>> {
     CubeFace::ALL
         .into_iter()
-        .map(|face| gpu.read_texture(texture, first + face.layer(), wgpu::TextureAspect::All))
+        .map(|face| gpu.read_texture(map.texture(), face.layer(), wgpu::TextureAspect::All))
         .collect()
 }

@@ -13,6 +13,7 @@ pub const JOINED: &[&[&str]] = &[
     &["tile_fill"],
     BLOB_RECEIVER,
     BLOB_DECAL,
+    &["atlas_debug"],
     PULLED,
     PULLED_STEPS,
     RECORDS,

@@ -28,7 +28,6 @@ pub struct Way {
     pub name: &'static str,
     pub map: MapKind,
     pub encoding: DepthEncoding,
-    pub many_lights: bool,
     pub gather: Gather,
     /// Whether the device's samplers have borders.
     pub border: bool,
@@ -40,7 +39,6 @@ const CUBE: Way = Way {
     name: "cube",
     map: MapKind::Cube,
     encoding: DepthEncoding::MajorAxis,
-    many_lights: false,
     gather: Gather::Auto,
     border: false,
     flat_lights: FlatLights::Any,
@@ -84,19 +82,9 @@ const NO_KINDS: LightKinds = LightKinds {
 };
 
 /// All of them.
-pub const WAYS: [Way; 21] = [
+pub const WAYS: [Way; 17] = [
     CUBE,
     LINEAR,
-    Way {
-        name: "cube-array",
-        many_lights: true,
-        ..CUBE
-    },
-    Way {
-        name: "cube-linear-array",
-        many_lights: true,
-        ..LINEAR
-    },
     // Where gathers are not there, or wrong.
     Way {
         name: "cube-fetches",
@@ -106,18 +94,6 @@ pub const WAYS: [Way; 21] = [
     Way {
         name: "cube-linear-fetches",
         gather: Gather::Never,
-        ..LINEAR
-    },
-    Way {
-        name: "cube-array-fetches",
-        gather: Gather::Never,
-        many_lights: true,
-        ..CUBE
-    },
-    Way {
-        name: "cube-linear-array-fetches",
-        gather: Gather::Never,
-        many_lights: true,
         ..LINEAR
     },
     FLAT,
@@ -200,7 +176,6 @@ impl Way {
             kernel,
             map: self.map,
             encoding: self.encoding,
-            many_lights: self.many_lights,
             gather: self.gather,
             flat_lights: self.flat_lights,
             light_kinds: self.light_kinds,
@@ -242,26 +217,22 @@ pub fn samplers() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     WAYS.iter().flat_map(of).collect()
 }
 
-/// The textbook's, for one light and for several.
+/// The textbook's.
 pub fn textbooks() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     let (device, queue) = CUBE.device();
-    let of = |many_lights| {
-        let descriptor = PcfDescriptor {
-            kernel: Kernel::Hard,
-            encoding: DepthEncoding::LinearDistance,
-            textbook: true,
-            many_lights,
-            ..Default::default()
-        };
-        let sampler = made(&device, &queue, &descriptor);
-        (descriptor, sampler)
+    let descriptor = PcfDescriptor {
+        kernel: Kernel::Hard,
+        encoding: DepthEncoding::LinearDistance,
+        textbook: true,
+        ..Default::default()
     };
-    vec![of(false), of(true)]
+    let sampler = made(&device, &queue, &descriptor);
+    vec![(descriptor, sampler)]
 }
 
 /// Whether shaders name a light.
 pub fn takes_light(descriptor: &PcfDescriptor<'_>) -> bool {
-    descriptor.many_lights || descriptor.map == MapKind::Atlas
+    descriptor.map == MapKind::Atlas
 }
 
 /// A fragment shader that asks for the visibility at its position; `module` is what stands before

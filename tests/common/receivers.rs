@@ -47,7 +47,7 @@ pub fn pixel(i: usize) -> [f32; 2] {
     [(i % 64) as f32 + 0.5, (i / 64) as f32 + 0.5]
 }
 
-/// Visibility from one light of a map, by any sampler.
+/// Visibility from a map, or from one light of an atlas, by any sampler.
 pub fn ask<'a>(
     gpu: &Gpu,
     map: impl Into<AnyMap<'a>>,
@@ -68,10 +68,7 @@ pub fn ask_changed(
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
     let sampler = PcfSampler::new(&gpu.device, &gpu.queue, descriptor).unwrap();
-    let group = match map {
-        AnyMap::Cube(map) => sampler.bind_group_of(&gpu.device, map, light).unwrap(),
-        _ => sampler.bind_group(&gpu.device, map).unwrap(),
-    };
+    let group = sampler.bind_group(&gpu.device, map).unwrap();
     ask_group(gpu, (&sampler, &group), descriptor, light, points, change)
 }
 
@@ -85,10 +82,9 @@ pub fn ask_group(
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
     let device = &gpu.device;
-    let by_number = descriptor.many_lights || descriptor.map == MapKind::Atlas;
-    let call = match by_number {
-        false => "shadows_visibility_flat(".to_owned(),
-        true => format!("shadows_visibility_flat({light}u, "),
+    let call = match descriptor.map {
+        MapKind::Atlas => format!("shadows_visibility_flat({light}u, "),
+        _ => "shadows_visibility_flat(".to_owned(),
     };
     let pixel_argument = if sampler.takes_pixel() { ", pixel" } else { "" };
     let shader = SHADER

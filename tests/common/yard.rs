@@ -77,11 +77,7 @@ impl Yard {
             ..Default::default()
         };
         let mut map = CubeShadowMap::new(device, &descriptor).unwrap();
-        let frame = CubeFrame {
-            lights: &[PointLight::new(LIGHT, 30.0)],
-            casters: &self.casters,
-            ..Default::default()
-        };
+        let frame = CubeFrame::new(PointLight::new(LIGHT, 30.0), &self.casters);
         map.prepare(device, queue, &frame).unwrap();
         self.gpu.run(|encoder| map.encode(encoder));
         map

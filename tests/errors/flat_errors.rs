@@ -189,6 +189,5 @@ fn a_sampler_refuses_the_other_kind_of_map() {
         given: MapKind::Cube,
     };
     assert_eq!(for_flats.bind_group(&device, &cube).unwrap_err(), expected);
-    assert!(for_flats.bind_group_of(&device, &cube, 0).is_err());
     assert!(for_flats.bind_group(&device, &flat).is_ok());
 }

@@ -1,8 +1,8 @@
 //! Bad input, and what a map decides on the CPU: by wgpu's own validation, without a driver.
 
+mod atlas_culling;
 #[path = "../common/mod.rs"]
 mod common;
-mod cube_culling;
 mod cube_errors;
 mod flat_errors;
 mod found_by_fuzzing;

@@ -208,13 +208,6 @@ fn settings_that_would_have_no_effect_are_refused() {
     assert_eq!(made(&flat), Ok(()));
     for (setting, cubes_only) in [
         (
-            "many_lights",
-            PcfDescriptor {
-                many_lights: true,
-                ..flat.clone()
-            },
-        ),
-        (
             "textbook",
             PcfDescriptor {
                 textbook: true,
@@ -303,7 +296,6 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
         let (cube, flat) = (cube(reach.unwrap_or(usual)), flat(reach.unwrap_or(usual)));
         let results = [
             of(MapKind::Cube).bind_group(&device, &cube).map(drop),
-            of(MapKind::Cube).bind_group_of(&device, &cube, 0).map(drop),
             of(MapKind::Flat).bind_group(&device, &flat).map(drop),
         ];
         assert!(results.iter().all(|result| *result == results[0]));
@@ -354,20 +346,4 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
     for part in ["Texels(12.0)", "Texels(8.0)", "reach: Radius::Texels(12.0)"] {
         assert!(told.contains(part), "{told}");
     }
-}
-
-#[test]
-fn a_light_that_a_map_has_no_place_for_is_refused() {
-    let (device, queue) = noop();
-    let sampler = PcfSampler::new(&device, &queue, &PcfDescriptor::default()).unwrap();
-    let descriptor = CubeShadowMapDescriptor {
-        lights: 2,
-        ..Default::default()
-    };
-    let map = CubeShadowMap::new(&device, &descriptor).unwrap();
-    let of = |light| sampler.bind_group_of(&device, &map, light).map(drop);
-    for light in [2, usize::MAX] {
-        assert_eq!(of(light), Err(PcfError::Light { light, lights: 2 }));
-    }
-    assert_eq!(of(1), Ok(()));
 }

@@ -1,8 +1,9 @@
 //! Depth on GL, where clip z becomes `2 z - w`: maps hold what they hold elsewhere.
 
 use shadows::glam::{Affine3A, Quat, Vec3};
+use shadows::mesh::Bounds;
 use shadows::{
-    Allocation, Bias, Caster, CubeFace, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
+    Bias, Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
     FlatLight, Kernel, MapKind, PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap,
     ShadowMapDescriptor, SpotLight,
 };
@@ -49,27 +50,39 @@ impl Ground {
             size: SIZE,
             encoding,
             bias,
-            allocation: Allocation::AtOnce,
             ..Default::default()
         };
-        crate::cubes::fresh(gpu, &descriptor, &[self.light], &[self.caster(gpu)])
+        crate::cubes::fresh(gpu, &descriptor, self.light, &[self.caster(gpu)])
     }
 
     /// The broken twin: drawn by a host that leaves depth to the rasteriser.
     fn map_of_a_host(&self, gpu: &Gpu) -> CubeShadowMap {
-        let mut map = self.map(gpu, DepthEncoding::MajorAxis);
-        let indices = self.shape.indices.iter();
-        let corners: Vec<Vec3> = indices
-            .map(|&i| {
-                self.turn
-                    .transform_point3(self.shape.positions[i as usize].into())
-            })
+        let corners: Vec<Vec3> = (self.shape.indices.iter())
+            .map(|&i| self.shape.positions[i as usize].into())
+            .map(|corner| self.turn.transform_point3(corner))
             .collect();
-        for face in CubeFace::ALL {
-            let matrix = map.clip_from_world(0, face).unwrap();
-            let own = OwnPass::new(&gpu.device, &matrix, &corners);
-            gpu.run(|encoder| own.draw(&mut map.begin_face(encoder, 0, face).unwrap()));
+        let mut bounds = Bounds {
+            min: corners[0],
+            max: corners[0],
+        };
+        for corner in &corners {
+            bounds.min = bounds.min.min(*corner);
+            bounds.max = bounds.max.max(*corner);
         }
+        let mesh = CasterMesh::host_drawn(&gpu.device, bounds, corners.len() as u32 / 3).unwrap();
+        let casters = [Caster::new(mesh, Affine3A::IDENTITY)];
+        let descriptor = CubeShadowMapDescriptor {
+            size: SIZE,
+            ..Default::default()
+        };
+        let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
+        let frame = CubeFrame::new(self.light, &casters);
+        map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+        gpu.run(|encoder| {
+            map.encode_with(encoder, |pass, asked| {
+                OwnPass::new(&gpu.device, &asked.clip_from_world, &corners).draw(pass);
+            });
+        });
         map
     }
 

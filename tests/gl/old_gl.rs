@@ -116,7 +116,7 @@ fn all(gpu: &Gpu, shift: f32) -> Vec<(String, Vec<u8>)> {
         near,
         ..PointLight::new(at, 30.0)
     };
-    let cube = crate::cubes::fresh(gpu, &descriptor, &[point], &casters);
+    let cube = crate::cubes::fresh(gpu, &descriptor, point, &casters);
     let spot = FlatLight::Spot(SpotLight {
         near,
         ..SpotLight::new(at, Vec3::NEG_Y, std::f32::consts::FRAC_PI_4, 30.0)

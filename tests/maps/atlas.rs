@@ -82,18 +82,11 @@ fn own_maps(gpu: &Gpu, light: Light, tile: &AtlasTile, casters: &[Caster]) -> Ve
                 ..Default::default()
             };
             let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-            let frame = CubeFrame {
-                lights: &[light],
-                casters,
-                ..Default::default()
-            };
+            let frame = CubeFrame::new(light, casters);
             map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
             gpu.run(|encoder| map.encode(encoder));
-            let Some((texture, first)) = map.texture(0) else {
-                return Vec::new();
-            };
             let face = |face: CubeFace| {
-                let bytes = gpu.read_texture(texture, first + face.layer(), whole);
+                let bytes = gpu.read_texture(map.texture(), face.layer(), whole);
                 bytemuck::pod_collect_to_vec(&bytes)
             };
             CubeFace::ALL.map(face).into()

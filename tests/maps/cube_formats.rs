@@ -95,12 +95,7 @@ fn every_encoding_in_every_format_shadows_what_rays_do() {
     let shell = shell(&gpu);
     for format in FORMATS {
         for encoding in ENCODINGS {
-            let map = fresh(
-                &gpu,
-                &descriptor(format, encoding),
-                &[light()],
-                &shell.casters,
-            );
+            let map = fresh(&gpu, &descriptor(format, encoding), light(), &shell.casters);
             let narrow = |kernel: &Kernel| !matches!(kernel, Kernel::ContactHardening(_));
             let read = Kernel::ALL
                 .into_iter()
@@ -114,7 +109,7 @@ fn every_encoding_in_every_format_shadows_what_rays_do() {
                 );
             }
             let fewer = &shell.casters[..50];
-            let twin = fresh(&gpu, &descriptor(format, encoding), &[light()], fewer);
+            let twin = fresh(&gpu, &descriptor(format, encoding), light(), fewer);
             let seen = visibility(&gpu, &twin, Kernel::Hard, &shell.points);
             assert!(
                 wrong(&seen, &shell.lit) > 20,
@@ -152,7 +147,7 @@ fn no_encoding_in_any_format_shows_acne_on_a_flat_receiver() {
                     bias,
                     ..descriptor(format, encoding)
                 };
-                let map = fresh(&gpu, &descriptor, &[light()], std::slice::from_ref(&caster));
+                let map = fresh(&gpu, &descriptor, light(), std::slice::from_ref(&caster));
                 visibility(&gpu, &map, Kernel::FourTaps, &points)
             };
             let dark = |seen: Vec<f32>| seen.iter().filter(|&&v| v < 1.0).count();
@@ -176,8 +171,8 @@ fn texels_hold_what_the_encoding_says() {
             size: 64,
             ..descriptor(Depth32Float, encoding)
         };
-        let map = fresh(&gpu, &descriptor, &[light()], std::slice::from_ref(&floor));
-        let texels: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map, 0)[3]);
+        let map = fresh(&gpu, &descriptor, light(), std::slice::from_ref(&floor));
+        let texels: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map)[3]);
         (texels, map)
     };
     let (major, _) = read(DepthEncoding::MajorAxis);
@@ -188,7 +183,7 @@ fn texels_hold_what_the_encoding_says() {
         assert!((major - 1.0 / 3.0).abs() < 1e-6, "{major}");
         assert!((linear - 3.0 * slant / RANGE).abs() < 1e-6, "{linear}");
     }
-    let up: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map, 0)[2]);
+    let up: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map)[2]);
     assert!(up.iter().all(|&depth| depth == 1.0), "nothing stored is 1");
 }
 
@@ -200,7 +195,7 @@ fn the_textbook_method_is_a_preset() {
         size: 256,
         ..CubeShadowMapDescriptor::textbook()
     };
-    let map = fresh(&gpu, &textbook, &[light()], &shell.casters);
+    let map = fresh(&gpu, &textbook, light(), &shell.casters);
     // Six passes, each with every caster.
     assert_eq!(map.statistics().faces_rendered, 6);
     assert_eq!(map.statistics().triangles, 6 * 60 * 12);
@@ -235,10 +230,10 @@ fn the_textbook_method_is_a_preset() {
         })
         .collect();
     let lit = |seen: Vec<f32>| seen.iter().filter(|&&v| v > 0.5).count();
-    let theirs = fresh(&gpu, &textbook, &[light()], &sheets[..1]);
+    let theirs = fresh(&gpu, &textbook, light(), &sheets[..1]);
     assert_eq!(lit(ask(&gpu, &theirs, &reader, 0, &near[..1])), 1);
     let ours = descriptor(Depth32Float, DepthEncoding::MajorAxis);
-    let ours = fresh(&gpu, &ours, &[light()], &sheets[..1]);
+    let ours = fresh(&gpu, &ours, light(), &sheets[..1]);
     assert_eq!(lit(visibility(&gpu, &ours, Kernel::Hard, &near[..1])), 0);
 }
 
@@ -266,8 +261,8 @@ fn closed_meshes_may_cast_from_their_far_sides_mirrored_ones_too() {
             ..Default::default()
         };
         let casters = [Caster::new(mesh.clone(), transform)];
-        let map = fresh(&gpu, &descriptor, &[light()], &casters);
-        let texels: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map, 0)[0]);
+        let map = fresh(&gpu, &descriptor, light(), &casters);
+        let texels: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map)[0]);
         1.0 / texels[33 * 33 / 2]
     };
     for mirror in [1.0, -1.0] {
@@ -297,8 +292,8 @@ fn a_slope_scaled_bias_moves_slopes_away_and_nothing_else() {
             bias,
             ..Default::default()
         };
-        let map = fresh(&gpu, &descriptor, &[light()], &[caster]);
-        let texels: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map, 0)[0]);
+        let map = fresh(&gpu, &descriptor, light(), &[caster]);
+        let texels: Vec<f32> = bytemuck::pod_collect_to_vec(&faces(&gpu, &map)[0]);
         1.0 / texels[33 * 33 / 2]
     };
     let upright = std::f32::consts::FRAC_PI_2;
@@ -325,8 +320,8 @@ fn nearest_sides(gpu: &Gpu, sides: CasterSides, shape: &Shape, light: PointLight
         sides,
         ..Default::default()
     };
-    let map = fresh(gpu, &descriptor, &[light], &casters);
-    faces(gpu, &map, 0)
+    let map = fresh(gpu, &descriptor, light, &casters);
+    faces(gpu, &map)
         .iter()
         .flat_map(|face| bytemuck::pod_collect_to_vec::<u8, f32>(face))
         .collect()

@@ -21,19 +21,14 @@ fn map(gpu: &Gpu, size: u32) -> CubeShadowMap {
 
 fn draw(gpu: &Gpu, map: &mut CubeShadowMap, light: &PointLight, casters: &[Caster]) {
     gpu.checked(|| {
-        let frame = CubeFrame {
-            lights: std::slice::from_ref(light),
-            casters,
-            ..Default::default()
-        };
+        let frame = CubeFrame::new(*light, casters);
         map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
         gpu.run(|encoder| map.encode(encoder));
     });
 }
 
 fn texels(gpu: &Gpu, map: &CubeShadowMap, face: CubeFace) -> Vec<f32> {
-    let (texture, first) = map.texture(0).unwrap();
-    let bytes = gpu.read_texture(texture, first + face.layer(), wgpu::TextureAspect::All);
+    let bytes = gpu.read_texture(map.texture(), face.layer(), wgpu::TextureAspect::All);
     bytemuck::pod_collect_to_vec(&bytes)
 }
 
@@ -70,7 +65,7 @@ fn wrong_share(gpu: &Gpu, map: &CubeShadowMap, light: &PointLight, truth: &Trian
     let size = map.size();
     let (mut wrong, snapped) = (0, snapped(gpu));
     for face in CubeFace::ALL {
-        let near = f64::from(map.clip_from_world(0, face).unwrap().w_axis.z);
+        let near = f64::from(map.clip_from_world(face).unwrap().w_axis.z);
         let stored = texels(gpu, map, face);
         for (i, &depth) in stored.iter().enumerate() {
             let (x, y) = (i as u32 % size, i as u32 / size);
@@ -237,55 +232,10 @@ fn a_clear_that_was_prepared_but_not_encoded_is_not_lost() {
     let mut map = map(&gpu, 32);
     let caster = cuboid(Vec3::ONE).caster(&gpu.device, Affine3A::from_translation(Vec3::X * 5.0));
     draw(&gpu, &mut map, &light, &[caster]);
-    let frame = CubeFrame {
-        lights: &[light],
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(light, &[]);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     gpu.run(|encoder| map.encode(encoder));
     let right = texels(&gpu, &map, CubeFace::PositiveX);
     assert!(right.iter().all(|&depth| depth == 0.0));
-}
-
-#[test]
-fn a_host_draws_its_own_geometry_through_begin_face() {
-    let Some(gpu) = Gpu::for_test() else { return };
-    let light = PointLight::new(Vec3::new(1.0, 2.0, 3.0), 40.0);
-    let shape = sphere(6, 9);
-    let transform = Affine3A::from_translation(Vec3::new(1.3, -3.0, 3.2));
-    let casters = [shape.caster(&gpu.device, transform)];
-    let mut map = map(&gpu, 64);
-    draw(&gpu, &mut map, &light, &casters);
-    let ours = texels(&gpu, &map, CubeFace::NegativeY);
-    let matrix = map.clip_from_world(0, CubeFace::NegativeY).unwrap();
-
-    let positions: Vec<Vec3> = shape
-        .indices
-        .iter()
-        .map(|&i| transform.transform_point3(shape.positions[i as usize].into()))
-        .collect();
-    let host = crate::common::own_pass::OwnPass::new(&gpu.device, &matrix, &positions);
-    gpu.checked(|| {
-        gpu.run(|encoder| {
-            let mut pass = map.begin_face(encoder, 0, CubeFace::NegativeY).unwrap();
-            host.draw(&mut pass);
-        });
-    });
-    let theirs = texels(&gpu, &map, CubeFace::NegativeY);
-    let differ = |a: &[f32], b: &[f32]| {
-        a.iter()
-            .zip(b)
-            .filter(|(a, b)| (*a - *b).abs() > 1e-5 * b.abs())
-            .count()
-    };
-    assert!(ours.iter().filter(|&&d| d > 0.0).count() > 100);
-    // Another order of multiplication may move an outline by a texel here and there.
-    assert!(differ(&ours, &theirs) <= 4, "{}", differ(&ours, &theirs));
-    // The broken twin: the face cleared by the host and nothing drawn.
-    gpu.run(|encoder| drop(map.begin_face(encoder, 0, CubeFace::NegativeY)));
-    assert!(differ(&ours, &texels(&gpu, &map, CubeFace::NegativeY)) > 100);
-    // And the map knows that the face holds something now: with no caster left it is cleared.
-    draw(&gpu, &mut map, &light, &[]);
-    assert_eq!(map.statistics().faces_rendered, 1);
 }

@@ -11,8 +11,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use shadows::error::CubeShadowMapError;
 use shadows::{
-    Caster, CasterMesh, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
-    Kernel, PointLight, StaticLayers, glam, wgpu,
+    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel,
+    PointLight, StaticLayers, glam, wgpu,
 };
 
 const SIZE: u32 = 24;
@@ -63,11 +63,9 @@ enum Step {
     Add(usize, Vec3),
     Remove(usize),
     Swap(usize, usize),
-    Light(usize, Vec3),
-    LightsComeAndGo,
-    LightsTurn,
+    Light(Vec3),
     Deform(f32),
-    OwnPass(usize),
+    Invalidate,
     Unencoded,
 }
 
@@ -82,11 +80,9 @@ fn step() -> impl Strategy<Value = Step> {
         1 => (0..3usize, place()).prop_map(|(i, p)| Step::Add(i, p)),
         1 => (0..16usize).prop_map(Step::Remove),
         1 => (0..16usize, 0..16usize).prop_map(|(i, j)| Step::Swap(i, j)),
-        1 => (0..2usize, place()).prop_map(|(i, p)| Step::Light(i, p * 0.2)),
-        1 => Just(Step::LightsComeAndGo),
-        1 => Just(Step::LightsTurn),
+        1 => place().prop_map(|p| Step::Light(p * 0.2)),
         1 => (5..30i32).prop_map(|f| Step::Deform(f as f32 * 0.1)),
-        1 => (0..6usize).prop_map(Step::OwnPass),
+        1 => Just(Step::Invalidate),
         1 => Just(Step::Unencoded),
     ]
 }
@@ -96,7 +92,7 @@ struct Stage<'a> {
     gpu: &'a Gpu,
     meshes: [CasterMesh; 3],
     deformed: &'a Deformed,
-    lights: Vec<PointLight>,
+    light: PointLight,
     casters: Vec<Caster>,
     maps: Vec<CubeShadowMap>,
 }
@@ -115,31 +111,16 @@ impl Stage<'_> {
             Step::Add(i, p) => self.casters.push(at(&self.meshes[i], p)),
             Step::Remove(i) if !self.casters.is_empty() => drop(self.casters.remove(i % count)),
             Step::Swap(i, j) if !self.casters.is_empty() => self.casters.swap(i % count, j % count),
-            Step::Light(i, p) => {
-                let count = self.lights.len();
-                self.lights[i % count].position = p;
-            }
-            Step::LightsComeAndGo if self.lights.len() > 1 => drop(self.lights.remove(0)),
-            Step::LightsComeAndGo => self.lights.push(light_at(Vec3::new(1.0, 0.5, -0.5))),
-            Step::LightsTurn => self.lights.reverse(),
+            Step::Light(p) => self.light.position = p,
             Step::Deform(factor) => {
                 self.deformed.deform(self.gpu, factor);
                 self.deformed.mesh.bump_revision();
             }
-            Step::OwnPass(face) => {
-                for map in &mut self.maps {
-                    self.gpu
-                        .run(|encoder| drop(map.begin_face(encoder, 0, CubeFace::ALL[face])));
-                }
-            }
+            Step::Invalidate => self.maps.iter_mut().for_each(CubeShadowMap::invalidate),
             Step::Unencoded => {
                 self.stir(3);
                 for map in &mut self.maps {
-                    let frame = CubeFrame {
-                        lights: &self.lights,
-                        casters: &self.casters,
-                        ..Default::default()
-                    };
+                    let frame = CubeFrame::new(self.light, &self.casters);
                     map.prepare(&self.gpu.device, &self.gpu.queue, &frame)
                         .unwrap();
                 }
@@ -157,12 +138,11 @@ impl Stage<'_> {
     }
 
     /// Draws a frame of every map: what their texels are, and how many faces were copied.
-    fn draw(&mut self, bytes: impl Fn(&CubeShadowMap, usize) -> Vec<Vec<u8>>) -> Frame {
+    fn draw(&mut self, bytes: impl Fn(&CubeShadowMap) -> Vec<Vec<u8>>) -> Frame {
         let mut frame = Frame::default();
         for map in &mut self.maps {
-            draw(self.gpu, map, &self.lights, &self.casters);
-            let texels = (0..self.lights.len()).map(|place| bytes(map, place));
-            frame.texels.push(texels.collect());
+            draw(self.gpu, map, self.light, &self.casters);
+            frame.texels.push(bytes(map));
             frame.copied.push(map.statistics().faces_copied);
         }
         frame
@@ -171,7 +151,7 @@ impl Stage<'_> {
 
 #[derive(Default)]
 struct Frame {
-    texels: Vec<Vec<Vec<Vec<u8>>>>,
+    texels: Vec<Vec<Vec<u8>>>,
     copied: Vec<u32>,
 }
 
@@ -180,7 +160,7 @@ fn sequences(
     gpu: &Gpu,
     cases: u32,
     descriptor: &CubeShadowMapDescriptor<'_>,
-    bytes: impl Fn(&CubeShadowMap, usize) -> Vec<Vec<u8>>,
+    bytes: impl Fn(&CubeShadowMap) -> Vec<Vec<u8>>,
 ) -> [u32; 2] {
     let deformed = Deformed::new(gpu);
     let mut runner = TestRunner::new(Config {
@@ -214,7 +194,7 @@ fn sequences(
             ],
             meshes,
             deformed: &deformed,
-            lights: vec![light_at(Vec3::ZERO)],
+            light: light_at(Vec3::ZERO),
             maps: modes.map(map).into(),
         };
         // Whatever else comes, something is stirred for so long that the rest gets a layer.
@@ -238,31 +218,12 @@ fn sequences(
     copied.get()
 }
 
-/// Maps of two lights in every arrangement.
-fn two_lights() -> impl Iterator<Item = CubeShadowMapDescriptor<'static>> {
-    [false, true]
-        .into_iter()
-        .map(|cube_array| CubeShadowMapDescriptor {
-            lights: 2,
-            cube_array,
-            ..descriptor(StaticLayers::Never)
-        })
-}
-
 #[test]
 fn layers_change_no_bit() {
     let Some(gpu) = Gpu::for_test() else { return };
-    for descriptor in two_lights() {
-        for max_faces_per_frame in [None, Some(2)] {
-            let descriptor = CubeShadowMapDescriptor {
-                max_faces_per_frame,
-                ..descriptor.clone()
-            };
-            let read = |map: &CubeShadowMap, place| faces(&gpu, map, place);
-            let [auto, always] = sequences(&gpu, 16, &descriptor, read);
-            assert!(auto >= 16 && always >= auto, "{auto} and {always} copies");
-        }
-    }
+    let read = |map: &CubeShadowMap| faces(&gpu, map);
+    let [auto, always] = sequences(&gpu, 48, &descriptor(StaticLayers::Never), read);
+    assert!(auto >= 48 && always >= auto, "{auto} and {always} copies");
 }
 
 #[test]
@@ -284,23 +245,14 @@ fn layers_change_no_bit_in_any_encoding_and_format() {
                 ..descriptor(StaticLayers::Never)
             };
             // `Depth24Plus` cannot be read back: it is asked for what receivers see of it.
-            let read = |map: &CubeShadowMap, place| match format {
-                wgpu::TextureFormat::Depth24Plus if place > 0 => Vec::new(),
+            let read = |map: &CubeShadowMap| match format {
                 wgpu::TextureFormat::Depth24Plus => {
                     let seen = visibility(&gpu, map, Kernel::FourTaps, &points);
                     vec![bytemuck::pod_collect_to_vec(&seen)]
                 }
-                _ => faces(&gpu, map, place),
+                _ => faces(&gpu, map),
             };
-            let [_, always] = sequences(
-                &gpu,
-                3,
-                &CubeShadowMapDescriptor {
-                    lights: 2,
-                    ..descriptor
-                },
-                read,
-            );
+            let [_, always] = sequences(&gpu, 3, &descriptor, read);
             assert!(always >= 3, "{always} copies, {format:?} {encoding:?}");
         }
     }
@@ -312,13 +264,13 @@ fn a_layer_that_is_not_drawn_again_is_the_broken_twin() {
     let deformed = Deformed::new(&gpu);
     let mut casters = surroundings(&gpu);
     casters.insert(0, at(&deformed.mesh, Vec3::new(6.0, 1.0, 0.0)));
-    let lights = [light_at(Vec3::ZERO)];
+    let light = light_at(Vec3::ZERO);
     let mut maps = [StaticLayers::Never, ALWAYS]
         .map(|mode| CubeShadowMap::new(&gpu.device, &descriptor(mode)).unwrap());
     let mut alike = |casters: &[Caster]| {
         let [whole, layered] = maps.each_mut().map(|map| {
-            draw(&gpu, map, &lights, casters);
-            faces(&gpu, map, 0)
+            draw(&gpu, map, light, casters);
+            faces(&gpu, map)
         });
         whole == layered
     };
@@ -337,12 +289,12 @@ fn a_layer_that_is_not_drawn_again_is_the_broken_twin() {
 fn still_casters_are_copied_under_one_that_moves() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut casters = surroundings(&gpu);
-    let lights = [light_at(Vec3::ZERO)];
+    let light = light_at(Vec3::ZERO);
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor(StaticLayers::Auto)).unwrap();
     let mut statistics = Vec::new();
     for frame in 0..6 {
         move_last(&mut casters, frame);
-        draw(&gpu, &mut map, &lights, &casters);
+        draw(&gpu, &mut map, light, &casters);
         statistics.push(map.statistics());
     }
     let of = |what: fn(&shadows::CubeStatistics) -> u32| -> Vec<u32> {
@@ -362,18 +314,15 @@ fn still_casters_are_copied_under_one_that_moves() {
 
     // The order of the host's list means nothing.
     casters.rotate_left(3);
-    draw(&gpu, &mut map, &lights, &casters);
+    draw(&gpu, &mut map, light, &casters);
     assert_eq!(map.statistics().faces_rendered, 0);
     casters.rotate_right(3);
     move_last(&mut casters, 6);
-    draw(&gpu, &mut map, &lights, &casters);
+    draw(&gpu, &mut map, light, &casters);
     assert_eq!(map.statistics().faces_copied, 1);
-    // Layers go with the lights.
-    draw(&gpu, &mut map, &[], &casters);
-    assert!(map.statistics().bytes < layer + 6 * 1024);
-    let truth = fresh(&gpu, &descriptor(StaticLayers::Never), &lights, &casters);
-    draw(&gpu, &mut map, &lights, &casters);
-    assert_eq!(faces(&gpu, &map, 0), faces(&gpu, &truth, 0));
+    let truth = fresh(&gpu, &descriptor(StaticLayers::Never), light, &casters);
+    draw(&gpu, &mut map, light, &casters);
+    assert_eq!(faces(&gpu, &map), faces(&gpu, &truth));
 }
 
 #[test]
@@ -402,11 +351,7 @@ fn scenes_that_have_no_use_for_layers_get_none() {
         let mut copied = 0;
         for frame in 0..8 {
             change(&mut casters, frame);
-            let frame = CubeFrame {
-                lights: &[light_at(Vec3::ZERO)],
-                casters: &casters,
-                ..Default::default()
-            };
+            let frame = CubeFrame::new(light_at(Vec3::ZERO), &casters);
             draw_frame(&gpu, &mut map, &frame);
             copied += map.statistics().faces_copied;
         }
@@ -433,7 +378,7 @@ fn layers_are_refused_where_depth_cannot_be_copied() {
     let mut casters = surroundings(&gl);
     for frame in 0..5 {
         move_last(&mut casters, frame);
-        draw(&gl, &mut map, &[light_at(Vec3::ZERO)], &casters);
+        draw(&gl, &mut map, light_at(Vec3::ZERO), &casters);
         assert_eq!(map.statistics().faces_copied, 0);
     }
 }

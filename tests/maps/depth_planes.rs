@@ -70,11 +70,11 @@ fn measure(gpu: &Gpu, floor: &Floor, farther: f64) -> Error {
         near: Some(floor.near),
         ..PointLight::new(up, 200.0)
     };
-    let map = crate::cubes::fresh(gpu, &descriptor, &[light], &[caster]);
+    let map = crate::cubes::fresh(gpu, &descriptor, light, &[caster]);
     let mut error = Error::default();
     for (face, bytes) in CubeFace::ALL
         .into_iter()
-        .zip(crate::cubes::faces(gpu, &map, 0))
+        .zip(crate::cubes::faces(gpu, &map))
     {
         let stored: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes);
         for (i, &depth) in stored.iter().enumerate() {
@@ -169,8 +169,8 @@ fn off_the_rays(gpu: &Gpu, size: u32, farther: f64) -> f64 {
     let turn = Quat::from_rotation_y(0.2);
     let caster = square(5.0).caster(&gpu.device, Affine3A::from_quat(turn));
     let light = PointLight::new(Vec3::Y, range);
-    let map = crate::cubes::fresh(gpu, &descriptor, &[light], &[caster]);
-    let below = &crate::cubes::faces(gpu, &map, 0)[CubeFace::NegativeY.layer() as usize];
+    let map = crate::cubes::fresh(gpu, &descriptor, light, &[caster]);
+    let below = &crate::cubes::faces(gpu, &map)[CubeFace::NegativeY.layer() as usize];
     let stored: Vec<f32> = bytemuck::pod_collect_to_vec(below);
     let at = |place: u32| (f64::from(place) + 0.5) * 2.0 / f64::from(size) - 1.0;
     (0..)

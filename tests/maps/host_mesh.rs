@@ -173,7 +173,7 @@ fn flat(gpu: &Gpu, light: FlatLight, casters: &[Caster]) -> Vec<u8> {
 
 /// All texels of a point light, a spot and a directional light.
 fn texels(gpu: &Gpu, casters: &[Caster]) -> Vec<Vec<u8>> {
-    let mut all = faces(gpu, &fresh(gpu, &cube_descriptor(), &[LIGHT], casters), 0);
+    let mut all = faces(gpu, &fresh(gpu, &cube_descriptor(), LIGHT, casters));
     let spot = SpotLight::new(LIGHT.position, Vec3::X, 0.7, 40.0);
     all.push(flat(gpu, spot.into(), casters));
     let sun = DirectionalLight::new(Vec3::new(1.0, 2.0, 3.0));
@@ -219,17 +219,17 @@ fn what_the_host_deforms_is_drawn_again_when_it_says_so() {
     let buffers = Buffers::new(&gpu.device, &shape, LAYOUTS[0]);
     let mesh = CasterMesh::from_host(&gpu.device, &buffers.host_mesh()).unwrap();
     let casters = placed(&mesh);
-    let mut map = fresh(&gpu, &cube_descriptor(), &[LIGHT], &casters);
-    let before = faces(&gpu, &map, 0);
+    let mut map = fresh(&gpu, &cube_descriptor(), LIGHT, &casters);
+    let before = faces(&gpu, &map);
     let moved: Vec<[f32; 3]> = shape.positions.iter().map(|p| p.map(|x| 2.0 * x)).collect();
     gpu.queue
         .write_buffer(&buffers.vertices, 0, bytemuck::cast_slice(&moved));
-    draw(&gpu, &mut map, &[LIGHT], &casters);
+    draw(&gpu, &mut map, LIGHT, &casters);
     assert_eq!(map.statistics().faces_rendered, 0, "the map cannot know");
     mesh.bump_revision();
-    draw(&gpu, &mut map, &[LIGHT], &casters);
+    draw(&gpu, &mut map, LIGHT, &casters);
     assert!(map.statistics().faces_rendered > 0);
-    assert!(faces(&gpu, &map, 0) != before);
+    assert!(faces(&gpu, &map) != before);
 }
 
 #[test]

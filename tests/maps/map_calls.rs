@@ -63,11 +63,7 @@ impl Map {
         let (device, queue) = (&gpu.device, &gpu.queue);
         match self {
             Self::Cube(map) => {
-                let frame = CubeFrame {
-                    lights: &[PointLight::new(stage.light, 20.0)],
-                    casters: &stage.casters,
-                    ..Default::default()
-                };
+                let frame = CubeFrame::new(PointLight::new(stage.light, 20.0), &stage.casters);
                 map.prepare(device, queue, &frame).unwrap();
                 let s = map.statistics();
                 Said {
@@ -115,7 +111,7 @@ impl Map {
 
     fn texels(&self, gpu: &Gpu) -> Vec<Vec<u8>> {
         match self {
-            Self::Cube(map) => faces(gpu, map, 0),
+            Self::Cube(map) => faces(gpu, map),
             Self::Flat(map) => {
                 vec![gpu.read_texture(map.texture(), 0, wgpu::TextureAspect::DepthOnly)]
             }

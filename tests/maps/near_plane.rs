@@ -129,7 +129,7 @@ fn cube(
         format,
         ..Default::default()
     };
-    fresh(gpu, &descriptor, &[lamp.point(near)], &lamp.casters)
+    fresh(gpu, &descriptor, lamp.point(near), &lamp.casters)
 }
 
 fn flat(gpu: &Gpu, lamp: &Lamp, near: Option<f32>, format: TextureFormat) -> ShadowMap {
@@ -242,7 +242,7 @@ fn a_tiny_near_plane_costs_floats_not_a_digit() {
     let float = (DepthEncoding::MajorAxis, TextureFormat::Depth32Float);
     let texels = |near| -> Vec<f32> {
         let map = cube(&gpu, &lamp, near, float);
-        let faces = faces(&gpu, &map, 0);
+        let faces = faces(&gpu, &map);
         faces
             .iter()
             .flat_map(|face| bytemuck::pod_collect_to_vec::<u8, f32>(face))
@@ -315,7 +315,7 @@ fn a_floor_just_below_a_light_has_no_acne() {
                 bias,
                 ..Default::default()
             };
-            let map = fresh(&gpu, &descriptor, &[lamp.point(None)], &lamp.casters);
+            let map = fresh(&gpu, &descriptor, lamp.point(None), &lamp.casters);
             // Wider kernels take the floor for its own caster where it grazes the light so: `Kernel`.
             [Kernel::Hard, Kernel::Bilinear]
                 .map(|kernel| {

@@ -117,11 +117,7 @@ fn own(gpu: &Gpu, light: Light, kernel: Kernel, room: &Room) -> Vec<f32> {
                 ..Default::default()
             };
             let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-            let frame = CubeFrame {
-                lights: &[light],
-                casters: &room.casters,
-                ..Default::default()
-            };
+            let frame = CubeFrame::new(light, &room.casters);
             map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
             gpu.run(|encoder| map.encode(encoder));
             crate::receivers::visibility(gpu, &map, kernel, &room.points)

@@ -16,7 +16,7 @@ fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster])
         bias,
         ..Default::default()
     };
-    crate::cubes::fresh(gpu, &descriptor, std::slice::from_ref(light), casters)
+    crate::cubes::fresh(gpu, &descriptor, *light, casters)
 }
 
 /// Points of a plane through the origin that casts its own shadow map, seen at cosines from 1 down
@@ -131,7 +131,7 @@ fn no_acne_in_any_format_however_far_the_light_reaches() {
                     ..Default::default()
                 };
                 let casters = std::slice::from_ref(&plane.caster);
-                let map = crate::cubes::fresh(&gpu, &descriptor, &[plane.light], casters);
+                let map = crate::cubes::fresh(&gpu, &descriptor, plane.light, casters);
                 let reader = PcfDescriptor {
                     kernel,
                     encoding,

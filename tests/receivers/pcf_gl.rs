@@ -31,11 +31,7 @@ fn cube(gpu: &Gpu, casters: &[Caster]) -> CubeShadowMap {
         ..Default::default()
     };
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-    let frame = CubeFrame {
-        lights: &[PointLight::new(LIGHT, 30.0)],
-        casters,
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(PointLight::new(LIGHT, 30.0), casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     gpu.run(|encoder| map.encode(encoder));
     map

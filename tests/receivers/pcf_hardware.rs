@@ -18,11 +18,7 @@ fn cube(gpu: &Gpu, size: u32, light: Vec3, casters: &[Caster]) -> CubeShadowMap 
         ..Default::default()
     };
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-    let frame = CubeFrame {
-        lights: &[PointLight::new(light, 300.0)],
-        casters,
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(PointLight::new(light, 300.0), casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     gpu.run(|encoder| map.encode(encoder));
     map

@@ -53,7 +53,7 @@ impl Stage {
             PcfSampler::new(&gpu.device, &gpu.queue, &descriptor).unwrap()
         };
         Self {
-            lamp: cubes::fresh(gpu, &descriptor, &[light], &casters),
+            lamp: cubes::fresh(gpu, &descriptor, light, &casters),
             sun: map,
             disks: sampler(Kernel::Vogel(VogelDisk::default()), MapKind::Cube),
             squares: sampler(Kernel::Weighted3, MapKind::Flat),

@@ -101,7 +101,7 @@ impl Sky {
             ..Default::default()
         };
         let light = PointLight::new(Vec3::ZERO, 30.0);
-        let map = crate::cubes::fresh(gpu, &descriptor, &[light], &casters);
+        let map = crate::cubes::fresh(gpu, &descriptor, light, &casters);
         Self {
             cluster,
             sites,

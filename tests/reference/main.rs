@@ -6,5 +6,6 @@ mod input;
 mod opacity;
 mod published;
 mod robustness;
+mod rows;
 mod scene;
 mod visibility;

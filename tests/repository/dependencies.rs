@@ -118,7 +118,12 @@ fn locked(lock: &str, name: &str) -> Vec<String> {
 /// Two of them would split the types that hosts pass in.
 #[test]
 fn there_is_one_wgpu_and_one_glam_in_every_lock_file() {
-    for file in ["Cargo.lock", "examples/egui/Cargo.lock", "fuzz/Cargo.lock"] {
+    for file in [
+        "Cargo.lock",
+        "examples/egui/Cargo.lock",
+        "examples/web/Cargo.lock",
+        "fuzz/Cargo.lock",
+    ] {
         let lock = read(file);
         for (name, line) in [("wgpu", "30."), ("naga", "30."), ("glam", "0.33.")] {
             let versions = locked(&lock, name);

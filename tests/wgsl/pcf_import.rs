@@ -61,9 +61,6 @@ fn every_module_is_imported_by_name_and_by_path() {
 fn functions_without_bindings_are_imported_too() {
     let (device, queue) = noop();
     for descriptor in descriptors() {
-        if descriptor.many_lights {
-            continue; // a storage buffer: the same functions
-        }
         let sampler = made(&device, &queue, &descriptor);
         let module = wgsl::import_module("shadows::functions", &sampler.wgsl());
         let (kind, names) = match descriptor.map {

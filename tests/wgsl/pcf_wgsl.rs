@@ -216,12 +216,12 @@ fn every_kernel_of_one_light_without_gathers_is_webgl_2() {
     }
     let one_light = WAYS
         .iter()
-        .filter(|way| !way.many_lights && way.map != MapKind::Atlas && way.gather == Gather::Auto);
+        .filter(|way| way.map != MapKind::Atlas && way.gather == Gather::Auto);
     assert_eq!(squares, one_light.count() * SQUARES.len());
     // The broken twin: parameters of a disk without padding.
     let (_, disk) = samplers()
         .into_iter()
-        .find(|(descriptor, _)| descriptor.kernel.uses_pixel() && !descriptor.many_lights)
+        .find(|(descriptor, _)| descriptor.kernel.uses_pixel() && descriptor.map == MapKind::Cube)
         .unwrap();
     let short = disk.wgsl_module(0).replace("padding: u32,", "");
     assert!(uniform_sizes(&validate(&short).unwrap()).contains(&28));
@@ -312,29 +312,26 @@ fn a_host_pipeline_accepts_layout_and_module() {
     }
 }
 
-/// Every way to make a sampler for cubes but its kernel.
+/// Every way to make a sampler for maps of one light but its kernel, and one for atlases.
 fn ways() -> Vec<PcfDescriptor<'static>> {
-    let mut ways = Vec::new();
-    for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
-        for many_lights in [false, true] {
-            for textbook in [false, true] {
-                if textbook && encoding == DepthEncoding::MajorAxis {
-                    continue; // refused
-                }
-                ways.push(PcfDescriptor {
-                    encoding,
-                    many_lights,
-                    textbook,
-                    ..Default::default()
-                });
-            }
-        }
-    }
-    ways
+    let linear = DepthEncoding::LinearDistance;
+    let of = |map, encoding, textbook| PcfDescriptor {
+        map,
+        encoding,
+        textbook,
+        ..Default::default()
+    };
+    let usual = DepthEncoding::MajorAxis;
+    vec![
+        of(MapKind::Cube, usual, false),
+        of(MapKind::Cube, linear, false),
+        of(MapKind::Cube, linear, true),
+        of(MapKind::Atlas, usual, false),
+    ]
 }
 
 #[test]
-fn every_encoding_number_of_lights_and_method_is_valid() {
+fn every_encoding_and_method_is_valid() {
     let (device, queue) = noop();
     for kernel in Kernel::ALL {
         for way in ways() {
@@ -342,21 +339,19 @@ fn every_encoding_number_of_lights_and_method_is_valid() {
                 continue; // refused
             }
             let sampler = made(&device, &queue, &PcfDescriptor { kernel, ..way });
-            let host = |many_lights| {
-                host(&PcfDescriptor {
-                    kernel,
-                    many_lights,
-                    ..way
-                })
-            };
-            let text = sampler.wgsl_module(2) + &host(way.many_lights);
+            let host = |map| host(&PcfDescriptor { kernel, map, ..way });
+            let text = sampler.wgsl_module(2) + &host(way.map);
             let module = validate(&text).unwrap();
             for (_, function) in module.functions.iter() {
                 let name = function.name.as_deref().unwrap_or_default();
                 assert!(name.starts_with("shadows_"), "{name}");
             }
             // The broken twin: a host that calls as for the other number of lights.
-            let wrong = sampler.wgsl_module(2) + &host(!way.many_lights);
+            let other = match way.map {
+                MapKind::Atlas => MapKind::Cube,
+                _ => MapKind::Atlas,
+            };
+            let wrong = sampler.wgsl_module(2) + &host(other);
             assert!(validate(&wrong).is_err());
         }
     }

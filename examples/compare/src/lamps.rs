@@ -2,15 +2,12 @@
 
 use anyhow::Result;
 use shadows::reference::{Class, Comparison, Interior, ReferenceImage, Verdict};
-use shadows::{CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PcfDescriptor, PcfSampler, wgpu};
+use shadows::wgpu;
 
 use crate::shadow::{Cost, Shadow};
 use crate::stage::{Picture, Stage};
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
-use host::interior;
-use host::pipelines::visibility_module_of_many;
-use host::renderer::{LitPipeline, ShadowAccess};
 
 /// A technique at work for those of a stage's lights that it can shadow.
 pub struct Lamps {
@@ -31,18 +28,8 @@ pub struct Shown {
 enum Means {
     /// One at a time, each with a map and a bind group of its own.
     Each(Vec<Shadow>),
-    /// All in one cube array and one bind group.
-    Cubes(Box<Cubes>),
     /// All in one atlas.
     Atlas(Box<Shadow>),
-}
-
-struct Cubes {
-    map: CubeShadowMap,
-    sampler: PcfSampler,
-    lit: LitPipeline,
-    /// With the revision of the map's texture that it is for.
-    group: (u64, wgpu::BindGroup),
 }
 
 impl Lamps {
@@ -55,9 +42,6 @@ impl Lamps {
         let applies = |at: &usize| technique.config.applies_to(stage.scene.lights[*at].kind());
         let lights: Vec<usize> = all.filter(applies).collect();
         let means = match &technique.config {
-            Config::Cube { map, sampler } if lights.len() > 1 && !sampler.textbook => Means::Cubes(
-                Box::new(Cubes::new(gpu, stage, lights.len(), map, sampler)?),
-            ),
             Config::Atlas { .. } => Means::Atlas(Box::new(Shadow::new(
                 gpu,
                 &stage.renderer,
@@ -101,15 +85,6 @@ impl Lamps {
                 let inputs: Vec<_> = inputs.collect();
                 shadow.prepare_all(gpu, &inputs)
             }
-            Means::Cubes(cubes) => {
-                let lights: Vec<_> = inputs.map(|inputs| inputs.point_light()).collect();
-                let frame = CubeFrame {
-                    lights: &lights,
-                    casters: &stage.inputs.casters,
-                    ..Default::default()
-                };
-                cubes.prepare(gpu, &frame)
-            }
         }
     }
 
@@ -120,11 +95,10 @@ impl Lamps {
             Means::Each(shadows) => {
                 shadows[light].generate(&stage.renderer, &stage.scene_gpu, encoder);
             }
-            Means::Cubes(cubes) if light == 0 => cubes.map.encode(encoder),
             Means::Atlas(shadow) if light == 0 => {
                 shadow.generate(&stage.renderer, &stage.scene_gpu, encoder);
             }
-            Means::Cubes(_) | Means::Atlas(_) => {}
+            Means::Atlas(_) => {}
         }
     }
 
@@ -135,9 +109,6 @@ impl Lamps {
         match &self.means {
             Means::Each(shadows) => shadows[light].shade_by(renderer, scene, place, encoder),
             Means::Atlas(shadow) => shadow.shade_by(renderer, scene, place, encoder),
-            Means::Cubes(cubes) => {
-                renderer.draw_lit_by(encoder, scene, place, &cubes.lit, Some(&cubes.group.1));
-            }
         }
     }
 
@@ -179,14 +150,6 @@ impl Lamps {
                 sum
             }
             Means::Atlas(shadow) => shadow.cost(),
-            Means::Cubes(cubes) => {
-                let taken = cubes.map.statistics();
-                Cost {
-                    bytes: taken.bytes,
-                    draws: taken.draws.into(),
-                    triangles: taken.triangles,
-                }
-            }
         }
     }
 
@@ -195,59 +158,7 @@ impl Lamps {
         match &self.means {
             Means::Each(shadows) => shadows[light].interior(),
             Means::Atlas(shadow) => shadow.interior_of(light),
-            Means::Cubes(cubes) => interior::of_cube(&cubes.map, cubes.sampler.kernel()),
         }
-    }
-}
-
-impl Cubes {
-    fn new(
-        gpu: &Gpu,
-        stage: &Stage,
-        lights: usize,
-        map: &CubeShadowMapDescriptor<'static>,
-        sampler: &PcfDescriptor<'static>,
-    ) -> Result<Self> {
-        let map = CubeShadowMap::new(
-            &gpu.device,
-            &CubeShadowMapDescriptor {
-                lights: lights as u32,
-                cube_array: true,
-                ..map.clone()
-            },
-        )?;
-        let sampler = PcfSampler::new(
-            &gpu.device,
-            &gpu.queue,
-            &PcfDescriptor {
-                many_lights: true,
-                ..sampler.clone()
-            },
-        )?;
-        let access = ShadowAccess {
-            module: Some(&visibility_module_of_many(&sampler)),
-            layout: Some(sampler.bind_group_layout()),
-            ..Default::default()
-        };
-        Ok(Self {
-            lit: stage.renderer.lit_pipeline(gpu, &access),
-            group: (
-                map.texture_revision(),
-                sampler.bind_group(&gpu.device, &map)?,
-            ),
-            map,
-            sampler,
-        })
-    }
-
-    fn prepare(&mut self, gpu: &Gpu, frame: &CubeFrame<'_>) -> Result<()> {
-        self.map.prepare(&gpu.device, &gpu.queue, frame)?;
-        let revision = self.map.texture_revision();
-        if self.group.0 != revision {
-            let group = self.sampler.bind_group(&gpu.device, &self.map)?;
-            self.group = (revision, group);
-        }
-        Ok(())
     }
 }
 

@@ -93,9 +93,7 @@ pub struct Shadow {
 enum Means {
     Cube {
         map: Box<CubeShadowMap>,
-        sampler: Box<PcfSampler>,
-        /// With the revision of the map's texture that it is for.
-        group: (u64, wgpu::BindGroup),
+        group: wgpu::BindGroup,
     },
     Flat {
         map: Box<ShadowMap>,
@@ -140,14 +138,9 @@ impl Shadow {
                 let map = CubeShadowMap::new(&gpu.device, &map)?;
                 let sampler = make_sampler(gpu, label, sampler)?;
                 let lit = sampled(gpu, renderer, &sampler, module);
-                let group = (
-                    map.texture_revision(),
-                    sampler.bind_group(&gpu.device, &map)?,
-                );
-                let (map, sampler) = (Box::new(map), Box::new(sampler));
+                let group = sampler.bind_group(&gpu.device, &map)?;
                 let means = Means::Cube {
-                    map,
-                    sampler,
+                    map: Box::new(map),
                     group,
                 };
                 (means, lit)
@@ -232,21 +225,9 @@ impl Shadow {
         let casters = &inputs.casters;
         match &mut self.means {
             Means::Atlas(atlas) => atlas.prepare(gpu, std::slice::from_ref(inputs))?,
-            Means::Cube {
-                map,
-                sampler,
-                group,
-            } => {
-                let frame = CubeFrame {
-                    lights: &[inputs.point_light()],
-                    casters,
-                    ..Default::default()
-                };
+            Means::Cube { map, .. } => {
+                let frame = CubeFrame::new(inputs.point_light(), casters);
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
-                let revision = map.texture_revision();
-                if group.0 != revision {
-                    *group = (revision, sampler.bind_group(&gpu.device, &**map)?);
-                }
             }
             Means::Flat { map, .. } => {
                 let frame = ShadowFrame {
@@ -333,7 +314,7 @@ impl Shadow {
         encoder: &mut wgpu::CommandEncoder,
     ) {
         let group = match &self.means {
-            Means::Cube { group, .. } => Some(&group.1),
+            Means::Cube { group, .. } => Some(group),
             Means::Flat { group, .. } => Some(group),
             Means::Atlas(atlas) => Some(atlas.group()),
             Means::Volume { .. } => None,

@@ -69,41 +69,23 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
         label: _,
         size,
         bias: set_back,
-        lights,
-        cube_array,
-        allocation,
         encoding,
         format,
         reach,
         cull_casters,
         cache,
         sides,
-        max_faces_per_frame: budget,
         static_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
         .field("size", "", size, &default.size)
         .field("bias", "", set_back, &default.bias)
-        .field("lights", "", lights, &default.lights)
-        .field("cube_array", "", cube_array, &default.cube_array)
-        .field(
-            "allocation",
-            "Allocation::",
-            allocation,
-            &default.allocation,
-        )
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
         .field("format", FORMAT, format, &default.format)
         .field("reach", "Radius::", reach, &default.reach)
         .field("cull_casters", "", cull_casters, &default.cull_casters)
         .field("cache", "", cache, &default.cache)
         .field("sides", "CasterSides::", sides, &default.sides)
-        .field(
-            "max_faces_per_frame",
-            "",
-            budget,
-            &default.max_faces_per_frame,
-        )
         .field(
             "static_layers",
             "StaticLayers::",
@@ -148,7 +130,6 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         kernel: filter,
         map,
         encoding,
-        many_lights,
         textbook,
         flat_lights,
         light_kinds: _, // of atlases, which are not swept
@@ -158,7 +139,6 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         .written("kernel", &kernel(*filter), *filter == default.kernel)
         .field("map", "MapKind::", map, &default.map)
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
-        .field("many_lights", "", many_lights, &default.many_lights)
         .field("textbook", "", textbook, &default.textbook)
         .field(
             "flat_lights",

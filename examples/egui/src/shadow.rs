@@ -83,10 +83,10 @@ enum Means {
 
 struct Cube {
     map: CubeShadowMap,
-    sampler: PcfSampler,
     cross: CubeCross,
-    /// For this revision of the map's texture: what the lit pass reads, and what the cross does.
-    groups: Option<(u64, wgpu::BindGroup, wgpu::BindGroup)>,
+    /// What the lit pass reads, and what the cross does.
+    group: wgpu::BindGroup,
+    cross_group: wgpu::BindGroup,
 }
 
 struct Volumes {
@@ -136,13 +136,15 @@ impl Shadows {
             format: window,
             ..Default::default()
         };
+        let map = CubeShadowMap::new(&gpu.device, &map)?;
+        let cross = CubeCross::new(&gpu.device, &cross);
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
             means: Means::Cube(Box::new(Cube {
-                map: CubeShadowMap::new(&gpu.device, &map)?,
-                sampler,
-                cross: CubeCross::new(&gpu.device, &cross),
-                groups: None,
+                group: sampler.bind_group(&gpu.device, &map)?,
+                cross_group: cross.bind_group(&gpu.device, &map)?,
+                map,
+                cross,
             })),
         })
     }
@@ -200,15 +202,11 @@ impl Shadows {
         let casters = frame.casters;
         match &mut self.means {
             Means::Cube(cube) => {
-                let lights = [PointLight::new(position, frame.range)];
                 let frame = CubeFrame {
-                    lights: &lights,
-                    casters,
                     view: Some(&frame.view),
-                    ..Default::default()
+                    ..CubeFrame::new(PointLight::new(position, frame.range), casters)
                 };
                 cube.map.prepare(device, queue, &frame)?;
-                cube.bind(device)?;
             }
             Means::Flat(map, _) => {
                 let light = FlatLight::Directional(DirectionalLight::new(position));
@@ -249,7 +247,7 @@ impl Shadows {
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<()> {
         let group = match &self.means {
-            Means::Cube(cube) => cube.groups.as_ref().map(|(_, lit, _)| lit),
+            Means::Cube(cube) => Some(&cube.group),
             Means::Flat(_, group) => Some(group),
             Means::Volumes(_) | Means::None => None,
         };
@@ -281,10 +279,7 @@ impl Shadows {
         let Means::Cube(cube) = &self.means else {
             return false;
         };
-        let Some((_, _, group)) = &cube.groups else {
-            return false;
-        };
-        cube.cross.render(pass, group);
+        cube.cross.render(pass, &cube.cross_group);
         true
     }
 
@@ -311,25 +306,6 @@ impl Shadows {
             }
             Means::None => Vec::new(),
         }
-    }
-}
-
-impl Cube {
-    /// Bind groups follow the map's texture, which comes with the first caster.
-    fn bind(&mut self, device: &wgpu::Device) -> Result<()> {
-        let revision = self.map.texture_revision();
-        if self
-            .groups
-            .as_ref()
-            .is_none_or(|(made, ..)| *made != revision)
-        {
-            self.groups = Some((
-                revision,
-                self.sampler.bind_group(device, &self.map)?,
-                self.cross.bind_group(device, &self.map, 0)?,
-            ));
-        }
-        Ok(())
     }
 }
 

@@ -1,35 +1,38 @@
-//! Casters that only the host can draw: leaves that a mask is cut out of, drawn into any depth pass.
+//! Casters that only the host can draw: leaves that a mask is cut out of, drawn into the library's passes.
 
-use shadows::glam::Mat4;
-use shadows::wgpu;
+use shadows::glam::{Affine3A, Mat4};
+use shadows::mesh::Bounds;
+use shadows::{Caster, CasterMesh, HostDraw, wgpu};
 
 use super::gpu::Gpu;
 use super::pipelines::VERTEX_BUFFERS;
-use super::scene::leaf_mask;
+use super::scene::{self, Scene, leaf_mask};
 use super::scene_gpu::SceneGpu;
 
-/// Draws a scene's casters into shadow maps: those with a mask, or all of them, for a pass whose
-/// content was cleared.
+/// Draws those of a scene's casters that have a mask into shadow maps, where
+/// [`encode_with`](shadows::ShadowAtlas::encode_with) asks for them.
 pub struct MaskedCasters {
+    /// What stands for all of them among a frame's casters.
+    pub caster: Caster,
     group: wgpu::BindGroup,
     matrices: wgpu::Buffer,
     matrix_stride: u32,
-    solid: wgpu::RenderPipeline,
-    masked: wgpu::RenderPipeline,
-}
-
-/// Which casters are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
-    /// Those with a mask, beside what the library drew.
-    Masked,
-    All,
+    tiles: u32,
+    pipeline: wgpu::RenderPipeline,
 }
 
 impl MaskedCasters {
     /// For maps of a format in which what is nearer is greater, with so many tiles (a flat map has one,
     /// a cube six): each has a matrix of its own.
-    pub fn new(gpu: &Gpu, scene: &SceneGpu, format: wgpu::TextureFormat, tiles: u32) -> Self {
+    ///
+    /// # Errors
+    /// If the scene has no such caster.
+    pub fn new(
+        gpu: &Gpu,
+        (scene, scene_gpu): (&Scene, &SceneGpu),
+        format: wgpu::TextureFormat,
+        tiles: u32,
+    ) -> anyhow::Result<Self> {
         let device = &gpu.device;
         let alignment = device.limits().min_uniform_buffer_offset_alignment;
         let matrix_stride = (size_of::<Mat4>() as u32).next_multiple_of(alignment);
@@ -54,48 +57,67 @@ impl MaskedCasters {
             entries: &[
                 one_of(0, &matrices, size_of::<Mat4>()),
                 // An object's matrix is the first of what the host tells its shaders of it.
-                one_of(1, &scene.object_uniforms, size_of::<Mat4>()),
+                one_of(1, &scene_gpu.object_uniforms, size_of::<Mat4>()),
             ],
         });
-        let pipeline = |masked| pipeline(gpu, &layout, format, masked);
-        Self {
+        Ok(Self {
+            caster: caster(gpu, scene)?,
             group,
             matrices,
             matrix_stride,
-            solid: pipeline(false),
-            masked: pipeline(true),
-        }
+            tiles,
+            pipeline: pipeline(gpu, &layout, format),
+        })
     }
 
-    /// Says what a tile's clip space is, before the passes that draw it are submitted.
-    pub fn set(&self, gpu: &Gpu, tile: u32, clip_from_world: Mat4) {
-        let at = u64::from(tile * self.matrix_stride);
-        let matrix = clip_from_world.to_cols_array();
-        gpu.queue
-            .write_buffer(&self.matrices, at, bytemuck::cast_slice(&matrix));
-    }
-
-    /// Draws casters of the scene into a tile's pass.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneGpu, tile: u32, which: Which) {
+    /// Draws what is asked for into its tile's pass.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        scene: &SceneGpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        asked: &HostDraw<'_>,
+    ) {
+        assert!((asked.tile as u32) < self.tiles, "made for fewer tiles");
+        // Written before anything that is submitted after it.
+        let matrix_at = asked.tile as u32 * self.matrix_stride;
+        let matrix = asked.clip_from_world.to_cols_array();
+        gpu.queue.write_buffer(
+            &self.matrices,
+            matrix_at.into(),
+            bytemuck::cast_slice(&matrix),
+        );
+        pass.set_pipeline(&self.pipeline);
         for casting in &scene.casting {
             let mesh = &scene.meshes[scene.objects[casting.place].mesh];
-            if mesh.index_count == 0 || (mesh.mask.is_none() && which == Which::Masked) {
+            let Some(mask) = mesh.mask.as_ref().filter(|_| mesh.index_count > 0) else {
                 continue;
-            }
-            match &mesh.mask {
-                Some(mask) => {
-                    pass.set_pipeline(&self.masked);
-                    pass.set_vertex_buffer(1, mask.slice(..));
-                }
-                None => pass.set_pipeline(&self.solid),
-            }
+            };
             let object = casting.place as u32 * scene.object_stride;
-            pass.set_bind_group(0, &self.group, &[tile * self.matrix_stride, object]);
+            pass.set_bind_group(0, &self.group, &[matrix_at, object]);
             pass.set_vertex_buffer(0, mesh.positions.slice(..));
+            pass.set_vertex_buffer(1, mask.slice(..));
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..mesh.index_count, 0, 0..1);
         }
     }
+}
+
+/// What stands for all casters with a mask: their bounds.
+fn caster(gpu: &Gpu, scene: &Scene) -> anyhow::Result<Caster> {
+    let is_masked =
+        |object: &&scene::Object| object.casts && !scene.meshes[object.mesh].mask.is_empty();
+    let masked = || scene.objects.iter().filter(is_masked);
+    let bounds = scene::Bounds::of(masked().flat_map(|object| scene.world_points(object)));
+    let triangles: usize = masked()
+        .map(|object| scene.meshes[object.mesh].triangle_count())
+        .sum();
+    let bounds = Bounds {
+        min: bounds.min.as_vec3(),
+        max: bounds.max.as_vec3(),
+    };
+    let mesh = CasterMesh::host_drawn(&gpu.device, bounds, triangles as u32)?;
+    Ok(Caster::new(mesh, Affine3A::IDENTITY))
 }
 
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
@@ -119,7 +141,6 @@ fn pipeline(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
-    masked: bool,
 ) -> wgpu::RenderPipeline {
     let device = &gpu.device;
     let source = leaf_mask::wgsl() + include_str!("shaders/caster.wgsl");
@@ -143,13 +164,9 @@ fn pipeline(
         ),
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some(if masked {
-                "host_caster_vertex"
-            } else {
-                "host_solid_vertex"
-            }),
+            entry_point: Some("host_caster_vertex"),
             compilation_options: Default::default(),
-            buffers: if masked { &both[..] } else { &both[..1] },
+            buffers: &both,
         },
         // Leaves have two sides; what is nearer than the near plane casts from there.
         primitive: wgpu::PrimitiveState {
@@ -164,7 +181,7 @@ fn pipeline(
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
-        fragment: masked.then(|| wgpu::FragmentState {
+        fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some("host_caster_mask"),
             compilation_options: Default::default(),

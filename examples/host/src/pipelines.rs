@@ -70,11 +70,6 @@ pub fn visibility_module(sampler: &PcfSampler) -> String {
     module(sampler, "", light(sampler), "")
 }
 
-/// The same, of a sampler made for many lights.
-pub fn visibility_module_of_many(sampler: &PcfSampler) -> String {
-    module(sampler, "", "at.light, ", "")
-}
-
 /// The same, with the triangles' normals given by the host.
 pub fn visibility_module_with_normals(sampler: &PcfSampler) -> String {
     module(sampler, "_flat", light(sampler), ", at.flat_normal")

@@ -22,10 +22,11 @@ pub struct ShadowAtlasDescriptor<'a> {
     /// Name of the atlas in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Texels along a side of a layer, the largest size of a tile: a power of two from 16 to 8192, up to the
-    /// device's `max_texture_dimension_2d`. Default 2048. Layers are made when lights need them.
+    /// device's `max_texture_dimension_2d`. Default 1024, the largest that lights ask for by
+    /// default. Layers are made when lights need them.
     pub layer_size: u32,
-    /// Bytes that layers may take; as many whole layers as that gives, at least one. Default 256 MiB: sixteen
-    /// layers of 2048 texels in 32 bits. Layers of static casters
+    /// Bytes that layers may take; as many whole layers as that gives, at least one. Default 256 MiB: 64
+    /// layers of 1024 texels in 32 bits. Layers of static casters
     /// ([`static_layers`](Self::static_layers)) come on top, at most as much again.
     pub memory: u64,
     /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`: see
@@ -54,7 +55,7 @@ impl Default for ShadowAtlasDescriptor<'_> {
     fn default() -> Self {
         Self {
             label: None,
-            layer_size: 2048,
+            layer_size: 1024,
             memory: 256 << 20,
             format: wgpu::TextureFormat::Depth32Float,
             bias: Bias::default(),

@@ -1,5 +1,6 @@
 //! One texture for the shadows of all lights.
 
+mod debug;
 mod descriptor;
 mod lights;
 mod records;
@@ -13,12 +14,14 @@ use super::plan::{
     Place, Residents, Rules, Slot, SlotPlan, Slots, Tally, Tile, casters_drawn, choose_tiles,
     follow, longest_wait,
 };
-use super::statistics::{Clock, TileState, TileStatistics};
+use super::statistics::{TileState, TileStatistics};
 use super::{Cascades, CasterSides, DepthBounds, StaticLayers};
+use crate::clock::Clock;
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::{Bias, Radius};
+pub use debug::{AtlasDebug, AtlasDebugDescriptor};
 use descriptor::LEAST_TILE;
 pub use descriptor::{AtlasFrame, AtlasLight, AtlasView, LocalLight, ShadowAtlasDescriptor};
 use lights::{Entry, entries};
@@ -137,7 +140,7 @@ impl ShadowAtlas {
             budget: descriptor.max_tiles_per_frame,
             static_layers: descriptor.static_layers,
             adapter: device.adapter_info(),
-            casters: Casters::with_host_drawn(),
+            casters: Casters::default(),
             slots: Slots::new(0, true),
             suns: Suns::new(reach, gpu.unclipped_depth()),
             residents: Residents::new(layer_size, descriptor.most_layers(device), LEAST_TILE),
@@ -298,18 +301,13 @@ impl ShadowAtlas {
         self.gpu.encode(encoder, &tiles, draw);
         for (index, slot) in self.slots.iter_mut().enumerate() {
             recorded |= slot.pending != 0;
-            let pending = slot.pending;
-            slot.encoded(pending);
-            if !host_draws {
-                let missing = |tile: &usize| {
-                    let draws = self.gpu.draws().of(index, *tile);
-                    pending & 1 << tile != 0
-                        && !(draws.tile.host.is_empty() && draws.layer.host.is_empty())
-                };
-                let tiles: Vec<usize> = (0..slot.tiles.len()).filter(missing).collect();
-                self.statistics.tiles_incomplete += tiles.len() as u32;
-                tiles.into_iter().for_each(|tile| slot.spoil(tile));
-            }
+            let missing = match host_draws {
+                true => Vec::new(),
+                false => self.gpu.incomplete((index, slot)),
+            };
+            slot.encoded(slot.pending);
+            self.statistics.tiles_incomplete += missing.len() as u32;
+            missing.into_iter().for_each(|tile| slot.spoil(tile));
         }
         if recorded {
             self.submissions.watch(encoder);
@@ -385,9 +383,10 @@ impl ShadowAtlas {
     /// The most frames that a tile which changed waits to be drawn while a view shows it: as many tiles as
     /// the last frame had over half of `max_tiles_per_frame`, both rounded up; `None` without a budget.
     ///
-    /// Half the budget goes to the tiles that have waited longest, the rest to the most important: see
-    /// [`CubeShadowMap::max_age`](crate::CubeShadowMap::max_age). A light that moved is seen where it was
-    /// until its turn, a new one is dark until then. Pinned lights, tiles that changed their size or place,
+    /// Half the budget goes to the tiles that have waited longest, the rest to the most important: those where
+    /// most has changed (the share of the tile that what did covers) for lights that are nearest to the eye
+    /// and whose range is largest on screen. A light that moved has its tiles drawn together, and is seen
+    /// where it was, with its shadows, until then; a new one is dark until then. Pinned lights, tiles that changed their size or place,
     /// the first cascades of a directional light, and tiles that turned visible and show something else
     /// are drawn at once, outside the budget.
     pub fn max_age(&self) -> Option<u32> {

@@ -1,12 +1,11 @@
 //! All that an atlas has on the GPU.
 
-use glam::Mat4;
-
 use super::atlas_lights::AtlasLights;
 use super::atlas_texture::{AtlasTexture, Resized};
-use super::casting::Casting;
+use super::casting::{Casting, DrawnTile};
 use super::draws::{DrawLists, ListedDraws};
 use super::encode::begin_depth_pass;
+use super::host_draw::DrawByHost;
 use super::instances::TooLarge;
 use super::light_record::TilePlace;
 use super::pipelines::{PipelineKind, can_pull_casters};
@@ -38,29 +37,6 @@ pub(crate) struct AtlasGpu {
     lights: AtlasLights,
     casting: Casting,
 }
-
-/// What the host is asked to draw on one tile.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct HostDraw<'a> {
-    /// The light's place in the last frame.
-    pub light: usize,
-    /// The view's, for a directional light.
-    pub view: usize,
-    /// The face of a point light, in the order of [`CubeFace::ALL`](crate::CubeFace::ALL), or the cascade of
-    /// a directional light.
-    pub tile: usize,
-    /// World space to clip space. The frame is left-handed: triangles that are counter-clockwise seen from
-    /// the light are clockwise on the tile.
-    pub clip_from_world: Mat4,
-    /// Texels along the tile's side.
-    pub size: u32,
-    /// The places in the last frame's casters of those that are to be drawn.
-    pub casters: &'a [usize],
-}
-
-/// Draws what only the host can.
-pub(crate) type DrawByHost<'a> = &'a mut dyn FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>);
 
 /// The lights whose tiles are drawn.
 pub(crate) struct Tiled<'a> {
@@ -213,6 +189,11 @@ impl AtlasGpu {
         self.texture.carry_over(encoder) | self.casting.uploads().record(encoder)
     }
 
+    /// The pending tiles of a slot that lack what only the host can draw, if it is not asked.
+    pub fn incomplete(&self, slot: (usize, &Slot)) -> Vec<usize> {
+        self.casting.incomplete(slot)
+    }
+
     /// Draws the pending tiles, those of a layer in one pass.
     pub fn encode(
         &self,
@@ -299,25 +280,14 @@ impl AtlasGpu {
         listed: &ListedDraws,
         by_host: &mut Option<DrawByHost<'_>>,
     ) {
-        self.casting
-            .record(pass, (tile.slot, tile.tile), &listed.draws);
-        let projection = tiled.slots[tile.slot].projection(tile.tile);
-        if let (Some(draw), Some(projection)) = (by_host, projection)
-            && !listed.host.is_empty()
-        {
-            let (light, view) = tiled.names[tile.slot];
-            let from_light = projection.clip_from_light(tile.tile, self.casting.near_plane());
-            let clip_from_world = from_light * Mat4::from_translation(-projection.origin());
-            let asked = HostDraw {
-                light,
-                view,
-                tile: tile.tile,
-                clip_from_world,
-                size: tile.place.size,
-                casters: &listed.host,
-            };
-            draw(pass, &asked);
-        }
+        let drawn = DrawnTile {
+            slot: &tiled.slots[tile.slot],
+            index: tile.slot,
+            tile: tile.tile,
+            name: tiled.names[tile.slot],
+            size: tile.place.size,
+        };
+        self.casting.record(pass, &drawn, listed, by_host);
     }
 }
 

@@ -4,6 +4,10 @@ use super::buffers::buffer;
 use super::light_record::LightRecord;
 use crate::uploads::Uploads;
 
+/// The lights that a uniform buffer has room for on devices without storage buffers: all that WebGL 2 binds
+/// of one is 16 KiB.
+pub(crate) const UNIFORM_LIGHTS: u32 = (16_384 / size_of::<LightRecord>()) as u32;
+
 /// Records in a buffer at least.
 const LEAST: usize = 64;
 
@@ -36,7 +40,10 @@ impl AtlasLights {
             ),
             false => (
                 wgpu::BufferUsages::UNIFORM,
-                limits.max_uniform_buffer_binding_size,
+                // Shaders declare so many, whatever more the device could bind.
+                limits
+                    .max_uniform_buffer_binding_size
+                    .min(u64::from(UNIFORM_LIGHTS) * size_of::<LightRecord>() as u64),
             ),
         };
         let limit = (bytes.min(limits.max_buffer_size) / size_of::<LightRecord>() as u64) as usize;

@@ -1,6 +1,9 @@
 //! What draws casters into tiles, whichever map they are of.
 
-use super::draws::{Draw, DrawLists};
+use glam::Mat4;
+
+use super::draws::{Draw, DrawLists, ListedDraws};
+use super::host_draw::{DrawByHost, HostDraw};
 use super::instances::{Instances, TooLarge};
 use super::pipelines::{PipelineKind, Pipelines};
 use super::uniforms::{TileUniform, TileUniforms};
@@ -126,16 +129,54 @@ impl Casting {
         self.uniforms.forget();
     }
 
-    /// Draws casters on a tile.
+    /// The pending tiles of a slot that lack what only the host can draw, if it is not asked.
+    pub fn incomplete(&self, (index, slot): (usize, &Slot)) -> Vec<usize> {
+        let missing = |tile: &usize| {
+            let draws = self.draws.of(index, *tile);
+            slot.pending & 1 << tile != 0
+                && !(draws.tile.host.is_empty() && draws.layer.host.is_empty())
+        };
+        (0..slot.tiles.len()).filter(missing).collect()
+    }
+
+    /// Draws on a tile what is listed for it, and asks the host for what only it can draw.
     pub fn record(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        (slot, tile): (usize, usize),
-        draws: &[Draw],
+        of: &DrawnTile<'_>,
+        listed: &ListedDraws,
+        by_host: &mut Option<DrawByHost<'_>>,
     ) {
-        self.uniforms.bind(pass, slot * self.tiles_a_slot + tile);
-        for draw in draws {
+        self.uniforms
+            .bind(pass, of.index * self.tiles_a_slot + of.tile);
+        for draw in &listed.draws {
             draw.record(pass, &self.pipelines, &self.instances);
         }
+        if let (Some(draw), Some(projection)) = (by_host, of.slot.projection(of.tile))
+            && !listed.host.is_empty()
+        {
+            let from_light = projection.clip_from_light(of.tile, self.near_plane);
+            let asked = HostDraw {
+                light: of.name.0,
+                view: of.name.1,
+                tile: of.tile,
+                clip_from_world: from_light * Mat4::from_translation(-projection.origin()),
+                size: of.size,
+                casters: &listed.host,
+            };
+            draw(pass, &asked);
+        }
     }
+}
+
+/// A tile that is drawn on.
+pub(crate) struct DrawnTile<'a> {
+    pub slot: &'a Slot,
+    /// The slot's place.
+    pub index: usize,
+    pub tile: usize,
+    /// Light and view by which the host knows it.
+    pub name: (usize, usize),
+    /// Texels along its side.
+    pub size: u32,
 }

@@ -113,6 +113,10 @@ impl ListedDraws {
         draws: Vec::new(),
         host: Vec::new(),
     };
+
+    pub fn is_empty(&self) -> bool {
+        self.draws.is_empty() && self.host.is_empty()
+    }
 }
 
 /// The draws of all tiles of a map that the next encode draws.

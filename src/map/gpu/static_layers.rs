@@ -1,19 +1,18 @@
-//! Textures of what is static on the faces of a cube map, copied under what moves.
+//! Textures of what is static on the tiles of a map, copied under what moves.
 
-use super::texture::CubeTextures;
+use super::texture::layer_view;
 use crate::map::encoding::texel_bytes;
-use crate::map::projection::CubeFace;
 
-/// The layers of a map, by slot and face.
+/// The static layers of a map, by tile.
 #[derive(Debug)]
 pub(crate) struct StaticLayerTextures {
     label: String,
     size: u32,
     format: wgpu::TextureFormat,
-    slots: Vec<[Option<LayerTexture>; 6]>,
+    tiles: Vec<Option<LayerTexture>>,
 }
 
-/// The layer under one face.
+/// The layer under one tile.
 #[derive(Debug)]
 struct LayerTexture {
     texture: wgpu::Texture,
@@ -21,18 +20,18 @@ struct LayerTexture {
 }
 
 impl StaticLayerTextures {
-    pub fn new(label: &str, size: u32, format: wgpu::TextureFormat, slots: usize) -> Self {
+    pub fn new(label: &str, size: u32, format: wgpu::TextureFormat, tiles: usize) -> Self {
         Self {
             label: format!("{label} static"),
             size,
             format,
-            slots: (0..slots).map(|_| Default::default()).collect(),
+            tiles: (0..tiles).map(|_| None).collect(),
         }
     }
 
     /// Makes one, if it is not there.
-    pub fn make(&mut self, device: &wgpu::Device, slot: usize, face: usize) {
-        let layer = &mut self.slots[slot][face];
+    pub fn make(&mut self, device: &wgpu::Device, tile: usize) {
+        let layer = &mut self.tiles[tile];
         if layer.is_none() {
             *layer = Some(LayerTexture::new(
                 device,
@@ -43,35 +42,23 @@ impl StaticLayerTextures {
         }
     }
 
-    /// Gives a slot's layers back.
-    pub fn free(&mut self, slot: usize) {
-        self.slots[slot] = Default::default();
-    }
-
     /// What to draw one on.
-    pub fn view(&self, slot: usize, face: CubeFace) -> Option<&wgpu::TextureView> {
-        Some(&self.slots[slot][face.layer() as usize].as_ref()?.view)
+    pub fn view(&self, tile: usize) -> Option<&wgpu::TextureView> {
+        Some(&self.tiles[tile].as_ref()?.view)
     }
 
-    /// Copies one to its face.
-    pub fn copy(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        slot: usize,
-        face: CubeFace,
-        textures: &CubeTextures,
-    ) {
-        let layer = &self.slots[slot][face.layer() as usize];
-        let (Some(layer), Some(target)) = (layer, textures.slot(slot)) else {
-            return; // prepare made both wherever there is something to copy
+    /// Copies one to the layer of its tile.
+    pub fn copy(&self, encoder: &mut wgpu::CommandEncoder, tile: usize, target: &wgpu::Texture) {
+        let Some(layer) = &self.tiles[tile] else {
+            return; // prepare made one wherever there is something to copy
         };
-        let mut to = target.texture.as_image_copy();
-        to.origin.z = target.first_layer + face.layer();
+        let mut to = target.as_image_copy();
+        to.origin.z = tile as u32;
         encoder.copy_texture_to_texture(layer.texture.as_image_copy(), to, layer.texture.size());
     }
 
     pub fn bytes(&self) -> u64 {
-        let layers = self.slots.iter().flatten().flatten().count() as u64;
+        let layers = self.tiles.iter().flatten().count() as u64;
         layers * u64::from(self.size).pow(2) * texel_bytes(self.format)
     }
 }
@@ -93,10 +80,7 @@ impl LayerTexture {
             view_formats: &[],
         });
         Self {
-            view: texture.create_view(&wgpu::TextureViewDescriptor {
-                label: Some(label),
-                ..Default::default()
-            }),
+            view: layer_view(&texture, label, 0),
             texture,
         }
     }

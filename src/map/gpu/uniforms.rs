@@ -4,13 +4,7 @@ use super::buffers::buffer;
 use crate::uploads::Uploads;
 
 /// Bytes from one uniform to the next: the largest alignment a device may ask for.
-pub(crate) const UNIFORM_STRIDE: u64 = 256;
-
-/// The most tiles whose matrices a buffer of the device can hold.
-pub(crate) fn most_tiles(limits: &wgpu::Limits) -> u32 {
-    // A dynamic offset, which is in bytes, has 32 bits.
-    (limits.max_buffer_size / UNIFORM_STRIDE).min(u64::from(u32::MAX) / UNIFORM_STRIDE) as u32
-}
+const UNIFORM_STRIDE: u64 = 256;
 
 /// `ShadowsCubeFaceUniform` in WGSL.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

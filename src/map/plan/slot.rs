@@ -100,12 +100,6 @@ impl Slot {
         }
     }
 
-    /// Learns that somebody else draws on a tile.
-    pub fn touched(&mut self, tile: usize) {
-        self.pending &= !(1 << tile);
-        self.tiles[tile].texels.forget();
-    }
-
     /// Learns that a tile was drawn without some of its casters, and the layer under it, too.
     pub fn spoil(&mut self, tile: usize) {
         let tile = &mut self.tiles[tile];

@@ -20,8 +20,6 @@ pub(crate) struct Slots {
     slots: Vec<Slot>,
     /// For each light of the frame its slot.
     order: Vec<usize>,
-    /// Frames in which a light changed its place in the host's list.
-    reordered: u64,
     // Kept only for its memory: the casters that a light reaches.
     reached: Vec<u32>,
     /// Whether the casters went on without the slots.
@@ -34,7 +32,6 @@ impl Slots {
         Self {
             slots: (0..count).map(|_| Slot::new(cull)).collect(),
             order: Vec::new(),
-            reordered: 0,
             reached: Vec::new(),
             behind: false,
         }
@@ -56,15 +53,9 @@ impl Slots {
         self.order.get(light).copied()
     }
 
-    pub fn reordered(&self) -> u64 {
-        self.reordered
-    }
-
     /// Takes over a frame's lights, after the casters were updated.
     pub fn take_over(&mut self, lights: &[SlotLight], casters: &mut Casters) {
         let order = assign(lights, &self.slots, &self.order);
-        let moved = order.iter().zip(&self.order).any(|(new, old)| new != old);
-        self.reordered += u64::from(moved);
         let mut wanted = vec![None; self.slots.len()];
         for (light, &slot) in lights.iter().zip(&order) {
             wanted[slot] = Some(light);
@@ -124,23 +115,6 @@ impl Slots {
     /// known any more when the next one comes.
     pub fn miss_update(&mut self) {
         self.behind = true;
-    }
-
-    /// Counts the frames in which a light reaches no caster. Gives the slots whose texels no light
-    /// needs any more; where they share a texture, all of them or none.
-    pub fn idle(&mut self, shared: bool) -> Vec<usize> {
-        for slot in &mut self.slots {
-            slot.idle = match slot.casting {
-                0 => slot.idle.saturating_add(1),
-                _ => 0,
-            };
-        }
-        let no_light = self.order.is_empty();
-        let idle = |slot: &Slot| no_light || slot.idle >= IDLE;
-        let all = self.slots.iter().all(idle);
-        (0..self.slots.len())
-            .filter(|&index| all || !shared && idle(&self.slots[index]))
-            .collect()
     }
 }
 

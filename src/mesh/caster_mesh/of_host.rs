@@ -44,14 +44,13 @@ impl CasterMesh {
     /// Stands for geometry that only the host can draw into a map: alpha-tested, skinned by its own
     /// shader, tessellated, driven by the GPU. As a [`Caster`](crate::Caster) its bounds are culled, and
     /// it is cached, like any other's; where a tile that they touch is drawn, the host is asked to draw it
-    /// ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with)). When it has changed,
+    /// ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with), and the same of other maps). When it has changed,
     /// [`bump_revision`](Self::bump_revision) says so.
     ///
     /// `bounds`, in the mesh's own space, enclose all that it will ever draw; `triangles`, at least 1, is
     /// about how many that are, by which [`StaticLayers`](crate::StaticLayers) go.
     ///
-    /// Other maps refuse such casters ([`HostDrawn`](crate::error::CasterError::HostDrawn)), and so do
-    /// shadow volumes ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    /// Shadow volumes refuse such casters ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
     ///
     /// # Errors
     /// [`CasterMeshError`] if the bounds are not finite, or there is no triangle.

@@ -7,8 +7,9 @@ use host::one_light::{OneLight, PrepareOne as _};
 use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::{
-    Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PcfDescriptor,
-    PointLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, wgpu,
+    AtlasFrame, AtlasLight, Caster, CasterMesh, CubeShadowMapDescriptor, PcfDescriptor, PointLight,
+    ShadowAtlas, ShadowAtlasDescriptor, ShadowVolumeDescriptor, ShadowVolumeRenderer, TileSize,
+    wgpu,
 };
 
 use super::quantity::Situation;
@@ -104,8 +105,8 @@ pub struct Subject {
 enum Means {
     /// One light, with a lit pass.
     One(Box<Shadow>),
-    /// One map for all lights.
-    Cubes(Box<CubeShadowMap>),
+    /// One for all lights.
+    Atlas(Box<ShadowAtlas>),
     /// One for each light.
     Volumes(Vec<ShadowVolumeRenderer>),
 }
@@ -166,7 +167,6 @@ impl Means {
     fn new(gpu: &Gpu, place: &Place, kind: Kind) -> Result<Self> {
         let map = CubeShadowMapDescriptor {
             size: place.side,
-            lights: place.lights.len() as u32,
             ..Default::default()
         };
         if place.lights.len() == 1 {
@@ -182,10 +182,8 @@ impl Means {
             return Ok(Self::One(Box::new(shadow)));
         }
         if kind.is_map {
-            return Ok(Self::Cubes(Box::new(CubeShadowMap::new(
-                &gpu.device,
-                &map,
-            )?)));
+            let atlas = ShadowAtlas::new(&gpu.device, &ShadowAtlasDescriptor::default())?;
+            return Ok(Self::Atlas(Box::new(atlas)));
         }
         let descriptor = ShadowVolumeDescriptor {
             depth_stencil_format: place.stage.renderer.depth_stencil_format(),
@@ -199,13 +197,18 @@ impl Means {
     fn prepare(&mut self, gpu: &Gpu, place: &Place, inputs: &ShadowInputs) -> Result<()> {
         match self {
             Self::One(shadow) => shadow.prepare(gpu, inputs)?,
-            Self::Cubes(map) => {
-                let frame = CubeFrame {
-                    lights: &place.lights,
+            Self::Atlas(atlas) => {
+                let size = TileSize::Fixed(place.side);
+                let lights = place.lights.iter();
+                let lights: Vec<_> = lights
+                    .map(|&light| AtlasLight::new(light).with_size(size))
+                    .collect();
+                let frame = AtlasFrame {
+                    lights: &lights,
                     casters: &inputs.casters,
                     ..Default::default()
                 };
-                map.prepare(&gpu.device, &gpu.queue, &frame)?;
+                atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
             Self::Volumes(volumes) => {
                 for (volumes, light) in volumes.iter_mut().zip(&place.lights) {
@@ -225,7 +228,7 @@ impl Means {
         let renderer = &place.stage.renderer;
         match self {
             Self::One(shadow) => shadow.generate(renderer, &place.stage.scene_gpu, encoder),
-            Self::Cubes(map) => map.encode(encoder),
+            Self::Atlas(atlas) => atlas.encode(encoder),
             Self::Volumes(volumes) => {
                 for volumes in volumes {
                     volumes.encode(encoder);

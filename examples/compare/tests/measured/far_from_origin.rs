@@ -213,11 +213,7 @@ fn cube_map(gpu: &Gpu, size: u32, light: PointLight, casters: &[Caster]) -> Cube
         ..Default::default()
     };
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-    let frame = CubeFrame {
-        lights: &[light],
-        casters,
-        ..Default::default()
-    };
+    let frame = CubeFrame::new(light, casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     gpu.run(|encoder| map.encode(encoder));
     map

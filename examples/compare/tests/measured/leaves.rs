@@ -1,19 +1,19 @@
-//! Alpha-tested leaves, which only the host can draw: into the library's maps by the host's own pass,
+//! Alpha-tested leaves, which only the host can draw: into the library's maps, when these ask for them,
 //! against rays that know the mask.
 
 use compare::stage::Stage;
 use host::exact;
 use host::gpu::Gpu;
 use host::interior;
-use host::masked_casters::{MaskedCasters, Which};
+use host::masked_casters::MaskedCasters;
 use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, ShadowAccess};
 use host::scene::{Light, Mesh, Object, Scene, square};
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::reference::{Comparison, Interior, ReferenceImage};
 use shadows::{
-    Allocation, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, MapKind,
-    PcfDescriptor, PcfSampler, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, MapKind, PcfDescriptor,
+    PcfSampler, ShadowFrame, ShadowMap, ShadowMapDescriptor, wgpu,
 };
 use shadows::{FlatLight, SpotLight};
 
@@ -74,26 +74,35 @@ fn lit(gpu: &Gpu, stage: &Stage, sampler: &PcfSampler) -> LitPipeline {
     stage.renderer.lit_pipeline(gpu, &access)
 }
 
+fn masked(gpu: &Gpu, stage: &Stage, format: wgpu::TextureFormat, tiles: u32) -> MaskedCasters {
+    MaskedCasters::new(gpu, (&stage.scene, &stage.scene_gpu), format, tiles).unwrap()
+}
+
+/// The library's casters, and the host's.
+fn casters(stage: &Stage, masked: &MaskedCasters) -> Vec<Caster> {
+    let ours = &stage.inputs.casters;
+    assert_eq!(ours.len(), 1, "the library draws no masks");
+    ours.iter().chain([&masked.caster]).cloned().collect()
+}
+
 /// What a spot's map shows, with the host's casters drawn into it or without.
 fn flat(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     let mut map = ShadowMap::new(&gpu.device, &ShadowMapDescriptor::default()).unwrap();
     let sampler = sampler(gpu, MapKind::Flat);
     let spot = SpotLight::new(LAMP, -LAMP, 0.9, 30.0);
-    let casters = &stage.inputs.casters;
-    assert_eq!(casters.len(), 1, "the library draws no masks");
-    let frame = ShadowFrame::new(FlatLight::Spot(spot), casters);
+    let masked = masked(gpu, stage, map.texture().format(), 1);
+    let casters = casters(stage, &masked);
+    let frame = ShadowFrame::new(FlatLight::Spot(spot), &casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-    let format = map.texture().format();
-    let masked = MaskedCasters::new(gpu, &stage.scene_gpu, format, 1);
-    masked.set(gpu, 0, map.clip_from_world().unwrap());
     let group = sampler.bind_group(&gpu.device, &map).unwrap();
     let lit = lit(gpu, stage, &sampler);
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
-        map.encode(encoder);
-        if own {
-            let mut pass = map.begin_pass(encoder);
-            masked.draw(&mut pass, &stage.scene_gpu, 0, Which::All);
+        match own {
+            true => map.encode_with(encoder, |pass, asked| {
+                masked.draw(gpu, &stage.scene_gpu, pass, asked);
+            }),
+            false => map.encode(encoder),
         }
         stage
             .renderer
@@ -105,31 +114,22 @@ fn flat(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
 
 /// The same of a cube map's faces.
 fn cube(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
-    let descriptor = CubeShadowMapDescriptor {
-        allocation: Allocation::AtOnce,
-        ..Default::default()
-    };
+    let descriptor = CubeShadowMapDescriptor::default();
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
     let sampler = sampler(gpu, MapKind::Cube);
-    let frame = CubeFrame {
-        lights: &[stage.inputs.point_light()],
-        casters: &stage.inputs.casters,
-        ..Default::default()
-    };
+    let masked = masked(gpu, stage, descriptor.format, 6);
+    let casters = casters(stage, &masked);
+    let frame = CubeFrame::new(stage.inputs.point_light(), &casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
-    let format = descriptor.format;
-    let masked = MaskedCasters::new(gpu, &stage.scene_gpu, format, 6);
-    for (tile, face) in (0..).zip(CubeFace::ALL) {
-        masked.set(gpu, tile, map.clip_from_world(0, face).unwrap());
-    }
     let group = sampler.bind_group(&gpu.device, &map).unwrap();
     let lit = lit(gpu, stage, &sampler);
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
-        map.encode(encoder);
-        for (tile, face) in (0..).zip(CubeFace::ALL).filter(|_| own) {
-            let mut pass = map.begin_face(encoder, 0, face).unwrap();
-            masked.draw(&mut pass, &stage.scene_gpu, tile, Which::All);
+        match own {
+            true => map.encode_with(encoder, |pass, asked| {
+                masked.draw(gpu, &stage.scene_gpu, pass, asked);
+            }),
+            false => map.encode(encoder),
         }
         stage
             .renderer

@@ -13,11 +13,6 @@ fn host_caster_vertex(@location(0) position: vec3f, @location(2) mask: vec2f) ->
     return HostCaster(host_clip_from_world * world, mask);
 }
 
-@vertex
-fn host_solid_vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
-    return host_clip_from_world * (host_caster * vec4f(position, 1.0));
-}
-
 @fragment
 fn host_caster_mask(in: HostCaster) {
     if !host_is_leaf(in.mask) {

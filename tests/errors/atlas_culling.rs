@@ -1,20 +1,21 @@
-//! Which casters go on which faces, however many there are and however the map finds them.
+//! Which casters go on which tiles, however many there are and however the atlas finds them.
 
 use crate::common::noop;
 use crate::common::shapes::{Random, cuboid, sphere};
 use glam::{Affine3A, Vec3};
 use shadows::{
-    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, PointLight, glam, wgpu,
+    AtlasFrame, AtlasLight, Caster, PointLight, ShadowAtlas, ShadowAtlasDescriptor, TileSize, glam,
+    wgpu,
 };
 
 const LIGHTS: usize = 6;
 
-fn descriptor() -> CubeShadowMapDescriptor<'static> {
-    CubeShadowMapDescriptor {
-        size: 8,
-        lights: LIGHTS as u32,
+fn atlas(device: &wgpu::Device) -> ShadowAtlas {
+    let descriptor = ShadowAtlasDescriptor {
+        layer_size: 64,
         ..Default::default()
-    }
+    };
+    ShadowAtlas::new(device, &descriptor).unwrap()
 }
 
 /// A world of casters on a wide floor, all kinds of sizes, and lights that reach a few of them.
@@ -80,37 +81,48 @@ impl World {
         }
     }
 
-    fn faces(&self, map: &mut CubeShadowMap, casters: &[Caster]) -> Vec<(u32, u64)> {
-        let frame = CubeFrame {
-            lights: &self.lights,
+    /// Casters and triangles of every tile; of lights that nothing casts to, none.
+    fn tiles(&self, atlas: &mut ShadowAtlas, casters: &[Caster]) -> Vec<Vec<(u32, u64)>> {
+        let size = TileSize::Fixed(16);
+        let lights: Vec<_> = (self.lights.iter())
+            .map(|&light| AtlasLight::new(light).with_size(size))
+            .collect();
+        let frame = AtlasFrame {
+            lights: &lights,
             casters,
             ..Default::default()
         };
-        map.prepare(&self.device, &self.queue, &frame).unwrap();
-        let all = (0..LIGHTS).flat_map(|light| CubeFace::ALL.map(|face| (light, face)));
-        all.filter_map(|(light, face)| map.face_statistics(light, face))
-            .map(|face| (face.casters, face.triangles))
-            .collect()
+        atlas.prepare(&self.device, &self.queue, &frame).unwrap();
+        let of = |light| {
+            let tiles = atlas.tiles(light, 0);
+            let statistics = tiles.iter().map(|tile| tile.statistics);
+            let counts: Vec<_> = statistics.map(|of| (of.casters, of.triangles)).collect();
+            match counts.iter().all(|count| count.0 == 0) {
+                true => Vec::new(),
+                false => counts,
+            }
+        };
+        (0..LIGHTS).map(of).collect()
     }
 }
 
 #[test]
-fn a_map_that_has_seen_many_frames_finds_the_casters_that_a_new_one_finds() {
+fn an_atlas_that_has_seen_many_frames_finds_the_casters_that_a_new_one_finds() {
     let mut world = World::new();
-    let mut map = CubeShadowMap::new(&world.device, &descriptor()).unwrap();
+    let mut old = atlas(&world.device);
     let (mut touching, mut twin_differs) = (0, 0);
-    // A new map looks at each caster; after some 20 of these frames this one has built its tree.
+    // A new one looks at each caster; after some 20 of these frames the old one has built its tree.
     for step in 0..60 {
         world.step(step);
-        let ours = world.faces(&mut map, &world.casters);
-        let mut new = CubeShadowMap::new(&world.device, &descriptor()).unwrap();
-        assert_eq!(ours, world.faces(&mut new, &world.casters), "step {step}");
-        touching += ours.iter().map(|face| face.0).sum::<u32>();
-        // The broken twin: a map that does not know of the first hundred casters.
+        let ours = world.tiles(&mut old, &world.casters);
+        let mut new = atlas(&world.device);
+        assert_eq!(ours, world.tiles(&mut new, &world.casters), "step {step}");
+        touching += ours.iter().flatten().map(|tile| tile.0).sum::<u32>();
+        // The broken twin: an atlas that does not know of the first hundred casters.
         let known = &world.casters[100..];
-        let mut twin = CubeShadowMap::new(&world.device, &descriptor()).unwrap();
-        twin_differs += u32::from(ours != world.faces(&mut twin, known));
+        let mut twin = atlas(&world.device);
+        twin_differs += u32::from(ours != world.tiles(&mut twin, known));
     }
-    assert!(touching > 60 * 36, "{touching} casters on faces");
+    assert!(touching > 60 * 36, "{touching} casters on tiles");
     assert!(twin_differs > 40, "{twin_differs}");
 }

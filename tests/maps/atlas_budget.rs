@@ -1,26 +1,29 @@
-//! The budget of faces a frame, and faces that no visible receiver needs.
+//! The budget of tiles a frame, and tiles that no visible receiver needs.
 
+use crate::atlas::{assert_few, atlas, draw, wrong_texels};
 use crate::common::shapes::{Random, cuboid};
-use crate::cubes::{draw, draw_frame, faces, fresh};
-use crate::receivers::{ask_changed, visibility};
+use crate::receivers::{ask, ask_changed};
 use glam::camera::rh::{proj::directx as proj, view};
 use glam::{Affine3A, Mat4, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Caster, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, Kernel,
-    PcfDescriptor, PointLight, Radius, RandomDisk, TileState, View, VogelDisk, glam,
+    AtlasFrame, AtlasLight, AtlasTile, AtlasView, Caster, CubeFace, DepthConvention, Kernel,
+    MapKind, PcfDescriptor, PointLight, Radius, RandomDisk, ShadowAtlas, ShadowAtlasDescriptor,
+    TileSize, TileState, View, VogelDisk, glam,
 };
 
 const SIZE: u32 = 32;
 
-fn descriptor(lights: u32, max_faces_per_frame: Option<u32>) -> CubeShadowMapDescriptor<'static> {
-    CubeShadowMapDescriptor {
-        size: SIZE,
-        lights,
-        max_faces_per_frame,
+fn descriptor(max_tiles_per_frame: Option<u32>) -> ShadowAtlasDescriptor<'static> {
+    ShadowAtlasDescriptor {
+        max_tiles_per_frame,
         reach: Radius::Texels(2.0),
-        ..Default::default()
+        ..crate::atlas::descriptor(8)
     }
+}
+
+fn lit(light: PointLight, size: u32) -> AtlasLight {
+    AtlasLight::new(light).with_size(TileSize::Fixed(size))
 }
 
 /// Casters all around, and lights among them that reach most.
@@ -54,63 +57,80 @@ impl Crowd {
         }
     }
 
-    fn frame(&self) -> CubeFrame<'_> {
-        CubeFrame {
-            lights: &self.lights,
+    /// The lights, each with tiles of so many texels.
+    fn lit(&self, size: u32) -> Vec<AtlasLight> {
+        self.lights.iter().map(|&light| lit(light, size)).collect()
+    }
+
+    /// A frame of them, drawn.
+    fn draw(&self, gpu: &Gpu, atlas: &mut ShadowAtlas, size: u32, view: Option<&View>) {
+        let lights = self.lit(size);
+        let views: Vec<_> = view
+            .into_iter()
+            .map(|view| AtlasView::new(view, 300, 300))
+            .collect();
+        let frame = AtlasFrame {
+            lights: &lights,
             casters: &self.casters,
+            views: &views,
             ..Default::default()
-        }
+        };
+        draw(gpu, atlas, &frame);
+    }
+
+    /// How many texels are not those of the lights' own maps.
+    fn wrong(&self, gpu: &Gpu, atlas: &ShadowAtlas) -> (usize, usize) {
+        wrong_texels(gpu, atlas, &self.lit(SIZE), &self.casters)
     }
 }
 
-fn oldest(map: &CubeShadowMap) -> u32 {
-    (0..3)
-        .flat_map(|light| CubeFace::ALL.map(|face| (light, face)))
-        .filter_map(|(light, face)| map.face_statistics(light, face))
-        .map(|face| face.age)
-        .max()
-        .unwrap_or(0)
+fn tile(atlas: &ShadowAtlas, light: usize, face: CubeFace) -> AtlasTile {
+    atlas.tiles(light, 0)[face.layer() as usize]
 }
 
-/// Every light's faces against those of a map of its own.
-fn differing(gpu: &Gpu, map: &CubeShadowMap, crowd: &Crowd) -> usize {
-    let one = descriptor(1, None);
-    let each = crowd.lights.iter().enumerate().map(|(place, light)| {
-        let truth = faces(gpu, &fresh(gpu, &one, &[*light], &crowd.casters), 0);
-        let ours = faces(gpu, map, place);
-        ours.iter().zip(&truth).filter(|(a, b)| a != b).count()
-    });
-    each.sum()
+fn oldest(atlas: &ShadowAtlas) -> u32 {
+    let tiles = (0..3).flat_map(|light| atlas.tiles(light, 0));
+    tiles.map(|tile| tile.statistics.age).max().unwrap_or(0)
+}
+
+/// What is seen of a light at some points.
+fn seen(gpu: &Gpu, atlas: &ShadowAtlas, light: usize, points: &[(Vec3, Vec3)]) -> Vec<f32> {
+    let reader = PcfDescriptor {
+        map: MapKind::Atlas,
+        ..Default::default()
+    };
+    ask(gpu, atlas, &reader, light, points)
 }
 
 #[test]
-fn a_budget_is_kept_and_no_face_waits_longer_than_stated() {
+fn a_budget_is_kept_and_no_tile_waits_longer_than_stated() {
     let Some(gpu) = Gpu::for_test() else { return };
     for budget in [1, 4, 7] {
         let mut crowd = Crowd::new(&gpu);
-        let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(budget))).unwrap();
-        let bound = map.max_age().unwrap();
+        let mut atlas = atlas(&gpu, &descriptor(Some(budget)));
+        crowd.draw(&gpu, &mut atlas, SIZE, None);
+        let bound = atlas.max_age().unwrap();
         for _ in 0..bound {
-            draw_frame(&gpu, &mut map, &crowd.frame());
+            crowd.draw(&gpu, &mut atlas, SIZE, None);
         }
         let mut eldest = 0;
         for _ in 0..3 * bound {
             crowd.move_casters();
-            draw_frame(&gpu, &mut map, &crowd.frame());
-            let s = map.statistics();
-            assert_eq!(s.faces_rendered, budget, "all move, so all of it is used");
-            assert_eq!(s.faces_rendered + s.faces_postponed, 18);
-            eldest = oldest(&map).max(eldest);
+            crowd.draw(&gpu, &mut atlas, SIZE, None);
+            let s = atlas.statistics();
+            assert_eq!(s.tiles_rendered, budget, "all move, so all of it is used");
+            assert_eq!(s.tiles_rendered + s.tiles_postponed, 18);
+            eldest = oldest(&atlas).max(eldest);
         }
         assert!(eldest <= bound, "{eldest} over {bound}, budget {budget}");
         assert!(2 * eldest > bound, "{eldest}: the bound says nothing");
-        // The broken twin of what follows: now most faces still show the past.
-        assert!(differing(&gpu, &map, &crowd) > 0);
+        // The broken twin of what follows: most tiles show the past.
+        assert!(crowd.wrong(&gpu, &atlas).0 > 100);
         for _ in 0..bound {
-            draw_frame(&gpu, &mut map, &crowd.frame());
+            crowd.draw(&gpu, &mut atlas, SIZE, None);
         }
-        assert_eq!(differing(&gpu, &map, &crowd), 0);
-        assert_eq!(map.statistics().faces_postponed, 0);
+        assert_few(crowd.wrong(&gpu, &atlas), "once all had their turn");
+        assert_eq!(atlas.statistics().tiles_postponed, 0);
     }
 }
 
@@ -118,19 +138,22 @@ fn a_budget_is_kept_and_no_face_waits_longer_than_stated() {
 fn a_pinned_light_never_waits() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut crowd = Crowd::new(&gpu);
-    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(2))).unwrap();
+    let mut atlas = atlas(&gpu, &descriptor(Some(2)));
     for _ in 0..20 {
         crowd.move_casters();
-        let frame = CubeFrame {
-            pinned: &[1],
-            ..crowd.frame()
+        let mut lights = crowd.lit(SIZE);
+        lights[1] = lights[1].pinned();
+        let frame = AtlasFrame {
+            lights: &lights,
+            casters: &crowd.casters,
+            ..Default::default()
         };
-        draw_frame(&gpu, &mut map, &frame);
-        let age = |face| map.face_statistics(1, face).unwrap().age;
-        assert!(CubeFace::ALL.into_iter().all(|face| age(face) == 0));
+        draw(&gpu, &mut atlas, &frame);
+        let pinned = atlas.tiles(1, 0);
+        assert!(pinned.iter().all(|tile| tile.statistics.age == 0));
     }
-    assert!(oldest(&map) > 0, "the others wait");
-    assert_eq!(map.statistics().faces_rendered, 6 + 2);
+    assert!(oldest(&atlas) > 0, "the others wait");
+    assert_eq!(atlas.statistics().tiles_rendered, 6 + 2);
 }
 
 #[test]
@@ -145,18 +168,19 @@ fn what_changed_most_and_matters_most_to_the_eye_goes_first() {
         .flat_map(|light| [Vec3::Y * 2.0, Vec3::Z * 7.0].map(|from| light.position + from))
         .map(at)
         .collect();
-    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(2, Some(1))).unwrap();
-    let waits = map.max_age().unwrap();
+    let mut atlas = atlas(&gpu, &descriptor(Some(1)));
+    let lights = lights.map(|light| lit(light, SIZE));
+    let waits = 24; // 12 tiles, half a tile of the budget each
     let mut frame = |casters: &[Caster], eye: Vec3| {
         let view = camera(eye, Vec3::ZERO).1;
-        let frame = CubeFrame {
+        let frame = AtlasFrame {
             lights: &lights,
             casters,
-            view: Some(&view),
+            views: &[AtlasView::new(&view, 300, 300)],
             ..Default::default()
         };
-        draw_frame(&gpu, &mut map, &frame);
-        let state = |light, face| map.face_statistics(light, face).unwrap().state;
+        draw(&gpu, &mut atlas, &frame);
+        let state = |light, face| tile(&atlas, light, face).statistics.state;
         let faces = [CubeFace::PositiveY, CubeFace::PositiveZ];
         let rendered = |light| faces.map(|face| state(light, face) == TileState::Rendered);
         [rendered(0), rendered(1)]
@@ -176,17 +200,17 @@ fn what_changed_most_and_matters_most_to_the_eye_goes_first() {
     }
 }
 
-/// Where the light of a map's faces is, read off their matrix.
-fn shown(map: &CubeShadowMap, light: usize) -> Vec3 {
-    let matrix = map.clip_from_world(light, CubeFace::PositiveZ).unwrap();
+/// Where the light of a tile is, read off its matrix.
+fn shown(atlas: &ShadowAtlas, light: usize) -> Vec3 {
+    let matrix = tile(atlas, light, CubeFace::PositiveZ).clip_from_world;
     -Vec3::new(matrix.w_axis.x, matrix.w_axis.y, matrix.w_axis.w)
 }
 
 #[test]
-fn a_light_that_waits_stays_where_its_faces_were_drawn() {
+fn a_light_that_waits_stays_where_its_tiles_were_drawn() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut crowd = Crowd::new(&gpu);
-    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(2))).unwrap();
+    let mut map = atlas(&gpu, &descriptor(Some(2)));
     let points: Vec<(Vec3, Vec3)> = (0..500)
         .map(|_| (crowd.random.vec3() * 4.0, crowd.random.vec3()))
         .collect();
@@ -195,19 +219,20 @@ fn a_light_that_waits_stays_where_its_faces_were_drawn() {
         for light in &mut crowd.lights {
             light.position.x += 0.05;
         }
-        draw(&gpu, &mut map, &crowd.lights, &crowd.casters);
+        crowd.draw(&gpu, &mut map, SIZE, None);
         if frame < 3 {
             continue; // new lights are dark until their first turn
         }
-        let at = shown(&map, 0);
-        waited += usize::from(at.distance(crowd.lights[0].position) > 0.01);
-        let light = PointLight {
-            position: at,
-            ..crowd.lights[0]
-        };
-        let truth = fresh(&gpu, &descriptor(1, None), &[light], &crowd.casters);
-        let seen = |map| visibility(&gpu, map, Kernel::Bilinear, &points);
-        assert_eq!(seen(&map), seen(&truth), "frame {frame}");
+        // All of them where they are shown, so that tiles lie in the same places.
+        let mut past = Crowd::new(&gpu);
+        for (light, past) in past.lights.iter_mut().enumerate() {
+            past.position = shown(&map, light);
+        }
+        waited += usize::from(past.lights[0].position.distance(crowd.lights[0].position) > 0.01);
+        let mut truth = atlas(&gpu, &descriptor(None));
+        past.draw(&gpu, &mut truth, SIZE, None);
+        let of = |map| seen(&gpu, map, 0, &points);
+        assert_eq!(of(&map), of(&truth), "frame {frame}");
     }
     assert!(waited > 5, "{waited}");
 }
@@ -216,16 +241,13 @@ fn a_light_that_waits_stays_where_its_faces_were_drawn() {
 fn new_lights_are_dark_until_their_turn() {
     let Some(gpu) = Gpu::for_test() else { return };
     let crowd = Crowd::new(&gpu);
-    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, Some(1))).unwrap();
-    draw(&gpu, &mut map, &crowd.lights, &crowd.casters);
-    let dark = (0..3)
-        .filter(|&place| {
-            let sampler = shadows::PcfDescriptor::default();
-            let at = [(crowd.lights[place].position, Vec3::Y)];
-            crate::receivers::ask(&gpu, &map, &sampler, place, &at) == [0.0]
-        })
-        .count();
-    assert_eq!(dark, 2);
+    let mut map = atlas(&gpu, &descriptor(Some(1)));
+    crowd.draw(&gpu, &mut map, SIZE, None);
+    let is_dark = |place: &usize| {
+        let at = [(crowd.lights[*place].position, Vec3::Y)];
+        seen(&gpu, &map, *place, &at) == [0.0]
+    };
+    assert_eq!((0..3).filter(is_dark).count(), 2);
 }
 
 fn camera(eye: Vec3, target: Vec3) -> (Mat4, View) {
@@ -242,78 +264,71 @@ fn camera(eye: Vec3, target: Vec3) -> (Mat4, View) {
 }
 
 #[test]
-fn faces_without_visible_receivers_wait_and_are_not_forgotten() {
+fn tiles_without_visible_receivers_wait_and_are_not_forgotten() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut crowd = Crowd::new(&gpu);
-    let mut map = CubeShadowMap::new(&gpu.device, &descriptor(3, None)).unwrap();
+    let mut atlas = atlas(&gpu, &descriptor(None));
     let away = camera(Vec3::X * 20.0, Vec3::X * 30.0).1;
     let toward = camera(Vec3::X * 20.0, Vec3::ZERO).1;
     let mut frame = |crowd: &Crowd, view| {
-        let frame = CubeFrame {
-            view: Some(view),
-            ..crowd.frame()
-        };
-        draw_frame(&gpu, &mut map, &frame);
-        map.statistics()
+        crowd.draw(&gpu, &mut atlas, SIZE, Some(view));
+        let s = atlas.statistics();
+        (s.tiles_rendered, s.tiles_hidden, s.tiles_empty)
     };
-    assert_eq!(frame(&crowd, &away).faces_rendered, 0);
-    assert_eq!(frame(&crowd, &toward).faces_rendered, 18);
+    assert_eq!(frame(&crowd, &away).0, 0);
+    assert_eq!(frame(&crowd, &toward).0, 18);
     crowd.move_casters();
     for _ in 0..3 {
-        let s = frame(&crowd, &away);
-        assert_eq!((s.faces_rendered, s.faces_hidden), (0, 18));
+        assert_eq!(frame(&crowd, &away), (0, 18, 0));
     }
-    assert_eq!(frame(&crowd, &toward).faces_rendered, 18);
-    // So do faces that only have to be cleared.
+    assert_eq!(frame(&crowd, &toward).0, 18);
+    // So do tiles that only have to be cleared.
     let all = std::mem::take(&mut crowd.casters);
-    let s = frame(&crowd, &away);
-    assert_eq!((s.faces_hidden, s.faces_empty), (18, 0));
-    let s = frame(&crowd, &toward);
-    assert_eq!((s.faces_rendered, s.faces_empty), (18, 0));
-    let s = frame(&crowd, &away);
-    assert_eq!((s.faces_hidden, s.faces_empty), (0, 18), "clear now");
+    assert_eq!(frame(&crowd, &away), (0, 18, 0));
+    assert_eq!(frame(&crowd, &toward), (18, 0, 0));
+    assert_eq!(frame(&crowd, &away), (0, 0, 18), "they are clear");
     crowd.casters = all;
     frame(&crowd, &toward);
-    assert_eq!(differing(&gpu, &map, &crowd), 0);
+    assert_few(crowd.wrong(&gpu, &atlas), "back again");
 }
 
 #[test]
-fn faces_of_where_a_light_was_do_not_wait_once_they_show() {
+fn tiles_of_where_a_light_was_do_not_wait_once_they_show() {
     let Some(gpu) = Gpu::for_test() else { return };
     let mut crowd = Crowd::new(&gpu);
     crowd.lights.truncate(1);
-    let budget = CubeShadowMapDescriptor {
-        size: 64,
+    let budget = ShadowAtlasDescriptor {
         reach: Radius::Texels(0.1),
-        ..descriptor(1, Some(1))
+        ..descriptor(Some(1))
     };
-    let mut map = CubeShadowMap::new(&gpu.device, &budget).unwrap();
+    let mut map = atlas(&gpu, &budget);
     let mut frame = |crowd: &Crowd, eye: Vec3, target: Vec3| {
-        let frame = CubeFrame {
-            view: Some(&camera(eye, target).1),
-            ..crowd.frame()
-        };
-        draw_frame(&gpu, &mut map, &frame);
+        crowd.draw(&gpu, &mut map, SIZE, Some(&camera(eye, target).1));
         let s = map.statistics();
-        let truth = fresh(&gpu, &budget, &crowd.lights, &crowd.casters);
-        let same = faces(&gpu, &map, 0) == faces(&gpu, &truth, 0);
-        ([s.faces_rendered, s.faces_hidden, s.faces_postponed], same)
+        let (wrong, _) = crowd.wrong(&gpu, &map);
+        (
+            [s.tiles_rendered, s.tiles_hidden, s.tiles_postponed],
+            wrong < 5,
+        )
     };
     let light = crowd.lights[0].position;
     frame(&crowd, light + Vec3::X * 20.0, light);
+    for _ in 0..12 {
+        frame(&crowd, light + Vec3::X * 20.0, light);
+    }
     crowd.lights[0].position.x += 0.5;
     let light = crowd.lights[0].position;
     assert_eq!(frame(&crowd, light, light + Vec3::X), ([1, 5, 0], false));
-    // Now receivers are told where it is: no other face may show where it was.
+    // Receivers are told where it is: no other tile may show where it was.
     let all = light + Vec3::X * 20.0;
     assert_eq!(frame(&crowd, all, light), ([5, 0, 0], true));
-    // Faces on which only casters moved keep to the budget.
+    // Tiles on which only casters moved keep to the budget.
     crowd.move_casters();
     assert_eq!(frame(&crowd, all, light), ([1, 0, 5], false));
 }
 
 #[test]
-fn what_a_view_shows_is_the_same_with_and_without_hidden_faces() {
+fn what_a_view_shows_is_the_same_with_and_without_hidden_tiles() {
     let Some(gpu) = Gpu::for_test() else { return };
     let wide = Kernel::RandomDisk(RandomDisk {
         radius: Radius::Texels(40.0),
@@ -331,7 +346,7 @@ fn what_a_view_shows_is_the_same_with_and_without_hidden_faces() {
         (256, world),
     ] {
         let seen = Seen::by(&gpu, kernel, size, &|module| module);
-        assert!(seen.hidden > 20, "{} faces hidden, {kernel:?}", seen.hidden);
+        assert!(seen.hidden > 20, "{} tiles hidden, {kernel:?}", seen.hidden);
         assert_eq!(seen.unlike_inside, 0, "{kernel:?}");
         // The broken twins: receivers that the view does not show, and kernels wider than told, which
         // samplers refuse: shaders that are.
@@ -373,7 +388,7 @@ const DIRECTIONS: [Vec3; 6] = [
     Vec3::NEG_Z,
 ];
 
-/// How a map that puts off hidden faces compares with one that does not, in some frames.
+/// How an atlas that puts off hidden tiles compares with one that does not, in some frames.
 #[derive(Debug, Default)]
 struct Seen {
     hidden: u32,
@@ -385,31 +400,26 @@ struct Seen {
 impl Seen {
     fn by(gpu: &Gpu, kernel: Kernel, size: u32, change: &dyn Fn(String) -> String) -> Self {
         let mut crowd = Crowd::new(gpu);
-        let one = CubeShadowMapDescriptor {
-            size,
+        crowd.lights.truncate(1);
+        let one = ShadowAtlasDescriptor {
             reach: kernel.radius(),
-            ..descriptor(1, None)
+            ..descriptor(None)
         };
-        let mut map = CubeShadowMap::new(&gpu.device, &one).unwrap();
+        let mut map = atlas(gpu, &one);
         let mut seen = Self::default();
         for frame in 0..30 {
             crowd.move_casters();
             crowd.lights[0].position.y += if frame % 4 == 0 { 0.1 } else { 0.0 };
-            // Anywhere, or where the view shows nearly all of a face and nothing of the others.
+            // Anywhere, or where the view shows nearly all of a tile and nothing of the others.
             let (eye, toward) = match frame % 2 {
                 0 => (crowd.random.vec3() * 9.0, crowd.random.vec3()),
                 _ => (crowd.lights[0].position, DIRECTIONS[frame / 2 % 6]),
             };
             let (matrix, view) = camera(eye, eye + toward);
-            let truth = fresh(gpu, &one, &crowd.lights[..1], &crowd.casters);
-            let frame = CubeFrame {
-                lights: &crowd.lights[..1],
-                casters: &crowd.casters,
-                view: Some(&view),
-                ..Default::default()
-            };
-            draw_frame(gpu, &mut map, &frame);
-            seen.hidden += map.statistics().faces_hidden;
+            let mut truth = atlas(gpu, &one);
+            crowd.draw(gpu, &mut truth, size, None);
+            crowd.draw(gpu, &mut map, size, Some(&view));
+            seen.hidden += map.statistics().tiles_hidden;
             let points: Vec<(Vec3, Vec3)> = (0..2000)
                 .map(|_| (crowd.random.vec3() * 8.0, crowd.random.vec3()))
                 .collect();
@@ -420,10 +430,11 @@ impl Seen {
             let unlike = |points: &[_]| {
                 let reader = PcfDescriptor {
                     kernel,
+                    map: MapKind::Atlas,
                     ..Default::default()
                 };
                 let of =
-                    |map: &CubeShadowMap| ask_changed(gpu, map.into(), &reader, 0, points, change);
+                    |map: &ShadowAtlas| ask_changed(gpu, map.into(), &reader, 0, points, change);
                 usize::from(!points.is_empty() && of(&map) != of(&truth))
             };
             seen.unlike_inside += unlike(&inside);

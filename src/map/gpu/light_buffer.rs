@@ -1,4 +1,4 @@
-//! What receivers are told of the light of a flat map.
+//! What receivers are told of the light of a map that has one.
 
 use wgpu::util::DeviceExt as _;
 
@@ -7,13 +7,13 @@ use crate::uploads::Uploads;
 
 /// The uniform on the GPU; until something is written, [`LightRecord::DARK`].
 #[derive(Debug)]
-pub(crate) struct FlatLightBuffer {
+pub(crate) struct LightBuffer {
     buffer: wgpu::Buffer,
     /// What it holds once the uploads are recorded.
     written: Option<LightRecord>,
 }
 
-impl FlatLightBuffer {
+impl LightBuffer {
     pub fn new(device: &wgpu::Device, label: &str) -> Self {
         Self {
             buffer: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
