@@ -5,7 +5,9 @@ use glam::{DMat3, DVec3, Vec3};
 use crate::mesh::{Bounds, Caster};
 
 /// How much wider an ellipse of a rectangle's area is than the rectangle: 2 / sqrt(pi).
-const AS_LARGE: f64 = std::f64::consts::FRAC_2_SQRT_PI;
+const SAME_AREA: f64 = std::f64::consts::FRAC_2_SQRT_PI;
+/// How much wider an ellipsoid of a box's volume is than the box: (6 / pi)^(1/3).
+const SAME_VOLUME: f64 = 1.240_700_981_798_799_8;
 
 /// An ellipsoid that blocks light in a caster's place, in world space.
 ///
@@ -48,8 +50,9 @@ impl Blob {
     ///
     /// Its centre is that of the bounds. If the mesh comes nowhere near the corners of its bounds, as an
     /// ellipsoid does not, it is the one that touches the bounds' sides. If the mesh reaches into the corners, as
-    /// a box does, it is wider by 2 / sqrt(pi), and its outlines along the axes have the area of the
-    /// box's. Between the two, which is which is judged by the largest distance of a vertex from the centre.
+    /// a box does, it is wider: by 1.24, so that it has the box's volume, or of a plate by 1.13, so that it has the
+    /// plate's area. Between the two, which is which is judged by the largest distance of a vertex from the centre,
+    /// and what is a plate by its two smaller extents.
     pub fn of_caster(caster: &Caster) -> Self {
         let bounds = caster.mesh.bounds();
         let reached = caster.mesh.radius_under(&DMat3::IDENTITY);
@@ -60,7 +63,7 @@ impl Blob {
             true => ((reached * reached - largest * largest) / range).clamp(0.0, 1.0),
             false => 0.0,
         };
-        Self::fitted(&bounds, caster, 1.0 + to_corners * (AS_LARGE - 1.0))
+        Self::fitted(&bounds, caster, 1.0 + to_corners * (as_large(half) - 1.0))
     }
 
     /// The ellipsoid that touches the sides of a box in a caster's space, wider by `scale`.
@@ -94,6 +97,14 @@ impl Blob {
         let [x, y, z] = self.axes.map(|axis| axis.as_dvec3());
         DMat3::from_cols(x, y, z)
     }
+}
+
+/// How much wider an ellipsoid is to be that stands for a box.
+fn as_large(half: DVec3) -> f64 {
+    let smallest = half.min_element();
+    let middle = half.element_sum() - smallest - half.max_element();
+    let roundness = if middle > 0.0 { smallest / middle } else { 1.0 };
+    SAME_AREA + roundness * (SAME_VOLUME - SAME_AREA)
 }
 
 fn half_extents(bounds: &Bounds) -> DVec3 {

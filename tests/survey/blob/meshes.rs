@@ -76,7 +76,7 @@ fn error_of(
         .filter_map(|(shown, exact)| Some((shown, exact?)))
         .filter(|(shown, exact)| *shown < 1.0 || *exact < 1.0)
         .unzip();
-    assert!(exact.len() > 30, "{}", exact.len());
+    assert!(exact.len() > 15, "{}", exact.len());
     errors(&shown, &exact)
 }
 
@@ -102,10 +102,10 @@ fn errors_are_those_of_the_shape() {
             at(1.0) * Affine3A::from_scale(Vec3::splat(0.5)),
         ),
         ("egg", [0.01, 0.05], &ball, egg),
-        ("crate, 1 m above", [0.2, 0.8], &crate_, turned(1.4)),
-        ("crate, standing", [0.3, 1.0], &crate_, turned(0.4)),
-        ("pole, standing", [0.5, 1.0], &pole, at(0.8)),
-        ("tile, 1 m above", [0.2, 0.8], &tile, turned(1.0)),
+        ("crate, 1 m above", [0.26, 0.9], &crate_, turned(1.4)),
+        ("crate, standing", [0.36, 1.0], &crate_, turned(0.4)),
+        ("pole, standing", [0.1, 0.3], &pole, at(0.8)),
+        ("tile, 1 m above", [0.3, 1.0], &tile, turned(1.0)),
     ];
     for (name, bounds, shape, transform) in cases {
         let [rms, largest] = error(&gpu, shape, transform, 0.3);
@@ -116,14 +116,14 @@ fn errors_are_those_of_the_shape() {
         );
     }
     // The twins: a light of another size; a ball for an egg; the inscribed and the circumscribed ellipsoid of
-    // a box, than which that of equal area is better.
+    // a box, than which the one between is better.
     let [soft, _] = error(&gpu, &ball, egg, 0.3);
     let [round, _] = error_of(&gpu, &ball, egg, 0.3, |blob| {
         Blob::sphere(blob.centre, 0.43)
     });
     assert!(round > 5.0 * soft, "{round} {soft}");
     let of = |factor| error_of(&gpu, &crate_, turned(1.4), 0.3, |blob| blob.scaled(factor))[0];
-    let [inscribed, fitted, around] = [std::f32::consts::PI.sqrt() / 2.0, 1.0, 1.535].map(of);
-    println!("crate: inscribed {inscribed:.4}, equal area {fitted:.4}, around {around:.4}");
+    let [inscribed, fitted, around] = [1.0 / 1.227, 1.0, 3.0_f32.sqrt() / 1.227].map(of);
+    println!("crate: inscribed {inscribed:.4}, fitted {fitted:.4}, around {around:.4}");
     assert!(fitted < inscribed && fitted < 0.6 * around);
 }
