@@ -24,7 +24,10 @@
 //! `shadow_volume/distinct.rs` says.
 //!
 //! Then frames in which little changed: `ratio kept_vs_moving_prepare` and what else
-//! `shadow_volume/kept.rs` says. `--extraction`, `--distinct` and `--kept` measure nothing but these.
+//! `shadow_volume/kept.rs` says.
+//!
+//! Then what recording costs: `ratio record_1000_meshes_vs_10` and what else `shadow_volume/recording.rs`
+//! says. `--extraction`, `--distinct`, `--kept` and `--recording` measure nothing but these.
 //!
 //! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
@@ -36,6 +39,8 @@ mod distinct;
 mod extraction;
 #[path = "shadow_volume/kept.rs"]
 mod kept;
+#[path = "shadow_volume/recording.rs"]
+mod recording;
 #[path = "shared/mod.rs"]
 mod shared;
 
@@ -216,7 +221,7 @@ fn main() -> anyhow::Result<()> {
     };
     let asked = |name: &str| std::env::args().any(|argument| argument == name);
     let (only_distinct, only_extraction) = (asked("--distinct"), asked("--extraction"));
-    let only_kept = asked("--kept");
+    let (only_kept, only_recording) = (asked("--kept"), asked("--recording"));
     if only_distinct {
         distinct::run(&gpu, rounds.min(7));
     }
@@ -226,7 +231,10 @@ fn main() -> anyhow::Result<()> {
     if only_kept {
         kept::run(&gpu, rounds);
     }
-    if only_distinct || only_extraction || only_kept {
+    if only_recording {
+        recording::run(&gpu, rounds);
+    }
+    if only_distinct || only_extraction || only_kept || only_recording {
         return Ok(());
     }
     let studio = Studio::new(gpu)?;
@@ -300,6 +308,7 @@ fn main() -> anyhow::Result<()> {
     extraction::run(&studio.gpu, rounds);
     distinct::run(&studio.gpu, rounds.min(7));
     kept::run(&studio.gpu, rounds);
+    recording::run(&studio.gpu, rounds);
     let [auto, zfail, infinite, textbook, unbounded, nothing] = &times;
     for (name, ours) in [
         ("auto", auto),

@@ -1,4 +1,4 @@
-// What the two extraction passes know about a batch: one mesh, several instances of it.
+// What the two extraction passes know: who finds what of which volume.
 
 const WORKGROUP: u32 = 256u;
 
@@ -10,19 +10,14 @@ const ARGS_QUADS: u32 = 10u; // draw of the sides, six vertices each
 const ARGS_TRIANGLES: u32 = 14u; // draw of the sides, three vertices each
 
 struct Batch {
-    first_instance: u32,
-    triangle_count: u32,
-    edge_count: u32,
-    // In words of 4 bytes.
-    position_stride: u32,
-    position_offset: u32,
-    // 0: an edge record names its two triangles; 1: its first use and their number.
-    general: u32,
+    // The first workgroup's share.
+    first_share: u32,
     // See `settled` in volume_light_side.wgsl.
     zero: u32,
-    padding: u32,
+    padding: vec2u,
 }
 
+// A volume to be found.
 struct Instance {
     // The light in the mesh's own space, homogeneous, and what xyz lost when rounded to f32.
     light: vec4f,
@@ -30,19 +25,33 @@ struct Instance {
     // 0: light-facing triangles count; 1: every triangle, turned toward the light; 2: those turned
     // away, turned over.
     both_sides: u32,
-    // Where this instance's part of the shared buffers begins, in words.
+    // Where its parts of the shared buffers begin, in words of 4 bytes.
     facing_base: u32,
     cap_base: u32,
     side_base: u32,
     // Which indirect arguments are its own.
     arguments: u32,
+    triangle_count: u32,
+    // In words.
+    triangle_base: u32,
+    edge_count: u32,
+    // In records.
+    edge_base: u32,
+    use_base: u32,
+    // 0: an edge record names its two triangles; 1: its first use and their number.
+    general: u32,
+    // In words.
+    position_stride: u32,
+    position_offset: u32,
 }
 
 @group(0) @binding(0) var<uniform> batch: Batch;
 @group(0) @binding(1) var<storage, read> instances: array<Instance>;
 @group(0) @binding(2) var<storage, read_write> args: array<atomic<u32>>;
+// For each workgroup its instance, and the first of its elements: triangles or edges.
+@group(0) @binding(3) var<storage, read> shares: array<vec2u>;
 
-// Long meshes are folded: x runs fastest, y is the instance, z the row of workgroups.
-fn element(group: vec3u, groups: vec3u, local: u32) -> u32 {
-    return (group.z * groups.x + group.x) * WORKGROUP + local;
+// Long lists are folded into rows.
+fn share_of(group: vec3u, groups: vec3u) -> vec2u {
+    return shares[batch.first_share + group.y * groups.x + group.x];
 }

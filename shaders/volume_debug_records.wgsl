@@ -9,9 +9,8 @@ fn shadows_volume_debug_edge(
     if side_count(edge) == 0 {
         return drawn(vec4f(2.0, 2.0, 0.0, 1.0));
     }
-    var corners = array(edge.a, edge.b, edge.c);
     let end = select(edge.code, edge.code >> 2u, vertex == 1u);
-    return drawn(near_point(corners[end & 3u]));
+    return drawn(near_point(one_of(edge.a, edge.b, edge.c, end & 3u)));
 }
 
 @vertex
@@ -19,6 +18,5 @@ fn shadows_volume_debug_caster(
     @builtin(vertex_index) vertex: u32,
     triangle: Triangle,
 ) -> Drawn {
-    var corners = array(triangle.a, triangle.b, triangle.c);
-    return drawn(near_point(corners[vertex]));
+    return drawn(near_point(one_of(triangle.a, triangle.b, triangle.c, vertex)));
 }

@@ -27,7 +27,7 @@ fn shadows_volume_dark_cap(
 // The edge that a side is made of, in the direction in which the caps' boundary runs through it.
 fn directed_edge(place: u32) -> vec2u {
     let side = sides[caster.side_base + place];
-    let edge = edges[side >> 1u].xy;
+    let edge = edges[caster.edge_base + (side >> 1u)].xy;
     return select(edge, edge.yx, (side & 1u) == 1u);
 }
 
@@ -36,8 +36,10 @@ fn directed_edge(place: u32) -> vec2u {
 fn shadows_volume_side(
     @builtin(vertex_index) vertex: u32,
 ) -> Drawn {
-    let edge = directed_edge(vertex / caster.side_vertices);
-    let corner = vertex % caster.side_vertices;
+    // Three vertices a side, or twice that: no division by what a buffer says.
+    let place = (vertex / 3u) >> select(0u, 1u, caster.side_vertices == 6u);
+    let edge = directed_edge(place);
+    let corner = vertex - place * caster.side_vertices;
     let end = position(select(edge.x, edge.y, side_corner_is_second(corner)));
     if side_corner_is_far(corner) {
         return drawn(far_point(end));

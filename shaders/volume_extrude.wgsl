@@ -23,7 +23,8 @@ struct Caster {
     // See `settled` in volume_light_side.wgsl.
     zero: u32,
     anchor_from_light: vec3f,
-    padding: u32,
+    // The first of the mesh's edges.
+    edge_base: u32,
 }
 
 struct Camera {

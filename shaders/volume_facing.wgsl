@@ -1,18 +1,18 @@
 // Facing pass, one invocation a triangle: on which side of the triangle the light lies, decided
 // once and stored, and the list of caps that follows from it.
 
-@group(0) @binding(3) var<storage, read> positions: array<f32>;
-@group(0) @binding(4) var<storage, read> triangles: array<u32>;
-@group(0) @binding(5) var<storage, read_write> facing: array<i32>;
-@group(0) @binding(6) var<storage, read_write> caps: array<u32>;
+@group(0) @binding(4) var<storage, read> positions: array<f32>;
+@group(0) @binding(5) var<storage, read> triangles: array<u32>;
+@group(0) @binding(6) var<storage, read_write> facing: array<i32>;
+@group(0) @binding(7) var<storage, read_write> caps: array<u32>;
 
 var<workgroup> front_count: atomic<u32>;
 var<workgroup> back_count: atomic<u32>;
 var<workgroup> front_first: u32;
 var<workgroup> back_first: u32;
 
-fn position(vertex: u32) -> vec3f {
-    let word = batch.position_offset + vertex * batch.position_stride;
+fn position(vertex: u32, stride: u32, offset: u32) -> vec3f {
+    let word = offset + vertex * stride;
     return vec3f(positions[word], positions[word + 1u], positions[word + 2u]);
 }
 
@@ -22,18 +22,21 @@ fn shadows_volume_facing(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let instance = instances[batch.first_instance + group.y];
-    let triangle = element(group, groups, local);
+    let share = share_of(group, groups);
+    let instance = instances[share.x];
+    let triangle = share.y + local;
     var corners = vec3u(0u);
     var count = 0i;
     var slot = 0u;
-    if triangle < batch.triangle_count {
-        let word = 3u * triangle;
+    if triangle < instance.triangle_count {
+        let word = instance.triangle_base + 3u * triangle;
+        let stride = instance.position_stride;
+        let offset = instance.position_offset;
         corners = vec3u(triangles[word], triangles[word + 1u], triangles[word + 2u]);
         count = light_side(
-            position(corners.x),
-            position(corners.y),
-            position(corners.z),
+            position(corners.x, stride, offset),
+            position(corners.y, stride, offset),
+            position(corners.z, stride, offset),
             instance.light,
             instance.light_rest,
             batch.zero,

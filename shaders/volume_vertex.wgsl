@@ -10,16 +10,21 @@ fn cap_count(a: vec3f, b: vec3f, c: vec3f) -> i32 {
     return counted(count, caster.both_sides);
 }
 
-// Corner 0 of a triangle stays, 1 and 2 change places.
+// Corner 0 of a triangle stays, 1 and 2 change places; of a second triangle 4 and 5.
 fn turned(corner: u32) -> u32 {
-    return corner - corner % 3u + (3u - corner % 3u) % 3u;
+    return (0x453120u >> (4u * corner)) & 7u;
+}
+
+// One of three. Not from an array: what is found by a number that only the shader knows, small GPUs keep
+// in memory.
+fn one_of(a: vec3f, b: vec3f, c: vec3f, corner: u32) -> vec3f {
+    return select(select(a, b, corner == 1u), c, corner == 2u);
 }
 
 fn cap_corner(vertex: u32, a: vec3f, b: vec3f, c: vec3f) -> vec3f {
     let count = cap_count(a, b, c);
-    var corners = array(a, b, c);
     let corner = select(vertex, turned(vertex), count < 0);
-    return corners[select(corner, 0u, count == 0)];
+    return one_of(a, b, c, select(corner, 0u, count == 0));
 }
 
 struct Triangle {
@@ -71,16 +76,18 @@ fn shadows_volume_side(
     edge: Edge,
 ) -> Drawn {
     let count = side_count(edge);
-    var corners = array(edge.a, edge.b, edge.c);
-    let start = corners[edge.code & 3u];
-    if vertex / caster.side_vertices >= u32(abs(count)) {
+    let start = one_of(edge.a, edge.b, edge.c, edge.code & 3u);
+    // An edge is extruded twice at most.
+    let copy = select(0u, 1u, vertex >= caster.side_vertices);
+    if copy >= u32(abs(count)) {
         return drawn(near_point(start));
     }
     // The same triangles whichever way they are turned: where two sides of one edge cancel, they do
     // so to the last bit.
-    let place = vertex % caster.side_vertices;
+    let place = vertex - copy * caster.side_vertices;
     let corner = select(place, turned(place), count < 0);
-    let end = select(start, corners[(edge.code >> 2u) & 3u], side_corner_is_second(corner));
+    let second = one_of(edge.a, edge.b, edge.c, (edge.code >> 2u) & 3u);
+    let end = select(start, second, side_corner_is_second(corner));
     if side_corner_is_far(corner) {
         return drawn(far_point(end));
     }
@@ -93,11 +100,12 @@ fn shadows_volume_fan(
     edge: Edge,
 ) -> Drawn {
     let count = side_count(edge);
-    let corner = select(vertex % 3u, turned(vertex % 3u), count < 0);
-    if vertex / 3u >= u32(abs(count)) || corner == 0u {
+    let copy = select(0u, 1u, vertex >= 3u);
+    let place = vertex - 3u * copy;
+    let corner = select(place, turned(place), count < 0);
+    if copy >= u32(abs(count)) || corner == 0u {
         return drawn(fan_apex());
     }
-    var corners = array(edge.a, edge.b, edge.c);
     let end = select(edge.code, edge.code >> 2u, fan_corner_is_second(corner));
-    return drawn(far_point(corners[end & 3u]));
+    return drawn(far_point(one_of(edge.a, edge.b, edge.c, end & 3u)));
 }

@@ -15,6 +15,9 @@
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
 //! | [`BlobShadow`] | an ellipsoid for each caster, its penumbra computed | soft shadows of thousands of things whose shape does not matter |
+//! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall that alone receives, exact to the pixel |
+//! | [`PlanarSoftShadow`] | the same from many places of a light with a size | soft shadows on one rectangle |
+//! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
 //! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above |
 //!
@@ -202,6 +205,8 @@ pub mod light;
 pub mod map;
 pub mod mesh;
 pub mod pcf;
+pub mod planar;
+pub mod projected;
 #[cfg(feature = "reference")]
 pub mod reference;
 mod scene;
@@ -237,6 +242,15 @@ pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, Insta
 pub use pcf::{
     AnyMap, ContactHardening, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace,
     PcfDescriptor, PcfSampler, Radius, RandomDisk, VogelDisk,
+};
+pub use planar::{
+    LightShape, PlanarFrame, PlanarLight, PlanarOutline, PlanarOutput, PlanarReceiver,
+    PlanarRectangle, PlanarShadow, PlanarShadowDescriptor, PlanarSoftFrame, PlanarSoftShadow,
+    PlanarSoftShadowDescriptor, PlanarSoftStatistics, PlanarStatistics,
+};
+pub use projected::{
+    ProjectedCaster, ProjectedFrame, ProjectedShadow, ProjectedShadowDescriptor,
+    ProjectedStatistics, Projector, ProjectorState,
 };
 pub use support::{Fallback, Support};
 pub use view::{DepthConvention, View};

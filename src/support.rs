@@ -85,7 +85,7 @@ const COMPUTE: DownlevelFlags =
     DownlevelFlags::COMPUTE_SHADERS.union(DownlevelFlags::INDIRECT_EXECUTION);
 
 /// Storage buffers in the largest of the crate's shader stages.
-pub(crate) const STORAGE_BUFFERS: u32 = 6;
+pub(crate) const STORAGE_BUFFERS: u32 = 7;
 
 impl Support {
     /// Asks an adapter, before the host creates its device.

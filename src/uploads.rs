@@ -20,6 +20,15 @@ pub(crate) struct Copy {
     pub size: u64,
 }
 
+impl Copy {
+    fn precedes(&self, next: &Self) -> bool {
+        self.from_offset + self.size == next.from_offset
+            && self.to_offset + self.size == next.to_offset
+            && self.from == next.from
+            && self.to == next.to
+    }
+}
+
 /// The copies that the next encode records, and where their bytes wait.
 #[derive(Debug)]
 pub(crate) struct Uploads {
@@ -143,9 +152,13 @@ impl Uploads {
         })
     }
 
-    /// Has bytes copied after everything that was asked for before.
+    /// Has bytes copied after everything that was asked for before; with those that lie before them,
+    /// here and there, in one copy.
     pub fn copy(&mut self, copy: Copy) {
-        self.copies.push(copy);
+        match self.copies.last_mut().filter(|last| last.precedes(&copy)) {
+            Some(last) => last.size += copy.size,
+            None => self.copies.push(copy),
+        }
     }
 
     /// Has a buffer take over what another held that it replaces.

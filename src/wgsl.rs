@@ -36,14 +36,21 @@ pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
 /// `@builtin(sample_mask)`.
 pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
 
+/// Reads a [`PlanarSoftShadow`](crate::PlanarSoftShadow) through bindings of your own:
+/// `shadows_planar_soft(counts, linear, rectangle, world)`, 1 lit, 0 in shadow.
+/// [`PlanarSoftShadow::wgsl_module`](crate::PlanarSoftShadow::wgsl_module) has it with the bindings declared.
+pub const PLANAR_SOFT: &str = include_str!("../shaders/planar_soft.wgsl");
+
 /// Depth of casters on one face of a cube map, or on a flat map.
 pub(crate) const CUBE_CASTER: &str = concat!(
+    include_str!("../shaders/caster_places.wgsl"),
     include_str!("../shaders/cube_caster.wgsl"),
     include_str!("../shaders/cube_caster_face.wgsl"),
 );
 
 /// The same on wgpu's GL back end.
 pub(crate) const CUBE_CASTER_GL: &str = concat!(
+    include_str!("../shaders/caster_places.wgsl"),
     include_str!("../shaders/cube_caster.wgsl"),
     include_str!("../shaders/cube_caster_gl.wgsl"),
 );
@@ -53,3 +60,20 @@ pub(crate) const CUBE_CROSS: &str = concat!(
     include_str!("../shaders/light_record.wgsl"),
     include_str!("../shaders/cube_cross.wgsl"),
 );
+
+/// Casters projected onto a plane, into the host's picture.
+pub(crate) const PLANAR_CASTER: &str = concat!(
+    include_str!("../shaders/caster_places.wgsl"),
+    include_str!("../shaders/planar_caster.wgsl"),
+    include_str!("../shaders/planar_shade.wgsl"),
+);
+
+/// The same, counted for each place of a light with a size.
+pub(crate) const PLANAR_COUNT: &str = concat!(
+    include_str!("../shaders/caster_places.wgsl"),
+    include_str!("../shaders/planar_caster.wgsl"),
+    include_str!("../shaders/planar_soft_count.wgsl"),
+);
+
+/// The outline of a plane.
+pub(crate) const PLANAR_OUTLINE: &str = include_str!("../shaders/planar_outline.wgsl");

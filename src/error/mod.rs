@@ -7,6 +7,8 @@ mod light;
 mod map;
 mod mesh;
 mod names;
+mod planar;
+mod projected;
 #[cfg(feature = "reference")]
 mod reference;
 mod tiles;
@@ -19,6 +21,8 @@ pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
+pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
+pub use projected::ProjectedShadowError;
 #[cfg(feature = "reference")]
 pub use reference::ReferenceError;
 pub use tiles::TileSizeError;

@@ -30,9 +30,13 @@ pub use encoding::DepthEncoding;
 pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 pub use gpu::HostDraw;
-pub(crate) use gpu::{LightRecord, UNIFORM_LIGHTS};
+pub(crate) use gpu::{
+    INSTANCE_SIZE, Instance, LightRecord, UNIFORM_LIGHTS, UNIFORM_STRIDE, buffer, instance,
+};
 pub use plan::TileSize;
+pub(crate) use plan::{Place, TileAllocator};
 pub use projection::CubeFace;
+pub(crate) use projection::{FlatFrame, axes, fit_spot};
 pub use sides::CasterSides;
 pub use static_layers::StaticLayers;
 pub use statistics::{CubeStatistics, ShadowMapStatistics, TileState, TileStatistics};

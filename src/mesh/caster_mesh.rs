@@ -11,7 +11,7 @@ use super::data::{MeshData, edge_records};
 use super::host::{HostPositions, InstanceLayout, POSITION_SIZE};
 use super::records::VertexRecords;
 use super::solid::is_solid;
-use super::upload::{storage_usage, upload};
+use super::upload::{check_size, storage_usage, upload};
 use super::{Adjacency, Bounds, MeshKind};
 use crate::error::CasterMeshError;
 
@@ -64,15 +64,12 @@ pub(crate) struct Places {
     pub count: u32,
 }
 
-/// What an adjacency says of a mesh, on the GPU and in main memory.
+/// What an adjacency says of a mesh.
 #[derive(Debug)]
 struct Welded {
-    edges: wgpu::Buffer,
-    edge_count: u32,
-    edge_uses: Option<wgpu::Buffer>,
-    edge_use_count: u32,
-    /// The same in main memory, if the positions were uploaded from there.
-    data: Option<MeshData>,
+    data: MeshData,
+    /// Whether the positions were uploaded from main memory, so that they are known there.
+    positions_known: bool,
     /// Made when a renderer first asks for them.
     records: OnceLock<VertexRecords>,
 }
@@ -80,10 +77,11 @@ struct Welded {
 impl CasterMesh {
     /// Uploads a mesh. `positions` are those the adjacency was built from.
     ///
-    /// GPU memory: 12 bytes a vertex, 12 a triangle, 16 an edge, and for
-    /// [`MeshKind::General`] 4 for each use of an edge. Main memory: the same, and 4 bytes for each
-    /// use of an edge in any case, for shadow volumes whose silhouettes are found on the CPU; where
-    /// they are, another 17 bytes or so a triangle from the first time on.
+    /// GPU memory: 12 bytes a vertex, 12 a triangle. Main memory, for shadow volumes: the same, 16
+    /// bytes an edge and 4 for each use of an edge; where silhouettes are found on the CPU, another 17
+    /// bytes or so a triangle from the first time on. A
+    /// [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) keeps what it reads of the meshes that it
+    /// draws in buffers of its own.
     ///
     /// # Errors
     /// [`CasterMeshError`] if the counts differ, a position is not finite or a buffer would be
@@ -127,6 +125,8 @@ impl CasterMesh {
     /// shadow of its present form. Vertices that were welded are read at the first of them: the
     /// host must keep them together.
     ///
+    /// Main memory: 12 bytes a triangle, 16 an edge, 4 for each use of an edge.
+    ///
     /// # Errors
     /// [`CasterMeshError`] if stride, offset, size, usages or bounds do not fit.
     pub fn from_host_positions(
@@ -156,27 +156,28 @@ impl CasterMesh {
         solid: bool,
         packed: Option<Vec<[f32; 3]>>,
     ) -> Result<Self, CasterMeshError> {
-        let storage = storage_usage(device);
-        // Devices without storage buffers may want index buffers to be nothing else.
-        let index = wgpu::BufferUsages::INDEX | (storage & wgpu::BufferUsages::STORAGE);
         let triangles = Triangles {
-            buffer: upload(device, "triangles", adjacency.triangles(), index)?,
+            buffer: upload(
+                device,
+                "triangles",
+                adjacency.triangles(),
+                wgpu::BufferUsages::INDEX,
+            )?,
             format: wgpu::IndexFormat::Uint32,
             offset: 0,
             count: adjacency.triangles().len() as u32,
         };
         let kind = adjacency.kind();
-        let uses = adjacency.edge_uses();
-        let records = edge_records(adjacency);
+        let edges = edge_records(adjacency);
+        check_size(device, "edges", size_of_val(&edges[..]) as u64)?;
+        if kind == MeshKind::General {
+            let uses = size_of_val(adjacency.edge_uses());
+            check_size(device, "edge uses", uses as u64)?;
+        }
+        let positions_known = packed.is_some();
         let welded = Welded {
-            edges: upload(device, "edges", &records, storage)?,
-            edge_count: records.len() as u32,
-            edge_uses: match kind {
-                MeshKind::Closed => None,
-                MeshKind::General => Some(upload(device, "edge uses", uses, storage)?),
-            },
-            edge_use_count: uses.len() as u32,
-            data: packed.map(|positions| MeshData::new(positions, records, adjacency)),
+            data: MeshData::new(packed.unwrap_or_default(), edges, adjacency),
+            positions_known,
             records: OnceLock::new(),
         };
         let welded = Some(welded);
@@ -319,41 +320,36 @@ impl CasterMesh {
         self.0.welded.is_some()
     }
 
-    /// Three welded vertices a triangle, `u32`: index buffer and storage buffer, of a mesh with an
-    /// adjacency.
+    /// Three welded vertices a triangle, `u32`, to draw a mesh with an adjacency with.
     pub(crate) fn triangles(&self) -> &wgpu::Buffer {
         &self.0.triangles.buffer
     }
 
-    /// One record an edge; see [`edge_records`].
-    pub(crate) fn edges(&self) -> Option<&wgpu::Buffer> {
-        Some(&self.0.welded.as_ref()?.edges)
-    }
-
     pub(crate) fn edge_count(&self) -> u32 {
-        self.0.welded.as_ref().map_or(0, |welded| welded.edge_count)
-    }
-
-    /// One `u32` a use, `triangle << 1 | reversed`; only for general meshes.
-    pub(crate) fn edge_uses(&self) -> Option<&wgpu::Buffer> {
-        self.0.welded.as_ref()?.edge_uses.as_ref()
+        self.welded_data().map_or(0, |data| data.edges.len() as u32)
     }
 
     pub(crate) fn edge_use_count(&self) -> u32 {
-        let welded = self.0.welded.as_ref();
-        welded.map_or(0, |welded| welded.edge_use_count)
+        self.welded_data()
+            .map_or(0, |data| data.edge_uses.len() as u32)
+    }
+
+    /// What an adjacency says of it, and the positions unless they are the host's.
+    pub(crate) fn welded_data(&self) -> Option<&MeshData> {
+        Some(&self.0.welded.as_ref()?.data)
     }
 
     /// The mesh in main memory, unless its positions are the host's.
     pub(crate) fn data(&self) -> Option<&MeshData> {
-        self.0.welded.as_ref()?.data.as_ref()
+        let welded = self.0.welded.as_ref()?;
+        welded.positions_known.then_some(&welded.data)
     }
 
     /// Triangles and edges for vertex shaders without storage buffers, unless the positions are
     /// the host's.
     pub(crate) fn records(&self) -> Option<&VertexRecords> {
+        let data = self.data()?;
         let welded = self.0.welded.as_ref()?;
-        let data = welded.data.as_ref()?;
         let make = || VertexRecords::new(&self.0.device, data, self.0.kind);
         Some(welded.records.get_or_init(make))
     }

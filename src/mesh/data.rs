@@ -6,9 +6,11 @@ use super::blocks::EdgeBlocks;
 use super::planes::TrianglePlanes;
 use super::{Adjacency, EdgeUse, MeshKind};
 
-/// What is on the GPU, in main memory, for those ways to find silhouettes that work there.
+/// What shadow volumes need of a mesh, in main memory: for the CPU to find silhouettes, and to be uploaded
+/// where a renderer draws them.
 #[derive(Clone, Debug)]
 pub(crate) struct MeshData {
+    /// None, if they lie in a buffer of the host.
     pub positions: Vec<[f32; 3]>,
     /// Three welded vertices a triangle.
     pub triangles: Vec<[u32; 3]>,

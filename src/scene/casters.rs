@@ -8,6 +8,7 @@ use glam::{Affine3A, DVec3};
 
 use super::bounds::CasterBounds;
 use super::caster_tree::CasterSpheres;
+use super::digest::Digest;
 use crate::error::CasterError;
 use crate::mesh::{Caster, CasterMesh, MeshKind};
 
@@ -311,25 +312,15 @@ impl Hasher for DigestHasher {
 /// Memory Integrity Checking", 2003). Two contents that differ have the same sum with a chance of
 /// about 2^-128.
 fn digest(of: &Compared) -> u128 {
-    let transform = of.transform.to_cols_array();
-    let mut lanes = [0x9e37_79b9_7f4a_7c15_u64, 0xc2b2_ae3d_27d4_eb4f];
-    let mut take = |word: u64| {
-        for (lane, key) in lanes
-            .iter_mut()
-            .zip([0xa076_1d64_78bd_642f_u64, 0xe703_7ed1_a0b4_28db])
-        {
-            // Multiply and fold, as wyhash does (Wang Yi, 2019).
-            let product = u128::from(*lane ^ word) * u128::from(key);
-            *lane = (product as u64) ^ ((product >> 64) as u64) ^ word.rotate_left(32);
-        }
-    };
-    take(of.mesh);
-    take(of.revision);
-    for pair in transform.chunks_exact(2) {
-        take(u64::from(pair[0].to_bits()) << 32 | u64::from(pair[1].to_bits()));
-    }
-    take(u64::from(of.layers) << 32 | u64::from(of.owner.map_or(0, NonZeroU32::get)));
-    take(0);
-    take(0);
-    u128::from(lanes[0]) << 64 | u128::from(lanes[1])
+    let mut digest = Digest::new();
+    digest.take(of.mesh);
+    digest.take(of.revision);
+    digest.take_f32(&of.transform.to_cols_array());
+    digest.take(u64::from(of.layers) << 32 | u64::from(of.owner.map_or(0, NonZeroU32::get)));
+    digest.finish()
+}
+
+/// The same of a caster.
+pub(crate) fn caster_digest(caster: &Caster) -> u128 {
+    digest(&Compared::of(caster))
 }

@@ -3,8 +3,10 @@
 mod bounds;
 mod caster_tree;
 mod casters;
+mod digest;
 mod frustum;
 
 pub(crate) use bounds::{CasterBounds, HalfSpace};
-pub(crate) use casters::{Casters, Change, Record};
+pub(crate) use casters::{Casters, Change, Record, caster_digest};
+pub(crate) use digest::Digest;
 pub(crate) use frustum::{Frustum, Region};

@@ -16,7 +16,7 @@ mod decide;
 mod descriptor;
 mod frame;
 mod gpu;
-mod light_pass;
+pub(crate) mod light_pass;
 mod plan;
 mod renderer;
 mod silhouette;

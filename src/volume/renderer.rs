@@ -13,15 +13,16 @@ use crate::volume::gpu::buffers::Buffers;
 use crate::volume::gpu::draw_calls::record;
 use crate::volume::gpu::draw_pipelines;
 use crate::volume::gpu::pipelines::{OwnPipelines, VolumePipelines};
-use crate::volume::plan::batches::{Batch, Batches};
 use crate::volume::plan::cache::{Slot, VolumeCache};
 use crate::volume::plan::faces::Draw;
 use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::meshes::MeshPool;
 use crate::volume::plan::pair::Pair;
 use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
 use crate::volume::plan::scene::Requirements;
 use crate::volume::plan::volumes::{Volumes, check_counts, light_params, view_params};
-use crate::volume::silhouette::{CpuVolume, Way, Ways, workgroups};
+use crate::volume::plan::work::{Dispatch, Work};
+use crate::volume::silhouette::{CpuVolume, Way, Ways};
 use crate::volume::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 
 /// Stencil shadow volumes of all lights of a frame, in all its views, for any number of casters.
@@ -75,7 +76,8 @@ pub struct ShadowVolumeRenderer {
     limits: PlanLimits,
     volumes: Volumes,
     cache: VolumeCache,
-    batches: Batches,
+    meshes: MeshPool,
+    work: Work,
     views: Vec<ViewParams>,
     lights: Vec<LightParams>,
     statistics: VolumeStatistics,
@@ -155,7 +157,8 @@ impl ShadowVolumeRenderer {
             buffers: Buffers::new(&label),
             groups: Groups::default(),
             volumes: Volumes::default(),
-            batches: Batches::default(),
+            meshes: MeshPool::new(limits.storage_bytes),
+            work: Work::default(),
             views: Vec::new(),
             lights: Vec::new(),
             statistics: VolumeStatistics::default(),
@@ -183,10 +186,14 @@ impl ShadowVolumeRenderer {
     ///
     /// GPU memory, kept between frames and grown as needed, what it held being copied: where compute
     /// shaders find the silhouettes about 28 bytes a triangle and volume, where the CPU does what
-    /// they come to, about 6 bytes a triangle; 120 a volume; and 256 a caster, light and view. Up to
-    /// twice that, because buffers grow to powers of two. Besides, what `encode` uploads waits in
-    /// staging buffers. These are kept, of powers of two from 64 KB on: about twice the most that was
-    /// uploaded, for each frame that the GPU has not finished.
+    /// they come to, about 6 bytes a triangle; 170 a volume; and 256 a caster, light and view. What
+    /// shaders read of a mesh lies in buffers that all meshes share, from the time that a volume of it is
+    /// first looked for until no caster has it: 12 bytes a position (none where positions are the
+    /// host's) and 16 an edge, and for compute shaders 12 a triangle and 4 for each use of an edge of a
+    /// [`MeshKind::General`](crate::mesh::MeshKind::General) mesh. Up to twice all that, because buffers grow to
+    /// powers of two. Besides, what `encode` uploads waits in staging buffers. These are kept, of powers of two from 64 KB on: about twice the most that was
+    /// uploaded, for each frame that the GPU has not finished. Those of meshes are gone as soon as they
+    /// are copied.
     ///
     /// `queue` is not written to: what is uploaded is recorded.
     ///
@@ -206,13 +213,16 @@ impl ShadowVolumeRenderer {
             ways: &self.ways,
             limits: &self.limits,
             regions: self.cache.regions(),
+            meshes: &self.meshes,
         };
         self.volumes.casters.compare(frame.casters, &required)?;
         check_counts(frame, self.options, &self.limits)?;
         let [not_encoded, encoder_dropped] = self.forget();
         let choices = (self.options, self.keep);
-        self.volumes
+        let left = self
+            .volumes
             .decide(frame, choices, &self.ways, &mut self.cache);
+        left.into_iter().for_each(|mesh| self.meshes.release(mesh));
         (self.views, self.lights) = (view_params(frame), light_params(frame));
         let staged = self.find();
         self.volumes.fill(&mut self.cache);
@@ -228,7 +238,8 @@ impl ShadowVolumeRenderer {
 
     /// Records the uploads of the last [`prepare`](Self::prepare), and the compute passes that find
     /// the volumes which were not kept from the frame before: none where neither the lights nor a
-    /// caster has moved. Once: a second call before the next `prepare` records nothing.
+    /// caster has moved, else two dispatches for all lights and meshes (see
+    /// [`VolumeStatistics::dispatches`]). Once: a second call before the next `prepare` records nothing.
     ///
     /// What is recorded must be submitted, for the next frame counts on it; if the encoder is dropped
     /// instead, the next `prepare` finds everything anew. A host that deforms a mesh in its own
@@ -243,19 +254,19 @@ impl ShadowVolumeRenderer {
         self.submissions.watch(encoder);
         self.uploads.record(encoder);
         let extraction = self.pipelines.extraction.as_ref();
-        let Some(extraction) = extraction.filter(|_| !self.batches.list.is_empty()) else {
+        let Some(extraction) = extraction.filter(|_| !self.work.is_empty()) else {
             return;
         };
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(&self.label),
             timestamp_writes: None,
         });
-        self.dispatch(&mut pass, &extraction.facing.pipeline, |batch, group| {
-            (batch.params.triangle_count, &group[0])
-        });
-        self.dispatch(&mut pass, &extraction.edges.pipeline, |batch, group| {
-            (batch.params.edge_count, &group[1])
-        });
+        let Work { facing, edges, .. } = &self.work;
+        pass.set_pipeline(&extraction.facing.pipeline);
+        self.dispatch(&mut pass, (0, facing), |one| self.groups.of_facing(one));
+        pass.set_pipeline(&extraction.edges.pipeline);
+        let first = facing.len() as u32;
+        self.dispatch(&mut pass, (first, edges), |one| self.groups.of_edges(one));
     }
 
     /// Has the next [`prepare`](Self::prepare) find every volume anew: for a host that has lost what
@@ -263,6 +274,7 @@ impl ShadowVolumeRenderer {
     /// without a new revision.
     pub fn invalidate(&mut self) {
         self.cache.forget_all();
+        self.meshes.forget_all();
         self.renew();
     }
 
@@ -360,23 +372,17 @@ impl ShadowVolumeRenderer {
         draw_pipelines::light_pass()
     }
 
+    /// Records the dispatches of one pass, the first of which has this number among all.
     fn dispatch<'a>(
-        &'a self,
+        &self,
         pass: &mut wgpu::ComputePass<'_>,
-        pipeline: &wgpu::ComputePipeline,
-        work: impl Fn(&'a Batch, &'a [wgpu::BindGroup; 2]) -> (u32, &'a wgpu::BindGroup),
+        (first, dispatches): (u32, &'a [Dispatch]),
+        group: impl Fn(&'a Dispatch) -> Option<&'a wgpu::BindGroup>,
     ) {
-        let most = self.limits.workgroups;
-        let step = self.limits.batch_window;
-        pass.set_pipeline(pipeline);
-        for (index, batch) in (0..).zip(&self.batches.list) {
-            let Some(groups) = self.groups.of_batch(batch) else {
-                continue;
-            };
-            let (count, group) = work(batch, groups);
-            let [x, y, z] = workgroups(count, batch.instance_count, most);
-            pass.set_bind_group(0, group, &[index * step]);
-            pass.dispatch_workgroups(x, y, z);
+        for (number, dispatch) in (first..).zip(dispatches) {
+            let [x, y] = dispatch.groups;
+            pass.set_bind_group(0, group(dispatch), &[number * self.limits.batch_window]);
+            pass.dispatch_workgroups(x, y, 1);
         }
     }
 }

@@ -73,7 +73,10 @@ pub struct VolumeStatistics {
     /// the frame before, or found for another caster: casters of one mesh that the light meets alike
     /// (the sun, all that are turned alike) share theirs.
     pub casters_extracted: u32,
-    /// Dispatches that `encode` records.
+    /// Dispatches that `encode` records: two where compute shaders look for silhouettes, however many
+    /// lights and meshes there are. One more for each buffer that positions of the host lie in
+    /// ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and more where
+    /// volumes or meshes are too large for one buffer.
     pub dispatches: u32,
     /// Bytes that `encode` copies into the renderer's buffers: 0 where nothing changed.
     pub uploaded: u64,

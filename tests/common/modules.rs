@@ -8,11 +8,14 @@ pub const JOINED: &[&[&str]] = &[
     &["volume_exact"],
     &["volume_exact_samples"],
     FACE,
-    &["cube_caster", "cube_caster_gl"],
+    &["caster_places", "cube_caster", "cube_caster_gl"],
     &["light_record", "cube_cross"],
     &["tile_fill"],
     BLOB_RECEIVER,
     BLOB_DECAL,
+    &["projected_caster"],
+    &["projected_tile"],
+    &["projected_receiver"],
     &["atlas_debug"],
     PULLED,
     PULLED_STEPS,
@@ -63,6 +66,10 @@ pub const JOINED: &[&[&str]] = &[
     ],
     FACING,
     EDGES,
+    &["caster_places", "planar_caster", "planar_shade"],
+    &["planar_outline"],
+    &["caster_places", "planar_caster", "planar_soft_count"],
+    &["planar_soft"],
     &["volume_count"],
     &["volume_screen"],
     &["volume_screen", "volume_reset"],
@@ -87,7 +94,7 @@ pub const JOINED: &[&[&str]] = &[
 pub const BLOB_RECEIVER: &[&str] = &["blob_visibility", "blob_receiver"];
 pub const BLOB_DECAL: &[&str] = &["blob_visibility", "blob_decal"];
 
-pub const FACE: &[&str] = &["cube_caster", "cube_caster_face"];
+pub const FACE: &[&str] = &["caster_places", "cube_caster", "cube_caster_face"];
 
 /// Volumes whose silhouettes are found before they are drawn.
 pub const PULLED: &[&str] = &[

@@ -3,3 +3,8 @@
 mod blob;
 #[path = "../common/mod.rs"]
 mod common;
+mod planar;
+mod planar_errors;
+mod planar_host;
+mod planar_soft;
+mod projected;

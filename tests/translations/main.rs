@@ -7,6 +7,8 @@ mod installed;
 mod modules;
 #[path = "../common/pcf.rs"]
 mod pcf;
+#[path = "../common/projected.rs"]
+mod projected;
 mod shown;
 mod tint;
 
@@ -58,8 +60,10 @@ fn all() -> Vec<Module> {
         let text = sampler.wgsl_module(1) + &host(&descriptor) + &given_host(&descriptor);
         Module::new(format!("receiver-{place}-{kernel}"), text)
     });
+    let projected = projected::modules(1).map(|(name, text)| Module::new(name, text));
     joined
         .chain(receivers)
+        .chain(projected)
         .chain([blobs()])
         .chain(shown::all())
         .collect()

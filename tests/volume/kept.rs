@@ -25,7 +25,7 @@ const RANGE: f32 = 12.0;
 
 pub struct Theatre {
     pub gpu: Gpu,
-    meshes: Vec<CasterMesh>,
+    pub meshes: Vec<CasterMesh>,
 }
 
 impl Theatre {
@@ -87,7 +87,7 @@ impl Theatre {
     }
 
     /// The counts that a renderer comes to, and its statistics.
-    fn draw(
+    pub fn draw(
         &self,
         renderer: &mut ShadowVolumeRenderer,
         frame: &OneLight<'_>,

@@ -9,4 +9,7 @@ mod modules;
 mod pcf;
 mod pcf_import;
 mod pcf_wgsl;
+#[path = "../common/projected.rs"]
+mod projected;
+mod projected_wgsl;
 mod uniform_branches;

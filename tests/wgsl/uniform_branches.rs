@@ -242,6 +242,18 @@ fn volumes_have_none() {
 }
 
 #[test]
+fn receivers_of_projected_shadows_have_none() {
+    for (name, wgsl) in crate::projected::modules(0) {
+        assert_none(name, &wgsl);
+        if name.contains("uniform") {
+            let from = "    if shaded {";
+            let to = "    if shadow.levels > 9.0 { return vec3f(1.0); }\n    if shaded {";
+            assert_found(&wgsl, from, to, "shadow.levels > 9.0");
+        }
+    }
+}
+
+#[test]
 fn no_shader_is_left_out() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
     let files = std::fs::read_dir(folder).unwrap();

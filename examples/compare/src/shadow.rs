@@ -3,6 +3,7 @@
 use anyhow::Result;
 use host::one_light::{OneLight, PrepareOne as _};
 use serde_json::{Value, json};
+use shadows::glam::Vec3;
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
@@ -39,6 +40,8 @@ pub struct ShadowInputs {
     pub receivers: Bounds,
     /// Up to where along the camera's axis there is something to see.
     pub seen: f32,
+    /// The corners of a horizontal rectangle that receives and does not cast, if there is one.
+    pub ground: Option<[Vec3; 4]>,
 }
 
 impl ShadowInputs {

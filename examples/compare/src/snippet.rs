@@ -3,7 +3,8 @@
 use std::fmt::Debug;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, PcfDescriptor, PlanarSoftShadowDescriptor,
+    ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -18,7 +19,18 @@ pub fn of(config: &Config) -> String {
         Config::Flat { map, sampler } => flat(&map) + &pcf(&sampler),
         Config::Atlas { sampler, .. } => pcf(&sampler),
         Config::Volume(volume) => volumes(&volume),
-        Config::Survey(Survey::Blob(blobs)) => blobs.snippet(),
+        Config::Survey(survey) => match survey {
+            Survey::Planar => "let planar = PlanarShadowDescriptor::default();\n".to_owned(),
+            Survey::PlanarSoft { size, samples } => {
+                let default = PlanarSoftShadowDescriptor::default();
+                Literal::new("planar", "PlanarSoftShadowDescriptor")
+                    .field("size", "", &[size; 2], &default.size)
+                    .field("samples", "", &samples, &default.samples)
+                    .finish()
+            }
+            Survey::Projected(projected) => projected.snippet(),
+            Survey::Blob(blobs) => blobs.snippet(),
+        },
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",
             peer.name

@@ -7,6 +7,7 @@ use shadows::reference::{ReferenceImage, ReferenceScene};
 use shadows::{HomogeneousLight, View};
 
 use crate::shadow::{Shadow, ShadowInputs};
+use crate::survey;
 use host::exact;
 use host::gpu::Gpu;
 use host::renderer::{self, Look, Renderer};
@@ -54,6 +55,7 @@ impl Stage {
             casters: scene_gpu.casters.clone(),
             receivers: receivers(&scene),
             seen: seen(&scene),
+            ground: survey::planar::ground(&scene),
         };
         Ok(Self {
             scene,

@@ -5,6 +5,7 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
+use crate::survey::projected::Projected;
 use crate::survey::{Blobs, Survey};
 use crate::technique::{Config, Technique};
 use host::peers::peer;
@@ -107,6 +108,17 @@ pub static ROWS: &[Row] = &[
     row("blob", |_| Config::Survey(Survey::Blob(Blobs::Asked))),
     row("blob-decals", |_| {
         Config::Survey(Survey::Blob(Blobs::Decals))
+    }),
+    row("planar", |_| Config::Survey(Survey::Planar)),
+    row("planar-soft", |size| {
+        let samples = 64;
+        Config::Survey(Survey::PlanarSoft { size, samples })
+    }),
+    row("projected", |side| {
+        Config::Survey(Survey::Projected(Projected::new(side, false)))
+    }),
+    row("projected-all", |side| {
+        Config::Survey(Survey::Projected(Projected::new(side, true)))
     }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {

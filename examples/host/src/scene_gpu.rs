@@ -199,6 +199,7 @@ fn uniform(object: &Object) -> ObjectUniform {
         world_from_object: Mat4::from(object.transform).to_cols_array_2d(),
         normal_from_object: normal.map(|column| column.extend(0.0).to_array()),
         albedo: [r, g, b, 1.0],
-        glow: glow.extend(0.0).to_array(),
+        // And whether it casts.
+        glow: glow.extend(f32::from(u8::from(object.casts))).to_array(),
     }
 }

@@ -1,6 +1,6 @@
 //! Buffers that are written by copies.
 
-pub(super) fn buffer(
+pub(crate) fn buffer(
     device: &wgpu::Device,
     label: &str,
     size: u64,

@@ -4,7 +4,7 @@ use super::buffers::buffer;
 use crate::uploads::Uploads;
 
 /// Bytes from one uniform to the next: the largest alignment a device may ask for.
-const UNIFORM_STRIDE: u64 = 256;
+pub(crate) const UNIFORM_STRIDE: u64 = 256;
 
 /// `ShadowsCubeFaceUniform` in WGSL.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -15,7 +15,7 @@ mod static_layer;
 mod tile_masks;
 mod visibility;
 
-pub(crate) use allocation::Place;
+pub(crate) use allocation::{Place, TileAllocator};
 pub(crate) use choice::{Rules, SlotPlan, Tally, casters_drawn, choose_tiles, follow};
 pub(crate) use flat_place::FlatPlace;
 pub(crate) use importance::{LitSphere, Screen, importance};

@@ -92,11 +92,14 @@ pub(crate) struct FlatFrustum {
 impl FlatFrustum {
     /// Whether a caster is drawn on the map.
     pub fn holds(&self, record: &Record) -> bool {
-        let caster = record.bounds.relative_to(self.origin);
+        record.casts() && self.touches(&record.bounds)
+    }
+
+    /// Whether any point of some bounds may show.
+    pub fn touches(&self, bounds: &CasterBounds) -> bool {
+        let caster = bounds.relative_to(self.origin);
         let in_range = |range| caster.centre.length() - caster.radius <= range;
-        record.casts()
-            && self.sides.iter().all(|side| side.touches(&caster))
-            && self.range.is_none_or(in_range)
+        self.sides.iter().all(|side| side.touches(&caster)) && self.range.is_none_or(in_range)
     }
 
     /// About the share of the map's area that a caster covers, up to 1.

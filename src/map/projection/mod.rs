@@ -15,7 +15,7 @@ pub(crate) use cascades::{Cascade, CascadesOf, fit_cascades};
 pub(crate) use cube::ALL_FACES;
 pub use cube::CubeFace;
 pub(crate) use directional::{Fit, fit_directional};
-pub(crate) use flat::FlatFrame;
+pub(crate) use flat::{FlatFrame, axes};
 pub(crate) use light_box::LightBox;
 pub(crate) use near::NearPlane;
 pub(crate) use placement::{MapShape, Placed};

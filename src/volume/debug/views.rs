@@ -18,8 +18,8 @@ use crate::volume::gpu::layout::bind;
 use crate::volume::light_pass::join::check_color;
 use crate::volume::light_pass::mask::check_target;
 use crate::volume::light_pass::targets::DEPTH_STENCIL;
-use crate::volume::plan::batches::position_words;
 use crate::volume::plan::cache::Slot;
+use crate::volume::plan::cache::position_words;
 use crate::volume::plan::faces::{Draw, Faces};
 use crate::volume::plan::limits;
 use crate::volume::plan::params::{Arguments, CasterParams, LightParams, ViewParams};
@@ -213,9 +213,8 @@ impl VolumeDebug {
             let mesh = &caster.mesh;
             let (feed, group) = match &self.pulled {
                 Some(pulled) => {
-                    // No side is read; any buffer will do.
-                    let edges = mesh.edges()?;
-                    let buffers = [mesh.positions(), edges, edges];
+                    // No edge and no side is read; any buffer will do.
+                    let buffers = [mesh.positions(); 3];
                     let group = bind(device, &self.label, &pulled.layout, &uniforms, &buffers);
                     (Feed::Pulled, group)
                 }

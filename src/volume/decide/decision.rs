@@ -36,7 +36,7 @@ impl KnownCaster {
 }
 
 /// A volume that is drawn, or is kept until its caster comes into view again.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Volume {
     pub light: ObjectLight,
     pub counted: Counted,

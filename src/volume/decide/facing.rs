@@ -64,7 +64,7 @@ fn counts_both_sides(
 /// is at adj(M) (l - w t), with det(M) w for its w, and nothing here is divided: the map may flatten
 /// the mesh. The light is then the direction along which it does, on the side on which it is of what is
 /// left of the mesh: its triangles face the light or not as they come to lie in that plane.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ObjectLight {
     pub light: [f32; 4],
     pub rest: [f32; 3],
@@ -74,7 +74,7 @@ pub(crate) struct ObjectLight {
 /// Where the rays from a point light are counted from: a point of the mesh's box as near to the light
 /// as any, and where that is from the light in world space. What this differs by from a vertex is no
 /// larger than the mesh, whatever its coordinates are counted from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RayOrigin {
     pub anchor: [f32; 3],
     pub from_light: [f32; 3],

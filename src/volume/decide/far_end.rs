@@ -23,7 +23,7 @@ use crate::volume::decide::world_box::{WorldBox, displacement, rounding};
 use crate::volume::frame::Situation;
 
 /// Where far vertices go: see `far_point` in volume_extrude.wgsl.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FarEnd {
     /// Its normal, 0 for infinity. For a point light over its distance from the light; for a
     /// directional light with its distance from the origin.

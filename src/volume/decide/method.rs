@@ -135,7 +135,7 @@ pub(crate) enum Skip {
 }
 
 /// What is drawn of a caster.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Form {
     pub count: Count,
     pub dark_cap: DarkCap,

@@ -1,25 +1,24 @@
-//! Bind groups: one set for each mesh and chunk of buffers.
+//! Bind groups: one for each set of buffers that shaders read and write together.
 
 use std::collections::HashMap;
 
-use crate::mesh::CasterMesh;
 use crate::volume::gpu::buffers::Buffers;
 use crate::volume::gpu::draw_pipelines::UNIFORM_SIZES;
 use crate::volume::gpu::layout::bind;
 use crate::volume::gpu::pipelines::OwnPipelines;
-use crate::volume::plan::batches::{Batch, Batches};
-use crate::volume::plan::cache::{MeshChunk, Slot, VolumeCache};
+use crate::volume::plan::cache::{Slot, Sources, VolumeCache};
 use crate::volume::plan::params::BatchParams;
 use crate::volume::plan::windows::Windows;
+use crate::volume::plan::work::{Dispatch, Work};
 use crate::volume::silhouette::Way;
 
-/// Bind groups by mesh and chunk.
+/// Bind groups by the buffers in them.
 #[derive(Debug, Default)]
 pub(crate) struct Groups {
     generation: u64,
-    draw: HashMap<MeshChunk, wgpu::BindGroup>,
-    /// The facing pass and the edge pass.
-    extraction: HashMap<MeshChunk, [wgpu::BindGroup; 2]>,
+    draw: HashMap<Sources, wgpu::BindGroup>,
+    facing: HashMap<Sources, wgpu::BindGroup>,
+    edges: HashMap<Sources, wgpu::BindGroup>,
     /// For each window, what its draws read.
     of_window: Vec<Option<wgpu::BindGroup>>,
 }
@@ -39,9 +38,14 @@ impl Groups {
         self.of_window.get(number as usize)?.as_ref()
     }
 
-    /// The facing pass and the edge pass of a batch.
-    pub fn of_batch(&self, batch: &Batch) -> Option<&[wgpu::BindGroup; 2]> {
-        self.extraction.get(&(batch.mesh.id(), batch.chunk))
+    /// What a dispatch of the facing pass reads and writes.
+    pub fn of_facing(&self, dispatch: &Dispatch) -> Option<&wgpu::BindGroup> {
+        self.facing.get(&dispatch.sources)
+    }
+
+    /// The same of the edge pass.
+    pub fn of_edges(&self, dispatch: &Dispatch) -> Option<&wgpu::BindGroup> {
+        self.edges.get(&dispatch.sources)
     }
 
     /// Brings the bind groups up to date: those of windows that changed, and all if buffers were made
@@ -49,7 +53,7 @@ impl Groups {
     pub fn update(
         &mut self,
         (windows, changed): (&Windows, &[u32]),
-        batches: &Batches,
+        work: &Work,
         cache: &VolumeCache,
         parts: &Parts<'_>,
     ) {
@@ -57,7 +61,8 @@ impl Groups {
         if self.generation != generation {
             self.generation = generation;
             self.draw.clear();
-            self.extraction.clear();
+            self.facing.clear();
+            self.edges.clear();
             self.of_window.clear();
             self.of_window.resize(windows.len(), None);
             for (number, window) in windows.iter() {
@@ -69,28 +74,34 @@ impl Groups {
                 let slot = windows.get(number).and_then(|w| cache.get(w.slot));
                 self.set(number, slot, parts);
             }
-            // A mesh that nobody draws any more is let go.
-            self.draw.retain(|key, _| cache.has(key));
-            self.extraction.retain(|key, _| cache.has(key));
+            // Buffers of the host that nobody draws from any more are let go.
+            self.draw.retain(|sources, _| cache.has(sources));
+            self.facing.retain(|sources, _| cache.has(sources));
         }
-        for batch in &batches.list {
-            let key = (batch.mesh.id(), batch.chunk);
-            if !self.extraction.contains_key(&key)
-                && let Some(groups) = parts.extraction(&batch.mesh, batch.chunk)
+        for Dispatch { sources, .. } in &work.facing {
+            if !self.facing.contains_key(sources)
+                && let Some(group) = parts.facing(sources)
             {
-                self.extraction.insert(key, groups);
+                self.facing.insert(sources.clone(), group);
+            }
+        }
+        for Dispatch { sources, .. } in &work.edges {
+            if !self.edges.contains_key(sources)
+                && let Some(group) = parts.edges(sources)
+            {
+                self.edges.insert(sources.clone(), group);
             }
         }
     }
 
     fn set(&mut self, number: u32, slot: Option<&Slot>, parts: &Parts<'_>) {
         let group = slot.and_then(|slot| {
-            let key = (slot.mesh.id(), slot.place.chunk);
-            if let Some(group) = self.draw.get(&key) {
+            let sources = slot.sources();
+            if let Some(group) = self.draw.get(&sources) {
                 return Some(group.clone());
             }
-            let group = parts.draw(slot)?;
-            self.draw.insert(key, group.clone());
+            let group = parts.draw(slot.way, &sources)?;
+            self.draw.insert(sources, group.clone());
             Some(group)
         });
         self.of_window[number as usize] = group;
@@ -98,37 +109,47 @@ impl Groups {
 }
 
 impl Parts<'_> {
-    fn draw(&self, slot: &Slot) -> Option<wgpu::BindGroup> {
+    fn draw(&self, way: Way, sources: &Sources) -> Option<wgpu::BindGroup> {
         let [casters, views, lights] = self.buffers.uniforms()?;
         let [caster, view, light] = UNIFORM_SIZES;
         let windows = [(casters, caster), (views, view), (lights, light)];
         let bind = |layout, buffers: &[_]| bind(self.device, self.label, layout, &windows, buffers);
-        match slot.way {
+        match way {
             Way::Vertex => Some(bind(&self.pipelines.fed.as_ref()?.layout, &[])),
             Way::Compute | Way::Cpu => {
-                let [_, _, sides] = self.buffers.chunk(slot.place.chunk)?;
-                let buffers = [slot.mesh.positions(), slot.mesh.edges()?, sides];
-                Some(bind(&self.pipelines.pulled.as_ref()?.layout, &buffers))
+                let [_, _, sides] = self.buffers.chunk(sources.chunk)?;
+                let [positions, _, edges, _] = self.buffers.pool(sources.pool)?;
+                let positions = sources.host_positions.as_ref().unwrap_or(positions);
+                let layout = &self.pipelines.pulled.as_ref()?.layout;
+                Some(bind(layout, &[positions, edges, sides]))
             }
         }
     }
 
-    fn extraction(&self, mesh: &CasterMesh, chunk: usize) -> Option<[wgpu::BindGroup; 2]> {
+    fn facing(&self, sources: &Sources) -> Option<wgpu::BindGroup> {
+        let [facings, caps, _] = self.buffers.chunk(sources.chunk)?;
+        let [positions, triangles, ..] = self.buffers.pool(sources.pool)?;
+        let positions = sources.host_positions.as_ref().unwrap_or(positions);
+        let layout = &self.pipelines.extraction.as_ref()?.facing.layout;
+        self.extraction(layout, [positions, triangles, facings, caps])
+    }
+
+    fn edges(&self, sources: &Sources) -> Option<wgpu::BindGroup> {
+        let [facings, _, sides] = self.buffers.chunk(sources.chunk)?;
+        let [_, _, edges, uses] = self.buffers.pool(sources.pool)?;
+        let layout = &self.pipelines.extraction.as_ref()?.edges.layout;
+        self.extraction(layout, [edges, uses, facings, sides])
+    }
+
+    fn extraction(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        [first, second, third, fourth]: [&wgpu::Buffer; 4],
+    ) -> Option<wgpu::BindGroup> {
         let bound = self.buffers.bound()?;
-        let [facings, caps, sides] = self.buffers.chunk(chunk)?;
-        let extraction = self.pipelines.extraction.as_ref()?;
         let params = [(bound.batches, size_of::<BatchParams>())];
-        let (instances, arguments) = (bound.instances, bound.arguments);
-        // A closed mesh has no list of uses, and its passes read none; any buffer will do there.
-        let edges = mesh.edges()?;
-        let uses = mesh.edge_uses().unwrap_or(edges);
-        let (positions, triangles) = (mesh.positions(), mesh.triangles());
-        let facing = [instances, arguments, positions, triangles, facings, caps];
-        let edges = [instances, arguments, edges, uses, facings, sides];
-        let bind = |layout, buffers: &[_]| bind(self.device, self.label, layout, &params, buffers);
-        Some([
-            bind(&extraction.facing.layout, &facing),
-            bind(&extraction.edges.layout, &edges),
-        ])
+        let (instances, arguments, shares) = (bound.instances, bound.arguments, bound.shares);
+        let buffers = [instances, arguments, shares, first, second, third, fourth];
+        Some(bind(self.device, self.label, layout, &params, &buffers))
     }
 }

@@ -1,14 +1,15 @@
 //! The GPU memory of the renderer: grown when a frame needs more, kept between frames.
 
 use crate::uploads::Uploads;
-use crate::volume::plan::batches::Batches;
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::meshes::{ITEM_BYTES, LISTS, MeshPool};
 use crate::volume::plan::params::{
     Arguments, BatchParams, CasterParams, InstanceParams, LightParams, ViewParams,
 };
 use crate::volume::plan::ranges::NAMES;
 use crate::volume::plan::windows::Windows;
+use crate::volume::plan::work::{Share, Work};
 use crate::volume::silhouette::{Way, Ways};
 
 /// A buffer that grows.
@@ -104,10 +105,13 @@ pub(crate) struct Buffers {
     batches: Grown,
     instances: Grown,
     arguments: Grown,
+    shares: Grown,
     casters: Grown,
     views: Grown,
     lights: Grown,
     chunks: Vec<[Grown; 3]>,
+    /// Positions, triangles, edges and uses of edges of meshes.
+    pools: Vec<[Grown; LISTS]>,
     /// Grows by one whenever a buffer was made anew: bind groups of before are then stale.
     generation: u64,
 }
@@ -117,8 +121,9 @@ pub(crate) struct Needs<'a> {
     pub windows: &'a Windows,
     pub views: &'a [ViewParams],
     pub lights: &'a [LightParams],
-    pub batches: &'a Batches,
+    pub work: &'a Work,
     pub cache: &'a VolumeCache,
+    pub meshes: &'a MeshPool,
 }
 
 /// The buffers that compute shaders read and write, besides a chunk's.
@@ -126,6 +131,7 @@ pub(crate) struct Bound<'a> {
     pub batches: &'a wgpu::Buffer,
     pub instances: &'a wgpu::Buffer,
     pub arguments: &'a wgpu::Buffer,
+    pub shares: &'a wgpu::Buffer,
 }
 
 impl Buffers {
@@ -137,10 +143,12 @@ impl Buffers {
             batches: Grown::new(name("batches"), U::UNIFORM | U::COPY_DST),
             instances: Grown::new(name("instances"), U::STORAGE | U::COPY_DST),
             arguments: Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
+            shares: Grown::new(name("shares"), U::STORAGE | U::COPY_DST),
             casters: Grown::keeping(name("casters"), U::UNIFORM),
             views: Grown::keeping(name("views"), U::UNIFORM),
             lights: Grown::keeping(name("lights"), U::UNIFORM),
             chunks: Vec::new(),
+            pools: Vec::new(),
             generation: 0,
         }
     }
@@ -168,13 +176,14 @@ impl Buffers {
         let [views, lights] = [needs.views.len(), needs.lights.len()];
         grow(&mut self.views, views, limits.view_window.into(), most);
         grow(&mut self.lights, lights, limits.light_window.into(), most);
-        let batches = needs.batches;
-        if !batches.list.is_empty() {
+        let work = needs.work;
+        if !work.is_empty() {
             let batch = limits.batch_window.into();
-            grow(&mut self.batches, batches.list.len(), batch, most);
+            grow(&mut self.batches, work.dispatches().count(), batch, most);
             let instance = size_of::<InstanceParams>() as u64;
-            let instances = batches.instances.len();
-            grow(&mut self.instances, instances, instance, storage);
+            grow(&mut self.instances, work.instances.len(), instance, storage);
+            let share = size_of::<Share>() as u64;
+            grow(&mut self.shares, work.shares.len(), share, storage);
             let arguments = size_of::<Arguments>() as u64;
             grow(
                 &mut self.arguments,
@@ -189,6 +198,14 @@ impl Buffers {
             }
             for (grown, words) in self.chunks[place].iter_mut().zip(words) {
                 grower.grow(grown, words * 4, storage);
+            }
+        }
+        for (place, items) in needs.meshes.ends().enumerate() {
+            if place == self.pools.len() {
+                self.pools.push(pool(&self.label, place));
+            }
+            for (list, grown) in self.pools[place].iter_mut().enumerate() {
+                grower.grow(grown, items[list] * ITEM_BYTES[list], storage);
             }
         }
         self.generation += u64::from(grower.made);
@@ -214,7 +231,7 @@ impl Buffers {
             .write_changed(uploads, needs.views, limits.view_window);
         self.lights
             .write_changed(uploads, needs.lights, limits.light_window);
-        self.write_batches(uploads, needs.batches, limits);
+        self.write_work(uploads, needs.work, limits);
     }
 
     /// Has views and lights written again, whatever was written before.
@@ -223,14 +240,20 @@ impl Buffers {
         self.lights.written.clear();
     }
 
-    fn write_batches(&self, uploads: &mut Uploads, batches: &Batches, limits: &PlanLimits) {
-        let Some(bound) = self.bound().filter(|_| !batches.list.is_empty()) else {
+    fn write_work(&self, uploads: &mut Uploads, work: &Work, limits: &PlanLimits) {
+        let Some(bound) = self.bound().filter(|_| !work.is_empty()) else {
             return;
         };
-        let params: Vec<BatchParams> = batches.list.iter().map(|b| b.params).collect();
+        let params = work.dispatches().map(|dispatch| BatchParams {
+            first_share: dispatch.first_share,
+            zero: 0,
+            padding: [0; 2],
+        });
+        let params: Vec<BatchParams> = params.collect();
         uploads.write(bound.batches, 0, &spread(&params, limits.batch_window));
-        uploads.write(bound.instances, 0, bytemuck::cast_slice(&batches.instances));
-        let mut rest = &batches.arguments[..];
+        uploads.write(bound.instances, 0, bytemuck::cast_slice(&work.instances));
+        uploads.write(bound.shares, 0, bytemuck::cast_slice(&work.shares));
+        let mut rest = &work.arguments[..];
         while let Some(&(first, _)) = rest.first() {
             let follows = |(at, (number, _)): (u32, &(u32, Arguments))| *number == first + at;
             let run = (0..).zip(rest).take_while(|&pair| follows(pair)).count();
@@ -253,6 +276,7 @@ impl Buffers {
             batches: self.batches.buffer.as_ref()?,
             instances: self.instances.buffer.as_ref()?,
             arguments: self.arguments.buffer.as_ref()?,
+            shares: self.shares.buffer.as_ref()?,
         })
     }
 
@@ -275,18 +299,31 @@ impl Buffers {
         ])
     }
 
+    /// Positions, triangles, edges and uses of edges in a pool of meshes.
+    pub fn pool(&self, pool: usize) -> Option<[&wgpu::Buffer; LISTS]> {
+        let [positions, triangles, edges, uses] = self.pools.get(pool)?;
+        Some([
+            positions.buffer.as_ref()?,
+            triangles.buffer.as_ref()?,
+            edges.buffer.as_ref()?,
+            uses.buffer.as_ref()?,
+        ])
+    }
+
     /// Bytes of GPU memory held.
     pub fn bytes(&self) -> u64 {
         [
             &self.batches,
             &self.instances,
             &self.arguments,
+            &self.shares,
             &self.casters,
             &self.views,
             &self.lights,
         ]
         .into_iter()
         .chain(self.chunks.iter().flatten())
+        .chain(self.pools.iter().flatten())
         .map(Grown::size)
         .sum()
     }
@@ -301,6 +338,12 @@ fn chunk(label: &str, place: usize) -> [Grown; 3] {
         Grown::keeping(name(1), U::STORAGE | U::INDEX),
         Grown::keeping(name(2), U::STORAGE),
     ]
+}
+
+fn pool(label: &str, place: usize) -> [Grown; LISTS] {
+    let name = |what: &str| format!("{label} mesh {what} {place}");
+    ["positions", "triangles", "edges", "edge uses"]
+        .map(|what| Grown::keeping(name(what), wgpu::BufferUsages::STORAGE))
 }
 
 /// Bytes from one uniform window to the next.
@@ -330,6 +373,8 @@ impl PlanLimits {
             uniform_bytes / u64::from(window::<BatchParams>(limits)),
             storage_bytes / size_of::<InstanceParams>() as u64,
             storage_bytes / size_of::<Arguments>() as u64,
+            // One of each pass at least.
+            storage_bytes / (2 * size_of::<Share>() as u64),
         ];
         let of_compute = of_compute
             .into_iter()

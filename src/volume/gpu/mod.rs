@@ -9,3 +9,4 @@ pub(crate) mod layout;
 pub(crate) mod pipelines;
 pub(crate) mod reset;
 pub(crate) mod staged;
+pub(crate) mod staged_meshes;

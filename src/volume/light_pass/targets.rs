@@ -9,6 +9,12 @@ pub(crate) fn has_stencil(format: wgpu::TextureFormat) -> bool {
     matches!(format, F::Depth24PlusStencil8 | F::Depth32FloatStencil8)
 }
 
+/// Whether its depth is a float, as fine as it is near to 0.
+pub(crate) fn is_float(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(format, F::Depth32Float | F::Depth32FloatStencil8)
+}
+
 /// Whether it is one of depth alone, as fine as theirs.
 pub(crate) fn has_depth_alone(format: wgpu::TextureFormat) -> bool {
     use wgpu::TextureFormat as F;

@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::mesh::CasterMesh;
+use crate::mesh::{CasterMesh, MeshKind};
 use crate::volume::decide::decision::{KnownCaster, Volume, words};
 use crate::volume::decide::facing::Counted;
 use crate::volume::plan::limits::PlanLimits;
-use crate::volume::plan::params::InstanceParams;
+use crate::volume::plan::meshes::MeshPlace;
+use crate::volume::plan::params::{CasterParams, InstanceParams};
 use crate::volume::plan::ranges::{Place, Regions, Words};
 use crate::volume::silhouette::{Counts, Way};
 
@@ -25,16 +26,23 @@ struct Key {
     way: Way,
 }
 
-/// A mesh, and the chunk of buffers that volumes of it are in.
-pub(crate) type MeshChunk = (u64, usize);
+/// The buffers that a volume's shaders read and write: those of a chunk of volumes and of a pool of meshes,
+/// and the positions' own where they are the host's.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Sources {
+    pub chunk: usize,
+    pub pool: usize,
+    pub host_positions: Option<wgpu::Buffer>,
+}
 
 /// A volume that somebody draws, or keeps.
 #[derive(Clone, Debug)]
 pub(crate) struct Slot {
     pub mesh: CasterMesh,
     pub way: Way,
-    /// Where it lies, if it was found.
+    /// Where it lies, and where its mesh does, if it was found.
     pub place: Place,
+    mesh_place: MeshPlace,
     pub instance: InstanceParams,
     /// The size of a volume that was found on the CPU.
     pub counts: Counts,
@@ -64,10 +72,73 @@ pub(crate) struct VolumeCache {
     /// Words of all that was found.
     held: Words,
     arguments: Numbers,
-    /// How many volumes of a mesh lie in a chunk.
-    users_of: HashMap<MeshChunk, u32>,
+    /// How many volumes have the same sources.
+    users_of: HashMap<Sources, u32>,
     /// The volumes found for the last frame.
     last_found: Vec<u32>,
+}
+
+impl Key {
+    fn new(volume: &Volume, known: &KnownCaster) -> Self {
+        Self {
+            mesh: known.mesh().id(),
+            revision: known.mesh().revision(),
+            light: volume.light.light.map(f32::to_bits),
+            light_rest: volume.light.rest.map(f32::to_bits),
+            counted: volume.counted,
+            way: known.way,
+        }
+    }
+}
+
+impl Slot {
+    pub fn sources(&self) -> Sources {
+        let is_hosts = self.way != Way::Vertex && self.mesh.data().is_none();
+        Sources {
+            chunk: self.place.chunk,
+            pool: self.mesh_place.pool,
+            host_positions: is_hosts.then(|| self.mesh.positions().clone()),
+        }
+    }
+
+    /// Writes into a caster's parameters where its volume and its mesh lie.
+    pub fn locate(&self, params: &mut CasterParams) {
+        let instance = &self.instance;
+        params.side_base = instance.side_base;
+        params.edge_base = instance.edge_base;
+        params.position_stride = instance.position_stride;
+        params.position_offset = instance.position_offset;
+    }
+
+    fn settle(&mut self, place: Place, mesh_place: MeshPlace) {
+        (self.place, self.mesh_place) = (place, mesh_place);
+        let mesh = &self.mesh;
+        // Words of a mesh in a pool, and of the host's positions, lie in one storage binding and fit 32
+        // bits.
+        let (stride, offset) = match mesh.data() {
+            Some(_) => (3, 3 * mesh_place.position),
+            None => position_words(mesh),
+        };
+        let instance = &mut self.instance;
+        instance.facing_base = place.facing;
+        instance.cap_base = place.cap;
+        instance.side_base = place.side;
+        instance.triangle_count = mesh.triangle_count();
+        instance.triangle_base = 3 * mesh_place.triangle;
+        instance.edge_count = mesh.edge_count();
+        instance.edge_base = mesh_place.edge;
+        instance.use_base = mesh_place.edge_use;
+        instance.general = u32::from(mesh.kind() == MeshKind::General);
+        instance.position_stride = stride;
+        instance.position_offset = offset;
+    }
+}
+
+/// Words from one position of a mesh to the next in its own buffer, and before the first. They fit 32
+/// bits: the positions lie in one storage binding.
+pub(crate) fn position_words(mesh: &CasterMesh) -> (u32, u32) {
+    let (stride, offset) = mesh.layout();
+    ((stride / 4) as u32, (offset / 4) as u32)
 }
 
 /// Numbers of indirect arguments.
@@ -124,9 +195,9 @@ impl VolumeCache {
         self.slots.get_mut(slot as usize)?.as_mut()
     }
 
-    /// Whether a volume of a mesh lies in a chunk.
-    pub fn has(&self, key: &MeshChunk) -> bool {
-        self.users_of.contains_key(key)
+    /// Whether any volume has these sources.
+    pub fn has(&self, sources: &Sources) -> bool {
+        self.users_of.contains_key(sources)
     }
 
     /// The volumes found for the last frame.
@@ -136,14 +207,7 @@ impl VolumeCache {
 
     /// One user more of a volume, which is drawn or only kept.
     pub fn acquire(&mut self, volume: &Volume, known: &KnownCaster, drawn: bool) -> u32 {
-        let key = Key {
-            mesh: known.mesh().id(),
-            revision: known.mesh().revision(),
-            light: volume.light.light.map(f32::to_bits),
-            light_rest: volume.light.rest.map(f32::to_bits),
-            counted: volume.counted,
-            way: known.way,
-        };
+        let key = Key::new(volume, known);
         let number = match self.by_key.get(&key) {
             Some(number) => *number,
             None => self.insert(key, volume, known.mesh()),
@@ -156,6 +220,25 @@ impl VolumeCache {
             }
         }
         number
+    }
+
+    /// Takes note that a user of a volume wants this one in its place, drawn or only kept as it was
+    /// before and as it is now. Whether it is the same, so that nothing else is to be done.
+    pub fn is_still(
+        &mut self,
+        number: u32,
+        (volume, known): (&Volume, &KnownCaster),
+        [was_drawn, is_drawn]: [bool; 2],
+    ) -> bool {
+        let key = Key::new(volume, known);
+        let Some(slot) = self.get_mut(number).filter(|slot| slot.key == key) else {
+            return false;
+        };
+        slot.drawn = (slot.drawn + u32::from(is_drawn)).saturating_sub(u32::from(was_drawn));
+        if is_drawn && !slot.found {
+            self.unfound.push(number);
+        }
+        true
     }
 
     /// One user less, which had it drawn or only kept. The volume stays until the next
@@ -228,30 +311,26 @@ impl VolumeCache {
         wanted
     }
 
-    /// Gives a wanted slot its place.
-    pub fn place(&mut self, number: u32, words: Words) {
+    /// Gives a wanted slot its place; its mesh has one.
+    pub fn place(&mut self, number: u32, words: Words, mesh: MeshPlace) {
         let place = self.regions.take(words);
         let Some(slot) = (self.slots.get_mut(number as usize)).and_then(Option::as_mut) else {
             return;
         };
         slot.found = true;
-        slot.place = place;
         slot.words = words;
-        slot.instance.facing_base = place.facing;
-        slot.instance.cap_base = place.cap;
-        slot.instance.side_base = place.side;
+        slot.settle(place, mesh);
         if slot.way == Way::Compute {
             slot.instance.arguments = self.arguments.take();
         }
-        let key = (slot.mesh.id(), place.chunk);
-        *self.users_of.entry(key).or_default() += 1;
+        *self.users_of.entry(slot.sources()).or_default() += 1;
         (self.held.iter_mut().zip(words)).for_each(|(held, words)| *held += words);
     }
 
     /// The same for one that the CPU has found, which takes no more than it came to.
-    pub fn place_found(&mut self, slot: u32, counts: Counts) {
+    pub fn place_found(&mut self, slot: u32, counts: Counts, mesh: MeshPlace) {
         let caps = u64::from(counts.front) + u64::from(counts.back);
-        self.place(slot, [0, caps, counts.sides.into()]);
+        self.place(slot, [0, caps, counts.sides.into()], mesh);
         if let Some(slot) = self.get_mut(slot) {
             slot.counts = counts;
         }
@@ -266,6 +345,7 @@ impl VolumeCache {
             mesh: mesh.clone(),
             way: key.way,
             place: Place::default(),
+            mesh_place: MeshPlace::default(),
             instance: InstanceParams {
                 light: volume.light.light,
                 light_rest: volume.light.rest,
@@ -292,11 +372,11 @@ impl VolumeCache {
         };
         slot.found = false;
         self.regions.give_back(&slot.place, slot.words);
-        let key = (slot.mesh.id(), slot.place.chunk);
-        if let Some(users) = self.users_of.get_mut(&key) {
+        let sources = slot.sources();
+        if let Some(users) = self.users_of.get_mut(&sources) {
             *users -= 1;
             if *users == 0 {
-                self.users_of.remove(&key);
+                self.users_of.remove(&sources);
             }
         }
         if slot.way == Way::Compute {

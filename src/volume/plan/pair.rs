@@ -9,7 +9,6 @@ use crate::volume::decide::facing::{self, ObjectLight};
 use crate::volume::decide::method::{Form, Options};
 use crate::volume::decide::scissor::Rect;
 use crate::volume::frame::Situation;
-use crate::volume::plan::batches::position_words;
 use crate::volume::plan::cache::{Slot, VolumeCache};
 use crate::volume::plan::faces::{Draw, DrawnAs};
 use crate::volume::plan::params::CasterParams;
@@ -24,11 +23,19 @@ pub(crate) struct Pair {
     choices: Option<Choices>,
     entries: Vec<Option<Entry>>,
     /// The casters that are drawn and were decided on in this frame.
-    decided: Vec<u32>,
+    decided: Vec<Decided>,
     pub draws: BTreeSet<Draw>,
     pub tally: Tally,
     /// What of the target is drawn to, and the target's size.
     pub scissor: Option<(Rect, [u32; 2])>,
+}
+
+/// A caster that was decided on.
+#[derive(Clone, Copy, Debug)]
+struct Decided {
+    number: u32,
+    /// Whether anything that its shaders read may be new.
+    anew: bool,
 }
 
 /// What was decided for a caster, and what came of it.
@@ -79,7 +86,8 @@ impl Pair {
         let mut update = |number: u32| {
             if let Some(known) = casters.get(number) {
                 let light = lights.get(number as usize).and_then(Option::as_ref);
-                self.update(number, known, choices.decide(known, light), shared);
+                let decision = choices.decide(known, light);
+                self.update((number, changes.has(number)), known, decision, shared);
             }
         };
         match anew {
@@ -93,7 +101,7 @@ impl Pair {
     pub fn draw(&mut self, shared: &mut Shared<'_>) {
         let Some(choices) = &self.choices else { return };
         let left_handed = choices.left_handed;
-        for &number in &self.decided {
+        for &Decided { number, .. } in &self.decided {
             let entry = self.entries[number as usize].as_mut();
             let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
                 continue;
@@ -121,7 +129,7 @@ impl Pair {
 
     /// Fills their windows, their volumes having their places.
     pub fn fill(&self, shared: &mut Shared<'_>) {
-        for &number in &self.decided {
+        for &Decided { number, .. } in self.decided.iter().filter(|decided| decided.anew) {
             let entry = self.entries[number as usize].as_ref();
             let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
                 continue;
@@ -157,10 +165,10 @@ impl Pair {
         drawn.filter_map(|entry| Some(entry.drawn_as?.window))
     }
 
-    /// Keeps volume, window and draws where the caster had them.
+    /// Keeps volume, window and draws where the caster had them. Which may have changed, or not.
     fn update(
         &mut self,
-        number: u32,
+        (number, changed): (u32, bool),
         known: &KnownCaster,
         decision: Decision,
         shared: &mut Shared<'_>,
@@ -172,30 +180,37 @@ impl Pair {
         } = decision;
         let drawn = form.is_some();
         let counted = volume.map(|volume| volume.counted);
+        let place = number as usize;
+        if self.entries.len() <= place {
+            self.entries.resize(place + 1, None);
+        }
+        let last = self.entries[place];
+        let kept = last.and_then(|last| last.kept(&volume, (known, drawn), shared.cache));
+        let taken = volume.filter(|_| kept.is_none());
+        let taken = taken.map(|volume| shared.cache.acquire(&volume, known, drawn));
         let entry = Entry {
             counted: Counted {
                 state,
                 away_facing: drawn && counted == Some(facing::Counted::AwayFacing),
                 triangles: known.mesh().triangle_count(),
             },
-            slot: volume.map(|volume| shared.cache.acquire(&volume, known, drawn)),
+            slot: kept.or(taken),
             volume,
             form,
             drawn_as: None,
         };
-        if self.entries.len() <= number as usize {
-            self.entries.resize(number as usize + 1, None);
-        }
-        let last = self.entries[number as usize].replace(entry);
+        self.entries[place] = Some(entry);
         self.tally.add(entry.counted);
+        let mut anew = true;
         if let Some(last) = last {
             self.tally.remove(last.counted);
-            if let Some(slot) = last.slot {
+            anew = changed || kept.is_none() || (last.form, last.volume) != (form, volume);
+            if let Some(slot) = last.slot.filter(|_| kept.is_none()) {
                 shared.cache.release(slot, last.form.is_some());
             }
             match drawn {
                 true => {
-                    if let Some(entry) = &mut self.entries[number as usize] {
+                    if let Some(entry) = &mut self.entries[place] {
                         entry.drawn_as = last.drawn_as;
                     }
                 }
@@ -203,7 +218,7 @@ impl Pair {
             }
         }
         if drawn {
-            self.decided.push(number);
+            self.decided.push(Decided { number, anew });
         }
     }
 
@@ -234,17 +249,28 @@ fn remove_draws(draws: &mut BTreeSet<Draw>, drawn_as: Option<DrawnAs>) {
 }
 
 impl Entry {
+    /// Its volume, if that is the one which is wanted.
+    fn kept(
+        &self,
+        volume: &Option<Volume>,
+        (known, drawn): (&KnownCaster, bool),
+        cache: &mut VolumeCache,
+    ) -> Option<u32> {
+        let (slot, volume) = (self.slot?, volume.as_ref()?);
+        let same = cache.is_still(slot, (volume, known), [self.form.is_some(), drawn]);
+        same.then_some(slot)
+    }
+
     fn params(&self, known: &KnownCaster, slot: &Slot) -> Option<CasterParams> {
         let (form, volume) = (self.form.as_ref()?, self.volume.as_ref()?);
-        let (stride, offset) = position_words(known.mesh());
         let light = &volume.light;
-        Some(CasterParams {
+        let mut params = CasterParams {
             world_from_object: Mat4::from(known.caster.world_from_object).to_cols_array_2d(),
             far_plane: form.far.plane.as_vec4().to_array(),
             apex: form.far.apex.as_vec4().to_array(),
-            position_stride: stride,
-            position_offset: offset,
-            side_base: slot.place.side,
+            position_stride: 0,
+            position_offset: 0,
+            side_base: 0,
             side_vertices: form.side_vertices,
             object_light: light.light,
             object_light_rest: light.rest,
@@ -252,7 +278,9 @@ impl Entry {
             anchor: light.origin.anchor,
             zero: 0,
             anchor_from_light: light.origin.from_light,
-            padding: 0,
-        })
+            edge_base: 0,
+        };
+        slot.locate(&mut params);
+        Some(params)
     }
 }

@@ -9,15 +9,10 @@ use crate::volume::decide::facing;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct BatchParams {
-    pub first_instance: u32,
-    pub triangle_count: u32,
-    pub edge_count: u32,
-    pub position_stride: u32,
-    pub position_offset: u32,
-    pub general: u32,
+    pub first_share: u32,
     /// See `settled` in `volume_light_side.wgsl`.
     pub zero: u32,
-    pub padding: u32,
+    pub padding: [u32; 2],
 }
 
 /// `Instance` in `volume_batch.wgsl`.
@@ -31,6 +26,14 @@ pub(crate) struct InstanceParams {
     pub cap_base: u32,
     pub side_base: u32,
     pub arguments: u32,
+    pub triangle_count: u32,
+    pub triangle_base: u32,
+    pub edge_count: u32,
+    pub edge_base: u32,
+    pub use_base: u32,
+    pub general: u32,
+    pub position_stride: u32,
+    pub position_offset: u32,
 }
 
 /// `Caster` in `volume_extrude.wgsl`.
@@ -51,7 +54,7 @@ pub(crate) struct CasterParams {
     /// See `settled` in `volume_light_side.wgsl`.
     pub zero: u32,
     pub anchor_from_light: [f32; 3],
-    pub padding: u32,
+    pub edge_base: u32,
 }
 
 /// `Camera` in `volume_extrude.wgsl`.
@@ -180,19 +183,7 @@ mod tests {
     fn rust_and_wgsl_agree_on_every_offset() {
         let [facing, edges, draw, vertex] = sources(DepthConvention::Standard, NearPlane::Passed);
         for source in [facing, edges] {
-            assert_layout!(
-                source,
-                "Batch",
-                BatchParams,
-                first_instance,
-                triangle_count,
-                edge_count,
-                position_stride,
-                position_offset,
-                general,
-                zero,
-                padding
-            );
+            assert_layout!(source, "Batch", BatchParams, first_share, zero, padding);
             assert_layout!(
                 source,
                 "Instance",
@@ -203,7 +194,15 @@ mod tests {
                 facing_base,
                 cap_base,
                 side_base,
-                arguments
+                arguments,
+                triangle_count,
+                triangle_base,
+                edge_count,
+                edge_base,
+                use_base,
+                general,
+                position_stride,
+                position_offset
             );
         }
         for source in [draw, vertex] {
@@ -224,7 +223,7 @@ mod tests {
                 anchor,
                 zero,
                 anchor_from_light,
-                padding
+                edge_base
             );
             assert_layout!(source, "Camera", ViewParams, clip_from_world, depth_step);
             assert_layout!(source, "Light", LightParams, homogeneous);

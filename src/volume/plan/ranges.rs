@@ -1,4 +1,4 @@
-//! Where each volume's facings, caps and sides lie in the shared buffers.
+//! Where things lie in shared buffers: each volume's facings, caps and sides, each mesh's lists.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,10 +28,7 @@ pub(crate) struct Overflow {
 /// Hands out space in as few chunks as the device's limits allow, each part in one piece, and takes it
 /// back: what comes and goes moves nothing else.
 #[derive(Clone, Debug)]
-pub(crate) struct Regions {
-    limit: Words,
-    chunks: Vec<[Space; 3]>,
-}
+pub(crate) struct Regions(Chunks<3>);
 
 impl Regions {
     /// `bytes`: the largest storage buffer that can be made and bound.
@@ -39,37 +36,17 @@ impl Regions {
         let words = (bytes / 4).min(u64::from(u32::MAX));
         // A side is drawn with six vertices, and their number must fit 32 bits, too.
         let sides = words.min(u64::from(u32::MAX / 6));
-        Self {
-            limit: [words, words, sides],
-            chunks: Vec::new(),
-        }
+        Self(Chunks::new(NAMES, [4; 3], [words, words, sides]))
     }
 
     /// Whether one volume fits.
     pub fn check(&self, need: Words) -> Result<(), Overflow> {
-        for ((what, size), limit) in NAMES.into_iter().zip(need).zip(self.limit) {
-            if size > limit {
-                return Err(Overflow {
-                    what,
-                    size: size.saturating_mul(4),
-                    limit: limit * 4,
-                });
-            }
-        }
-        Ok(())
+        self.0.check(need)
     }
 
     /// Space for one volume that passed the [`check`](Self::check).
     pub fn take(&mut self, need: Words) -> Place {
-        let limit = self.limit;
-        let fits = |spaces: &[Space; 3]| (0..3).all(|i| spaces[i].has(need[i], limit[i]));
-        let chunk = self.chunks.iter().position(fits).unwrap_or_else(|| {
-            self.chunks.push(Default::default());
-            self.chunks.len() - 1
-        });
-        let spaces = &mut self.chunks[chunk];
-        // Below the limits, which are below 2^32.
-        let [facing, cap, side] = [0, 1, 2].map(|i| spaces[i].take(need[i]) as u32);
+        let (chunk, [facing, cap, side]) = self.0.take(need);
         Place {
             chunk,
             facing,
@@ -81,22 +58,82 @@ impl Regions {
     /// Takes space back that [`take`](Self::take) gave for as much.
     pub fn give_back(&mut self, place: &Place, words: Words) {
         let starts = [place.facing, place.cap, place.side];
-        // What never was in a chunk has no words.
-        let spaces = self.chunks.get_mut(place.chunk).into_iter().flatten();
-        for ((space, start), words) in spaces.zip(starts).zip(words) {
-            space.give_back(start.into(), words);
-        }
+        self.0.give_back((place.chunk, starts), words);
     }
 
     /// Words in each chunk up to the last that is taken.
     pub fn ends(&self) -> impl Iterator<Item = Words> {
-        self.chunks
-            .iter()
-            .map(|spaces| [0, 1, 2].map(|i| spaces[i].end))
+        self.0.ends()
     }
 }
 
-/// Words from 0 on: those before `end` are taken, but for holes.
+/// Chunks of some lists each, in which things have a part in every list of one chunk.
+#[derive(Clone, Debug)]
+pub(crate) struct Chunks<const N: usize> {
+    names: [&'static str; N],
+    /// Bytes of an item of each list, and how many of them a buffer holds.
+    item_bytes: [u64; N],
+    limit: [u64; N],
+    chunks: Vec<[Space; N]>,
+}
+
+impl<const N: usize> Chunks<N> {
+    /// `limit`: items of each list in a chunk, below 2^32.
+    pub fn new(names: [&'static str; N], item_bytes: [u64; N], limit: [u64; N]) -> Self {
+        Self {
+            names,
+            item_bytes,
+            limit,
+            chunks: Vec::new(),
+        }
+    }
+
+    /// Whether so many items fit an empty chunk.
+    pub fn check(&self, need: [u64; N]) -> Result<(), Overflow> {
+        let lists = self.names.into_iter().zip(self.item_bytes);
+        for ((what, bytes), (need, limit)) in lists.zip(need.into_iter().zip(self.limit)) {
+            if need > limit {
+                return Err(Overflow {
+                    what,
+                    size: need.saturating_mul(bytes),
+                    limit: limit * bytes,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// A chunk, and the first items there, of as many as passed the [`check`](Self::check).
+    pub fn take(&mut self, need: [u64; N]) -> (usize, [u32; N]) {
+        let limit = self.limit;
+        let fits = |spaces: &[Space; N]| (0..N).all(|i| spaces[i].has(need[i], limit[i]));
+        let chunk = self.chunks.iter().position(fits).unwrap_or_else(|| {
+            self.chunks.push(std::array::from_fn(|_| Space::default()));
+            self.chunks.len() - 1
+        });
+        let spaces = &mut self.chunks[chunk];
+        // Below the limits, which are below 2^32.
+        let starts = std::array::from_fn(|i| spaces[i].take(need[i]) as u32);
+        (chunk, starts)
+    }
+
+    /// Takes space back that [`take`](Self::take) gave for as much.
+    pub fn give_back(&mut self, (chunk, starts): (usize, [u32; N]), need: [u64; N]) {
+        // What never was in a chunk has no items.
+        let spaces = self.chunks.get_mut(chunk).into_iter().flatten();
+        for ((space, start), count) in spaces.zip(starts).zip(need) {
+            space.give_back(start.into(), count);
+        }
+    }
+
+    /// Items in each chunk up to the last that is taken.
+    pub fn ends(&self) -> impl Iterator<Item = [u64; N]> {
+        let ends = |spaces: &[Space; N]| std::array::from_fn(|i| spaces[i].end);
+        self.chunks.iter().map(ends)
+    }
+}
+
+/// Items from 0 on: those before `end` are taken, but for holes.
 #[derive(Clone, Debug, Default)]
 struct Space {
     end: u64,

@@ -7,6 +7,7 @@ use crate::error::ShadowVolumeError;
 use crate::scene::Casters;
 use crate::volume::decide::decision::{KnownCaster, words};
 use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::meshes::MeshPool;
 use crate::volume::plan::ranges::{Overflow, Regions};
 use crate::volume::silhouette::{Way, Ways};
 
@@ -18,6 +19,8 @@ pub(crate) struct SceneCasters {
     numbers: Vec<u32>,
     known: Vec<Option<KnownCaster>>,
     free: Vec<u32>,
+    /// How many casters have a mesh.
+    users_of_mesh: HashMap<u64, u32>,
 }
 
 /// The numbers of casters that are not what they were.
@@ -26,11 +29,20 @@ pub(crate) struct Changes {
     /// New, or others than before: places in the host's list, and numbers.
     pub changed: Vec<(usize, u32)>,
     pub departed: Vec<u32>,
+    /// Meshes that no caster has any more.
+    pub meshes: Vec<u64>,
+    /// By number, whether a caster changed; empty if none did.
+    marks: Vec<bool>,
 }
 
 impl Changes {
     pub fn is_empty(&self) -> bool {
         self.changed.is_empty() && self.departed.is_empty()
+    }
+
+    /// Whether this caster is not what it was.
+    pub fn has(&self, number: u32) -> bool {
+        self.marks.get(number as usize) == Some(&true)
     }
 }
 
@@ -40,6 +52,7 @@ pub(crate) struct Requirements<'a> {
     pub ways: &'a Ways,
     pub limits: &'a PlanLimits,
     pub regions: &'a Regions,
+    pub meshes: &'a MeshPool,
 }
 
 impl SceneCasters {
@@ -75,18 +88,45 @@ impl SceneCasters {
             return Changes::default();
         }
         self.numbers.resize(casters.len(), 0);
-        let changes = self.renumber(&gone, came);
+        let mut changes = self.renumber(&gone, came);
+        let mut left = Vec::new();
+        changes.marks = vec![false; self.known.len()];
         for &(index, number) in &changes.changed {
             let caster = &casters[index];
             // Who has no way was refused before.
             let way = ways.of(&caster.mesh).unwrap_or(Way::Compute);
-            self.known[number as usize] = Some(KnownCaster::new(caster, way));
+            let new = KnownCaster::new(caster, way);
+            changes.marks[number as usize] = true;
+            left.extend(self.replace(number, Some(new)));
         }
         for &number in &changes.departed {
-            self.known[number as usize] = None;
+            left.extend(self.replace(number, None));
             self.free.push(number);
         }
+        left.retain(|mesh| !self.users_of_mesh.contains_key(mesh));
+        changes.meshes = left;
         changes
+    }
+
+    /// Puts one caster in the place of another. The mesh of which that was the last.
+    fn replace(&mut self, number: u32, new: Option<KnownCaster>) -> Option<u64> {
+        let mesh = |caster: &Option<KnownCaster>| Some(caster.as_ref()?.mesh().id());
+        let old = std::mem::replace(&mut self.known[number as usize], new);
+        let [old, new] = [mesh(&old), mesh(&self.known[number as usize])];
+        if old == new {
+            return None;
+        }
+        if let Some(new) = new {
+            *self.users_of_mesh.entry(new).or_default() += 1;
+        }
+        let old = old?;
+        let users = self.users_of_mesh.get_mut(&old)?;
+        *users -= 1;
+        if *users > 0 {
+            return None;
+        }
+        self.users_of_mesh.remove(&old);
+        Some(old)
     }
 
     /// The numbers of all casters, in the order of the host's list.
@@ -171,7 +211,9 @@ impl Requirements<'_> {
                 size: records,
                 limit: self.limits.buffer_bytes,
             }),
-            false => self.regions.check(words(mesh, way)),
+            false => {
+                (self.regions.check(words(mesh, way))).and_then(|()| self.meshes.check(mesh, way))
+            }
         };
         checked.map_err(|overflow| ShadowVolumeError::TooLarge {
             index,

@@ -49,14 +49,14 @@ impl Volumes {
     }
 
     /// Decides what is drawn and which volumes that takes. The casters were
-    /// [compared](SceneCasters::compare).
+    /// [compared](SceneCasters::compare). Returns the meshes that no caster has any more, and no volume.
     pub fn decide(
         &mut self,
         frame: &ShadowVolumeFrame<'_>,
         (options, keep): (Options, bool),
         ways: &Ways,
         cache: &mut VolumeCache,
-    ) {
+    ) -> Vec<u64> {
         let changes = self.casters.update(frame.casters, ways);
         let mut shared = Shared {
             casters: &self.casters,
@@ -94,6 +94,7 @@ impl Volumes {
                 .for_each(|pair| pair.draw(&mut shared));
         }
         cache.sweep();
+        changes.meshes
     }
 
     /// Fills the windows of what was decided, all volumes having their places.

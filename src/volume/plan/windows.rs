@@ -72,7 +72,7 @@ impl Windows {
         for (number, window) in (0..).zip(&mut self.list) {
             let Some(window) = window else { continue };
             if let Some(slot) = cache.get(window.slot) {
-                window.params.side_base = slot.place.side;
+                slot.locate(&mut window.params);
             }
             self.changed.push(number);
         }

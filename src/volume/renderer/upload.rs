@@ -6,7 +6,8 @@ use crate::volume::decide::decision::words;
 use crate::volume::gpu::bind_groups::Parts;
 use crate::volume::gpu::buffers::Needs;
 use crate::volume::gpu::staged::StagedVolumes;
-use crate::volume::plan::batches::Batches;
+use crate::volume::gpu::staged_meshes::write_meshes;
+use crate::volume::plan::work::Work;
 use crate::volume::silhouette::Way;
 
 impl ShadowVolumeRenderer {
@@ -15,6 +16,11 @@ impl ShadowVolumeRenderer {
     pub(super) fn forget(&mut self) -> [bool; 2] {
         let dropped = self.submissions.take_dropped();
         let not_encoded = self.prepared && !self.encoded;
+        if dropped {
+            self.meshes.forget_all();
+        } else if not_encoded {
+            self.meshes.forget_last();
+        }
         if dropped || !self.keep {
             self.cache.forget_all();
             self.renew();
@@ -34,31 +40,29 @@ impl ShadowVolumeRenderer {
     /// Finds a place for everything that is new, and on the CPU what is found there.
     pub(super) fn find(&mut self) -> StagedVolumes {
         let mut staged = StagedVolumes::default();
-        self.batches = Batches::default();
+        self.meshes.begin();
+        let mut by_compute = Vec::new();
         for number in self.cache.take_wanted(&self.limits) {
             let Some(slot) = self.cache.get(number) else {
                 continue;
             };
             let mesh = slot.mesh.clone();
+            let mesh_place = self.meshes.place(&mesh, slot.way);
             match (slot.way, mesh.data()) {
                 (Way::Cpu, Some(data)) => {
                     let counts = self.on_cpu.extract(data, mesh.kind(), &slot.instance);
-                    self.cache.place_found(number, counts);
+                    self.cache.place_found(number, counts, mesh_place);
                     if let Some(slot) = self.cache.get(number) {
                         staged.add(&mut self.uploads, &self.on_cpu, data, slot);
                     }
                 }
-                (way, _) => self.cache.place(number, words(&mesh, way)),
-            }
-            if self
-                .cache
-                .get(number)
-                .is_some_and(|slot| slot.way == Way::Compute)
-            {
-                self.batches
-                    .add(number, &self.cache, self.limits.workgroups);
+                (way, _) => {
+                    self.cache.place(number, words(&mesh, way), mesh_place);
+                    by_compute.extend((way == Way::Compute).then_some(number));
+                }
             }
         }
+        self.work = Work::of(&by_compute, &self.cache, self.limits.workgroups);
         staged
     }
 
@@ -77,14 +81,16 @@ impl ShadowVolumeRenderer {
             windows: &self.volumes.windows,
             views: &self.views,
             lights: &self.lights,
-            batches: &self.batches,
+            work: &self.work,
             cache: &self.cache,
+            meshes: &self.meshes,
         };
         let (uploads, limits) = (&mut self.uploads, &self.limits);
         self.buffers.reserve(device, uploads, &needs, limits);
         self.buffers.write(uploads, &needs, &changed, limits);
+        write_meshes(device, uploads, (&self.meshes, &self.buffers), limits);
         staged.write(uploads, &self.buffers);
-        self.waits = uploads.is_waiting() || !self.batches.list.is_empty();
+        self.waits = uploads.is_waiting() || !self.work.is_empty();
         let parts = Parts {
             device: &self.device,
             label: &self.label,
@@ -92,8 +98,7 @@ impl ShadowVolumeRenderer {
             pipelines: &self.pipelines,
         };
         let windows = (&self.volumes.windows, &changed[..]);
-        self.groups
-            .update(windows, &self.batches, &self.cache, &parts);
+        self.groups.update(windows, &self.work, &self.cache, &parts);
     }
 
     pub(super) fn count(&self) -> VolumeStatistics {
@@ -102,7 +107,7 @@ impl ShadowVolumeRenderer {
         let searched = searched.filter(|slot| slot.way != Way::Vertex);
         let mut statistics = VolumeStatistics {
             casters_extracted: searched.count() as u32,
-            dispatches: 2 * self.batches.list.len() as u32,
+            dispatches: self.work.dispatches().count() as u32,
             uploaded: self.uploads.bytes(),
             gpu_bytes: self.buffers.bytes(),
             ..Default::default()

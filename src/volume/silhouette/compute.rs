@@ -1,7 +1,6 @@
 //! Extraction on the GPU: facings and caps, then sides, in two compute passes.
 
 use crate::volume::gpu::layout::{storage, uniform};
-use crate::volume::plan::limits::WORKGROUP;
 use crate::volume::plan::params::BatchParams;
 
 const BATCH: &str = include_str!("../../../shaders/volume_batch.wgsl");
@@ -30,9 +29,9 @@ pub(crate) struct Pass {
 /// The two passes.
 #[derive(Clone, Debug)]
 pub(crate) struct Extraction {
-    /// Binds batch, instances, arguments, positions, triangles, facings, caps.
+    /// Binds batch, instances, arguments, shares, positions, triangles, facings, caps.
     pub facing: Pass,
-    /// Binds batch, instances, arguments, edges, uses, facings, sides.
+    /// Binds batch, instances, arguments, shares, edges, uses, facings, sides.
     pub edges: Pass,
 }
 
@@ -44,14 +43,14 @@ impl Extraction {
                 "shadows volume facing",
                 facing_source(),
                 "shadows_volume_facing",
-                [true, false, true, true, false, false],
+                [true, false, true, true, true, false, false],
             ),
             edges: Pass::new(
                 (device, cache),
                 "shadows volume edges",
                 edges_source(),
                 "shadows_volume_edges",
-                [true, false, true, true, true, false],
+                [true, false, true, true, true, true, false],
             ),
         }
     }
@@ -63,7 +62,7 @@ impl Pass {
         label: &str,
         source: String,
         entry_point: &str,
-        read_only: [bool; 6],
+        read_only: [bool; 7],
     ) -> Self {
         let module = crate::shader::module(device, label, source);
         let label = Some(label);
@@ -92,29 +91,5 @@ impl Pass {
             cache,
         });
         Self { layout, pipeline }
-    }
-}
-
-/// Workgroups for `count` elements of each of some instances: x first, folded into z.
-pub(crate) fn workgroups(count: u32, instances: u32, most: u32) -> [u32; 3] {
-    let groups = count.div_ceil(WORKGROUP);
-    let x = groups.min(most);
-    [x, instances, groups.div_ceil(x.max(1))]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_meshes_are_folded_and_nothing_is_left_out() {
-        assert_eq!(workgroups(1, 7, 65_535), [1, 7, 1]);
-        assert_eq!(workgroups(257, 1, 65_535), [2, 1, 1]);
-        assert_eq!(workgroups(256 * 65_535 + 1, 1, 65_535), [65_535, 1, 2]);
-        for count in [1, 5_000, 1_000_000, u32::MAX] {
-            let [x, _, z] = workgroups(count, 1, 4_100);
-            assert!(x <= 4_100 && z <= 4_100);
-            assert!(u64::from(x) * u64::from(z) * 256 >= u64::from(count));
-        }
     }
 }

@@ -5,7 +5,7 @@ mod cpu;
 mod light_side;
 mod ways;
 
-pub(crate) use compute::{Extraction, LIGHT_SIDE, workgroups};
+pub(crate) use compute::{Extraction, LIGHT_SIDE};
 #[cfg(test)]
 pub(crate) use compute::{edges_source, facing_source};
 pub(crate) use cpu::{Counts, CpuVolume};

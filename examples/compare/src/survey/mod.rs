@@ -1,6 +1,9 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
 mod blob;
+pub mod planar;
+pub mod planar_soft;
+pub mod projected;
 
 use anyhow::Result;
 use serde_json::Value;
@@ -18,6 +21,12 @@ pub use blob::Blobs;
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
 pub enum Survey {
+    /// Projected onto the ground.
+    Planar,
+    /// The same from many places of a light with a size, in a texture of so many texels a side.
+    PlanarSoft { size: u32, samples: u32 },
+    /// Pictures of casters on what receives.
+    Projected(projected::Projected),
     /// An ellipsoid for each caster.
     Blob(Blobs),
 }
@@ -44,16 +53,25 @@ pub trait SurveyShadow {
 }
 
 impl Survey {
-    /// Whether it can shadow this kind of light.
-    pub fn applies_to(&self, _light: LightKind) -> bool {
+    /// With what its names begin.
+    pub fn kind(&self) -> &'static str {
         match self {
-            Self::Blob(_) => true,
+            Self::Planar | Self::PlanarSoft { .. } => "planar",
+            Self::Projected(_) => "projected",
+            Self::Blob(_) => "blob",
         }
     }
 
-    /// Whether its edges are soft.
+    /// Whether its edges are as soft as those of a light with a size.
     pub fn is_soft(&self) -> bool {
+        matches!(self, Self::PlanarSoft { .. } | Self::Blob(_))
+    }
+
+    /// Whether it can shadow this kind of light.
+    pub fn applies_to(&self, _light: LightKind) -> bool {
         match self {
+            Self::Planar | Self::PlanarSoft { .. } => true,
+            Self::Projected(_) => true,
             Self::Blob(_) => true,
         }
     }
@@ -61,6 +79,8 @@ impl Survey {
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
         match self {
+            Self::Planar | Self::PlanarSoft { .. } => "",
+            Self::Projected(_) => "",
             Self::Blob(_) => "",
         }
     }
@@ -68,6 +88,9 @@ impl Survey {
     /// Everything that was chosen, by name.
     pub fn settings(&self) -> Value {
         match self {
+            Self::Planar => planar::settings(),
+            Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
+            Self::Projected(projected) => projected.settings(),
             Self::Blob(blobs) => blobs.settings(),
         }
     }
@@ -82,6 +105,11 @@ impl Survey {
         renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
         match self {
+            Self::Planar => planar::make(gpu, renderer),
+            &Self::PlanarSoft { size, samples } => {
+                planar_soft::make(gpu, renderer, (size, samples))
+            }
+            Self::Projected(projected) => projected.make(gpu, renderer),
             Self::Blob(blobs) => blobs.make(gpu, renderer),
         }
     }

@@ -357,7 +357,7 @@ fn every_name_stands_for_another_technique() {
             Config::Volume(_) => "volume",
             Config::Atlas { .. } => "atlas",
             Config::Peer { .. } => "peer",
-            Config::Survey(_) => "survey",
+            Config::Survey(ref survey) => survey.kind(),
         };
         assert!(row.name.starts_with(kind), "{}", row.name);
     }

@@ -24,7 +24,7 @@ struct HostObject {
     world_from_object: mat4x4f,
     normal_from_object: mat3x3f,
     albedo: vec4f,
-    glow: vec4f,
+    glow: vec4f, // colour; 1 if it casts
 }
 
 @group(0) @binding(0) var<uniform> host_frame: HostFrame;

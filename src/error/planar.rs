@@ -1,0 +1,239 @@
+//! Errors of planar shadows.
+
+use thiserror::Error;
+
+use super::{CasterError, LightError};
+
+/// What can be wrong with a [`PlanarShadow`](crate::PlanarShadow) or a frame of it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlanarShadowError {
+    /// The depth-stencil format is none of the two that have depth and a stencil.
+    #[error(
+        "{0:?} does not fit; planar shadows need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
+    )]
+    Format(wgpu::TextureFormat),
+    /// The device was created without the depth-stencil format.
+    #[error(
+        "{0:?} needs the device feature of that name: ask for Support::features() when the device is created, or pass what Support::depth_stencil_format() says, here and for the buffer itself"
+    )]
+    FormatFeature(wgpu::TextureFormat),
+    /// The sample count is neither 1 nor 4.
+    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    SampleCount(u32),
+    /// A colour format that no target of the pass can have, or more of them than the device takes.
+    #[error(
+        "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can, at most max_color_attachments of them"
+    )]
+    ColorFormat {
+        /// Place in the list of colour formats.
+        place: usize,
+        /// The format found there.
+        format: wgpu::TextureFormat,
+    },
+    /// The target that is to be darkened is not there, or cannot be blended.
+    #[error(
+        "PlanarOutput::Darken needs a blendable format at color_formats[{target}], and there is {found:?}; pass the place of one that blends"
+    )]
+    Target {
+        /// Place in the list of colour formats.
+        target: usize,
+        /// The format found there.
+        found: Option<wgpu::TextureFormat>,
+    },
+    /// Bits of the stencil that are none, several, or used twice.
+    #[error(
+        "stencil bits shadow {shadow:#04x}, outline {outline:#04x}, receivers {receivers:#04x} do not fit; pass one bit each for the first two, and receivers that share none with them"
+    )]
+    Bits {
+        /// The bit that marks what is in shadow.
+        shadow: u8,
+        /// The bit that marks the inside of a polygon.
+        outline: u8,
+        /// The bits that the host marks receivers with.
+        receivers: u8,
+    },
+    /// A bias that is not finite or below 0.
+    #[error("bias {field} = {value}; pass a finite number, at least 0")]
+    Bias {
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        value: f32,
+    },
+    /// A light is out of range.
+    #[error("light {index}: {error}")]
+    Light {
+        /// Place in the frame's lights.
+        index: usize,
+        /// What is wrong with it.
+        error: LightError,
+    },
+    /// What a light leaves in shadow is no part of a colour.
+    #[error("light {index}: shade {shade:?} is out of range; pass 0 (black) to 1 (no shadow)")]
+    Shade {
+        /// Place in the frame's lights.
+        index: usize,
+        /// What was passed.
+        shade: [f32; 3],
+    },
+    /// A plane that is none.
+    #[error(
+        "plane {index}: point {point:?} and normal {normal:?} are no plane; pass finite numbers, and a normal other than (0, 0, 0)"
+    )]
+    Plane {
+        /// Place in the frame's planes.
+        index: usize,
+        /// The point passed.
+        point: [f32; 3],
+        /// The normal passed.
+        normal: [f32; 3],
+    },
+    /// A stencil value that says nothing, or that the bits for receivers do not hold.
+    #[error(
+        "plane {index}: stencil value {value:#04x} does not fit; pass what the host writes, other than 0, within receiver_bits = {receivers:#04x}"
+    )]
+    Value {
+        /// Place in the frame's planes.
+        index: usize,
+        /// The value passed.
+        value: u8,
+        /// The descriptor's bits for receivers.
+        receivers: u8,
+    },
+    /// An outline of too few corners.
+    #[error("plane {index}: {corners} corners are no outline; pass at least 3")]
+    Outline {
+        /// Place in the frame's planes.
+        index: usize,
+        /// Corners passed.
+        corners: usize,
+    },
+    /// A corner that is not finite, or not in the plane.
+    #[error(
+        "plane {index}: corner {corner} of its outline, {position:?}, is not in the plane; pass points of the plane (rounding is taken off)"
+    )]
+    Corner {
+        /// Place in the frame's planes.
+        index: usize,
+        /// Place in the outline.
+        corner: usize,
+        /// The corner passed.
+        position: [f32; 3],
+    },
+    /// A view was made with another depth convention than the renderer.
+    #[error("view {index}: its depth is {view:?}, this was made for {made_for:?}")]
+    Depth {
+        /// Place in the frame's views.
+        index: usize,
+        /// The convention of the descriptor.
+        made_for: crate::DepthConvention,
+        /// The view's convention.
+        view: crate::DepthConvention,
+    },
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// Geometry that only the host can draw, which cannot be projected here.
+    #[error(
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know its bounds alone; leave it out here, or pass a mesh"
+    )]
+    HostDrawn {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+    /// More casters, corners, or lights, planes and views than the device's buffers can hold.
+    #[error("{what} need {size} bytes in one buffer, {limit} are possible; pass fewer of them")]
+    TooMany {
+        /// `"casters"`, `"corners"` or `"lights, planes and views"`.
+        what: &'static str,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes possible.
+        limit: u64,
+    },
+}
+
+/// Why a [`PlanarShadow`](crate::PlanarShadow) draws nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum PlanarRenderError {
+    /// `encode` was not called since the last `prepare`, or neither ever was.
+    #[error("call prepare, then encode into the encoder of this pass, before render")]
+    NotEncoded,
+    /// What was recorded never comes to the GPU.
+    #[error(
+        "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
+    )]
+    Dropped,
+    /// The frame that was prepared last has no such light, plane or view.
+    #[error(
+        "{what} {asked} was not prepared: the frame had {count}, counted from 0; pass places in its lists"
+    )]
+    NoSuch {
+        /// `"light"`, `"plane"` or `"view"`.
+        what: &'static str,
+        /// The place asked for.
+        asked: usize,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+/// What can be wrong with a [`PlanarSoftShadow`](crate::PlanarSoftShadow) or a frame of it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlanarSoftShadowError {
+    /// The size of the texture is 0 or over the device's limit.
+    #[error(
+        "a texture of {size:?} texels is out of range; pass 1 to {limit} (max_texture_dimension_2d)"
+    )]
+    Size {
+        /// Texels along width and height.
+        size: [u32; 2],
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The number of the light's places is 0, or more than 8 bits can count.
+    #[error("samples = {samples} is out of range; pass 1 to {limit}")]
+    Samples {
+        /// The number passed.
+        samples: u32,
+        /// The largest that works.
+        limit: u32,
+    },
+    /// The light is out of range.
+    #[error(transparent)]
+    Light(#[from] LightError),
+    /// The light has no size.
+    #[error(
+        "the shape {0:?} is none; pass finite numbers above 0, and vectors other than (0, 0, 0)"
+    )]
+    Shape(crate::LightShape),
+    /// The rectangle has no area.
+    #[error(
+        "{0:?} is no rectangle; pass finite vectors, and a width and a height that are not parallel"
+    )]
+    Rectangle(crate::PlanarRectangle),
+    /// A caster is out of range.
+    #[error(transparent)]
+    Caster(#[from] CasterError),
+    /// Geometry that only the host can draw, which cannot be projected here.
+    #[error(
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know its bounds alone; leave it out here, or pass a mesh"
+    )]
+    HostDrawn {
+        /// Place in the slice of casters.
+        index: usize,
+    },
+    /// More casters or samples than the device's buffers can hold.
+    #[error("{what} need {size} bytes in one buffer, {limit} are possible; pass fewer of them")]
+    TooMany {
+        /// `"casters"` or `"samples"`.
+        what: &'static str,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes possible.
+        limit: u64,
+    },
+}

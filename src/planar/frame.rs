@@ -1,0 +1,143 @@
+//! What one frame consists of: lights, planes, views, casters.
+
+use glam::Vec3;
+
+use super::descriptor::PlanarShadowDescriptor;
+use crate::error::PlanarShadowError;
+use crate::{Caster, Light, View};
+
+/// How far a corner of an outline may lie off its plane, as a part of its largest coordinate: what rounding a
+/// turned plane to `f32` takes.
+const OFF_PLANE: f64 = 1.0 / 65536.0;
+
+/// A light whose shadows are projected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarLight {
+    /// The light, in world space. Only planes whose front it is before receive its shadows.
+    pub light: Light,
+    /// What is left in shadow of the colours that are there, red, green and blue, each 0 (nothing) to 1 (all):
+    /// the part of what is seen that other lights and the ambient light make up. Default 0.5 each. Of use with
+    /// [`PlanarOutput::Darken`](crate::PlanarOutput::Darken) alone.
+    pub shade: [f32; 3],
+}
+
+impl PlanarLight {
+    /// A light of any kind, with half of the colours left in its shadows.
+    pub fn new(light: impl Into<Light>) -> Self {
+        Self {
+            light: light.into(),
+            shade: [0.5; 3],
+        }
+    }
+}
+
+/// Where on its plane a receiver is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PlanarOutline<'a> {
+    /// Where the host has written this value into the bits of
+    /// [`receiver_bits`](crate::PlanarShadowDescriptor::receiver_bits) when it drew the receiver: not 0. Exact to
+    /// the sample, for outlines of any form, and without a bias.
+    Stencil(u8),
+    /// Within a polygon, where the depth buffer holds the plane. Its corners are in world space, in order, either
+    /// way around; edges may cross, and then the even-odd rule decides.
+    Polygon(&'a [Vec3]),
+}
+
+/// A plane that receives shadows, on the side that its normal points to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarReceiver<'a> {
+    /// A point of it, in world space.
+    pub point: Vec3,
+    /// Toward the side that receives, of any length but 0. A plane that receives on both sides is two.
+    pub normal: Vec3,
+    /// Where on the plane the receiver is.
+    pub outline: PlanarOutline<'a>,
+}
+
+/// One frame of a [`PlanarShadow`](crate::PlanarShadow). Default: nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PlanarFrame<'a> {
+    /// The lights, known by their places in this list.
+    pub lights: &'a [PlanarLight],
+    /// The planes that receive, known by their places, too.
+    pub planes: &'a [PlanarReceiver<'a>],
+    /// The cameras.
+    pub views: &'a [View],
+    /// What casts, on all planes.
+    pub casters: &'a [Caster],
+}
+
+impl PlanarFrame<'_> {
+    pub(super) fn validate(
+        &self,
+        descriptor: &PlanarShadowDescriptor<'_>,
+    ) -> Result<(), PlanarShadowError> {
+        for (index, PlanarLight { light, shade }) in self.lights.iter().enumerate() {
+            let shade = *shade;
+            let sound = light.validate();
+            sound.map_err(|error| PlanarShadowError::Light { index, error })?;
+            if !shade.iter().all(|part| (0.0..=1.0).contains(part)) {
+                return Err(PlanarShadowError::Shade { index, shade });
+            }
+        }
+        for (index, view) in self.views.iter().enumerate() {
+            let (made_for, view) = (descriptor.depth, view.depth());
+            if made_for != view {
+                return Err(PlanarShadowError::Depth {
+                    index,
+                    made_for,
+                    view,
+                });
+            }
+        }
+        let mut planes = self.planes.iter().enumerate();
+        planes.try_for_each(|(index, plane)| plane.validate(index, descriptor.receiver_bits))
+    }
+}
+
+impl PlanarReceiver<'_> {
+    fn validate(&self, index: usize, receivers: u8) -> Result<(), PlanarShadowError> {
+        let Self { point, normal, .. } = *self;
+        if !(point.is_finite() && normal.is_finite() && normal != Vec3::ZERO) {
+            let (point, normal) = (point.to_array(), normal.to_array());
+            return Err(PlanarShadowError::Plane {
+                index,
+                point,
+                normal,
+            });
+        }
+        match self.outline {
+            PlanarOutline::Stencil(value) if value == 0 || value & !receivers != 0 => {
+                Err(PlanarShadowError::Value {
+                    index,
+                    value,
+                    receivers,
+                })
+            }
+            PlanarOutline::Stencil(_) => Ok(()),
+            PlanarOutline::Polygon(corners) => self.validate_corners(index, corners),
+        }
+    }
+
+    fn validate_corners(&self, index: usize, corners: &[Vec3]) -> Result<(), PlanarShadowError> {
+        if corners.len() < 3 {
+            let corners = corners.len();
+            return Err(PlanarShadowError::Outline { index, corners });
+        }
+        let normal = self.normal.as_dvec3().normalize();
+        for (corner, position) in corners.iter().enumerate() {
+            let size = f64::from(position.abs().max(self.point.abs()).max_element());
+            let off = normal.dot(position.as_dvec3() - self.point.as_dvec3());
+            if !position.is_finite() || off.abs() > OFF_PLANE * size {
+                let position = position.to_array();
+                return Err(PlanarShadowError::Corner {
+                    index,
+                    corner,
+                    position,
+                });
+            }
+        }
+        Ok(())
+    }
+}

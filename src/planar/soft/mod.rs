@@ -1,0 +1,11 @@
+//! Soft shadows on planes: the light sampled at many places, each a hard shadow, counted in a texture.
+
+mod descriptor;
+mod frame;
+mod gpu;
+mod samples;
+mod shadow;
+
+pub use descriptor::PlanarSoftShadowDescriptor;
+pub use frame::{LightShape, PlanarRectangle, PlanarSoftFrame};
+pub use shadow::{PlanarSoftShadow, PlanarSoftStatistics};
