@@ -14,6 +14,7 @@
 //! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
+//! | [`BlobShadow`] | an ellipsoid for each caster, its penumbra computed | soft shadows of thousands of things whose shape does not matter |
 //! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall that alone receives, exact to the pixel |
 //! | [`PlanarSoftShadow`] | the same from many places of a light with a size | soft shadows on one rectangle |
 //! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
@@ -186,8 +187,8 @@ pub mod choosing {}
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
-/// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 /// [survey]: https://docs.rs/crate/shadows/latest/source/docs/survey.md
+/// [hard]: https://docs.rs/crate/shadows/latest/source/docs/hard-cases.md
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/limits.md")]
 pub mod limits {}
@@ -196,6 +197,7 @@ pub mod limits {}
 #[cfg(test)]
 extern crate self as shadows;
 
+pub mod blob;
 mod clock;
 pub mod error;
 mod gl;
@@ -223,6 +225,10 @@ mod wgsl_layout;
 #[doc(hidden)]
 pub use shader::rewriting;
 
+pub use blob::{
+    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor,
+    BlobStatistics,
+};
 pub use light::{DirectionalLight, HomogeneousLight, Light, PointLight, SpotLight};
 pub use map::{
     AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,

@@ -1,6 +1,7 @@
 //! Errors: one enum per operation. Every message says what to change.
 
 mod atlas;
+mod blob;
 mod cascades;
 mod light;
 #[cfg(feature = "reference")]
@@ -17,6 +18,7 @@ mod volume;
 mod volume_debug;
 
 pub use atlas::ShadowAtlasError;
+pub use blob::{BlobRenderError, BlobShadowError};
 pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 #[cfg(feature = "reference")]

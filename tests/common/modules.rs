@@ -11,6 +11,8 @@ pub const JOINED: &[&[&str]] = &[
     &["caster_places", "cube_caster", "cube_caster_gl"],
     &["light_record", "cube_cross"],
     &["tile_fill"],
+    BLOB_RECEIVER,
+    BLOB_DECAL,
     &["projected_caster"],
     &["projected_tile"],
     &["projected_receiver"],
@@ -87,6 +89,10 @@ pub const JOINED: &[&[&str]] = &[
         "volume_mark_samples",
     ],
 ];
+
+/// What a host's shader asks, and decals.
+pub const BLOB_RECEIVER: &[&str] = &["blob_visibility", "blob_receiver"];
+pub const BLOB_DECAL: &[&str] = &["blob_visibility", "blob_decal"];
 
 pub const FACE: &[&str] = &["caster_places", "cube_caster", "cube_caster_face"];
 

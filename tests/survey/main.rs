@@ -1,6 +1,7 @@
 //! The cheap and the baked techniques against exact visibility, each with what it cannot do.
 
 mod bake;
+mod blob;
 #[path = "../common/mod.rs"]
 mod common;
 mod planar;

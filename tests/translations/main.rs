@@ -29,6 +29,25 @@ impl Module {
     }
 }
 
+/// What a host's shader asks of blob shadows, as it stands there.
+fn blobs() -> Module {
+    let (device, _) = shadows::wgpu::Device::noop(&Default::default());
+    let descriptor = shadows::BlobShadowDescriptor {
+        lights: 3,
+        strips: 9,
+        ..Default::default()
+    };
+    let blobs = shadows::BlobShadow::new(&device, &descriptor).unwrap();
+    let host = "
+@fragment
+fn host(@location(0) world: vec3f, @location(1) @interpolate(flat) own: u32) -> @location(0) vec4f {
+    let all = shadows_blob_visibility(1u, world);
+    return vec4f(all, shadows_blob_visibility_of(2u, world, own), 0.0, 1.0);
+}
+";
+    Module::new("receiver-blobs", blobs.wgsl_module(1) + host)
+}
+
 /// All of them.
 fn all() -> Vec<Module> {
     let joined = JOINED
@@ -45,6 +64,7 @@ fn all() -> Vec<Module> {
     joined
         .chain(receivers)
         .chain(projected)
+        .chain([blobs()])
         .chain(shown::all())
         .collect()
 }

@@ -29,6 +29,7 @@ pub fn of(config: &Config) -> String {
                     .finish()
             }
             Survey::Projected(projected) => projected.snippet(),
+            Survey::Blob(blobs) => blobs.snippet(),
         },
         Config::Peer { peer, size } => format!(
             "// Another engine's, no part of this library: {}, {size} texels.\n",

@@ -5,8 +5,8 @@ use shadows::{
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
 };
 
-use crate::survey::Survey;
 use crate::survey::projected::Projected;
+use crate::survey::{Blobs, Survey};
 use crate::technique::{Config, Technique};
 use host::peers::peer;
 
@@ -104,6 +104,10 @@ pub static ROWS: &[Row] = &[
             counter: Counter::Exact,
             ..volume()
         })
+    }),
+    row("blob", |_| Config::Survey(Survey::Blob(Blobs::Asked))),
+    row("blob-decals", |_| {
+        Config::Survey(Survey::Blob(Blobs::Decals))
     }),
     row("planar", |_| Config::Survey(Survey::Planar)),
     row("planar-soft", |size| {

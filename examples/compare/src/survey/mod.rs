@@ -1,5 +1,6 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
+mod blob;
 pub mod planar;
 pub mod planar_soft;
 pub mod projected;
@@ -15,6 +16,8 @@ use host::renderer::{LitPipeline, Renderer};
 use host::scene::LightKind;
 use host::scene_gpu::SceneGpu;
 
+pub use blob::Blobs;
+
 /// Which one, and how it is made.
 #[derive(Clone, Debug)]
 pub enum Survey {
@@ -24,6 +27,8 @@ pub enum Survey {
     PlanarSoft { size: u32, samples: u32 },
     /// Pictures of casters on what receives.
     Projected(projected::Projected),
+    /// An ellipsoid for each caster.
+    Blob(Blobs),
 }
 
 /// One at work.
@@ -53,12 +58,13 @@ impl Survey {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => "planar",
             Self::Projected(_) => "projected",
+            Self::Blob(_) => "blob",
         }
     }
 
     /// Whether its edges are as soft as those of a light with a size.
     pub fn is_soft(&self) -> bool {
-        matches!(self, Self::PlanarSoft { .. })
+        matches!(self, Self::PlanarSoft { .. } | Self::Blob(_))
     }
 
     /// Whether it can shadow this kind of light.
@@ -66,6 +72,7 @@ impl Survey {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => true,
             Self::Projected(_) => true,
+            Self::Blob(_) => true,
         }
     }
 
@@ -74,6 +81,7 @@ impl Survey {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => "",
             Self::Projected(_) => "",
+            Self::Blob(_) => "",
         }
     }
 
@@ -83,6 +91,7 @@ impl Survey {
             Self::Planar => planar::settings(),
             Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
             Self::Projected(projected) => projected.settings(),
+            Self::Blob(blobs) => blobs.settings(),
         }
     }
 
@@ -101,6 +110,7 @@ impl Survey {
                 planar_soft::make(gpu, renderer, (size, samples))
             }
             Self::Projected(projected) => projected.make(gpu, renderer),
+            Self::Blob(blobs) => blobs.make(gpu, renderer),
         }
     }
 }

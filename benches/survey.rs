@@ -1,0 +1,39 @@
+//! What the cheap techniques cost, in one run.
+//!
+//! - `blob_decals_10000`, `blob_decals_1000`: so many blobs over a floor at 1280x720, a sun of slope 0.05 and a
+//!   reach of 1 m, in one draw: encode and wait for the device. All cover the same part of the picture, so the
+//!   fewer are larger. `blob_decals_10000_vs_1000` is the ratio.
+//! - `blob_prepare_kept_vs_moving`: `prepare` alone for 10,000 casters, nothing moving over everything moving.
+//!
+//! Times are wall time of medians; `--quick` takes fewer rounds.
+
+#[allow(dead_code)] // what other tests need
+#[path = "../tests/common/shapes.rs"]
+mod shapes;
+#[path = "shared/mod.rs"]
+mod shared;
+
+#[path = "survey/blob.rs"]
+mod blob;
+
+use std::time::Duration;
+
+use host::gpu::Gpu;
+
+fn main() {
+    let quick = shared::quick();
+    let gpu = match Gpu::new(None) {
+        Ok(gpu) => gpu,
+        Err(error) => return eprintln!("skipped: {error:#}"),
+    };
+    println!("adapter {}, clock wall", host::gpu::describe(&gpu.info));
+    blob::decals(&gpu, if quick { 5 } else { 25 });
+    blob::prepare(&gpu, if quick { 9 } else { 51 });
+}
+
+fn ratio(name: &str, ours: &[Duration], theirs: &[Duration]) {
+    let median = |samples: &[Duration]| 1e3 * shared::median(shared::seconds(samples));
+    println!("{name}: {:.3} ms / {:.3} ms", median(ours), median(theirs));
+    let ratio = shared::paired(&shared::seconds(ours), &shared::seconds(theirs));
+    println!("ratio {name} {ratio:.4}");
+}

@@ -1,0 +1,141 @@
+//! Blob shadows.
+
+use std::time::Instant;
+
+use host::gpu::Gpu;
+use host::renderer::{Renderer, view};
+use host::scene::{Scene, floor};
+use host::scene_gpu::SceneGpu;
+use shadows::glam::{Affine3A, Vec3};
+use shadows::{
+    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor, Caster,
+    DirectionalLight, wgpu,
+};
+
+use crate::ratio;
+use crate::shapes::cuboid;
+
+const SIZE: [u32; 2] = [1280, 720];
+
+fn sun() -> BlobLight {
+    BlobLight::new(DirectionalLight::new(Vec3::new(0.4, 1.0, 0.3)), 0.05, 1.0)
+}
+
+fn new(gpu: &Gpu) -> BlobShadow {
+    let descriptor = BlobShadowDescriptor {
+        decals: Some(BlobDecalDescriptor::default()),
+        ..Default::default()
+    };
+    BlobShadow::new(&gpu.device, &descriptor).expect("the descriptor is in range")
+}
+
+/// The empty floor of the scene.
+fn empty() -> Scene {
+    let mut scene = floor();
+    scene.objects.truncate(1);
+    scene
+}
+
+/// So many in rows on the floor, of which they leave half.
+fn rows(count: usize) -> Vec<Blob> {
+    let row = (count as f32).sqrt();
+    let step = 16.0 / row;
+    let at = |i: usize| {
+        let (x, z) = (
+            (i as f32 % row).floor() + 0.5,
+            (i as f32 / row).floor() + 0.5,
+        );
+        Vec3::new(x * step - 8.0, 0.4 * step, z * step - 8.0)
+    };
+    (0..count)
+        .map(|i| Blob::sphere(at(i), 0.35 * step))
+        .collect()
+}
+
+pub fn decals(gpu: &Gpu, rounds: u32) {
+    let scene = empty();
+    let scene_gpu = SceneGpu::new(gpu, &scene).expect("the scene fits");
+    let host = Renderer::new(gpu, SIZE, &scene, &scene_gpu).expect("the targets fit");
+    gpu.run(|encoder| host.draw_ambient(encoder, &scene_gpu));
+    let mask = gpu.target(SIZE, wgpu::TextureFormat::R8Unorm, 1);
+    let mask = mask.create_view(&Default::default());
+    let mut sides = [10_000, 1000].map(|count| {
+        let mut blobs = new(gpu);
+        let frame = BlobFrame {
+            lights: &[sun()],
+            views: &[view(&scene, SIZE).expect("the camera makes a view")],
+            blobs: &rows(count),
+            ..Default::default()
+        };
+        blobs
+            .prepare(&gpu.device, &gpu.queue, &frame)
+            .expect("the frame is in range");
+        gpu.run(|encoder| blobs.encode(encoder));
+        let depth = blobs
+            .decal_bind_group(&gpu.device, host.depth_stencil())
+            .expect("the depth can be read");
+        (blobs, depth, Vec::new())
+    });
+    // The first round makes pipelines.
+    for round in 0..=rounds {
+        for (blobs, depth, times) in &mut sides {
+            let start = Instant::now();
+            gpu.run(|encoder| {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: &mask,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations {
+                            load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
+                            store: wgpu::StoreOp::Store,
+                        },
+                    })],
+                    ..Default::default()
+                });
+                blobs.render(&mut pass, 0, 0, depth).expect("it is encoded");
+            });
+            if round > 0 {
+                times.push(start.elapsed());
+            }
+        }
+    }
+    let [(_, _, many), (_, _, few)] = &sides;
+    ratio("blob_decals_10000_vs_1000", many, few);
+}
+
+pub fn prepare(gpu: &Gpu, rounds: u32) {
+    let mesh = cuboid(Vec3::splat(0.3)).mesh(&gpu.device);
+    let place = |i: usize| Vec3::new((i % 100) as f32, 0.3, (i / 100) as f32);
+    let casters: Vec<Caster> = (0..10_000)
+        .map(|i| Caster::new(mesh.clone(), Affine3A::from_translation(place(i))))
+        .collect();
+    let mut moving = casters.clone();
+    let [mut kept, mut moved] = [new(gpu), new(gpu)];
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for round in 0..=rounds {
+        for caster in &mut moving {
+            caster.world_from_object.translation.y += 0.001;
+        }
+        for (blobs, casters, times) in [
+            (&mut kept, &casters, &mut ours),
+            (&mut moved, &moving, &mut theirs),
+        ] {
+            let frame = BlobFrame {
+                lights: &[sun()],
+                casters,
+                ..Default::default()
+            };
+            let start = Instant::now();
+            blobs
+                .prepare(&gpu.device, &gpu.queue, &frame)
+                .expect("the frame is in range");
+            if round > 0 {
+                times.push(start.elapsed());
+            }
+            gpu.run(|encoder| blobs.encode(encoder));
+        }
+    }
+    assert_eq!(kept.statistics().uploaded, 0);
+    ratio("blob_prepare_kept_vs_moving", &ours, &theirs);
+}

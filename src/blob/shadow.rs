@@ -1,0 +1,288 @@
+//! Shadows of ellipsoids.
+
+use super::buffer::BlobBuffer;
+use super::decals::Decals;
+use super::descriptor::BlobShadowDescriptor;
+use super::frame::BlobFrame;
+use super::receivers::{self, Receivers};
+use super::records::{LightRecord, STRIDE, ViewRecord};
+use super::statistics::BlobStatistics;
+use crate::error::{BlobRenderError, BlobShadowError};
+use crate::submissions::Submissions;
+use crate::uploads::Uploads;
+
+/// Soft shadows of thousands of casters, each taken for an ellipsoid.
+///
+/// How much of a light's disk an ellipsoid covers is computed at each receiver, analytically: no texture, no
+/// resolution, no bias, and the penumbra that the light's size and distance make. The wrong thing is the
+/// shape. Of a caster that is an ellipsoid the shadow is right to a hundredth; of a box it is a box's only from
+/// afar; `docs/survey.md` has the figures.
+///
+/// The shadows of several blobs are multiplied: right where they cover parts of the light independently, too dark
+/// by up to a quarter where two cover the same half of it, too light by as much where they cover
+/// opposite halves. (Area overlap of a light and a blocking sphere as the measure of a soft shadow: Oat and
+/// Sander, "Ambient Aperture Lighting", 2007; here for ellipsoids, by quadrature.)
+///
+/// # Two ways to apply it
+///
+/// - **Decals** ([`render`](Self::render)): one instanced draw for all blobs, over the host's depth, which
+///   multiplies a target. Each blob costs the pixels that its shadow can reach. For thousands.
+/// - **A function** ([`wgsl_module`](Self::wgsl_module)): `shadows_blob_visibility(light, position)` for the
+///   host's shader, which needs no depth and no pass, and asks every blob at every pixel. For dozens.
+///
+/// A caster's own surface lies in and about its ellipsoid, and what of it faces away from the light is dark
+/// there. Draw decals before the casters are in the depth, or ask `shadows_blob_visibility_of(light, position,
+/// own)` on a caster, which leaves its own blob out.
+///
+/// # What is written again
+///
+/// Ellipsoids, lights and views that are as they were are not uploaded: of a frame in which nothing has changed
+/// nothing is.
+#[derive(Debug)]
+pub struct BlobShadow {
+    label: String,
+    strips: u32,
+    /// At most: lights, views.
+    most: [u32; 2],
+    blobs: BlobBuffer,
+    lights: Records<LightRecord>,
+    views: Records<ViewRecord>,
+    decals: Option<Decals>,
+    receivers: Option<Receivers>,
+    uploads: Uploads,
+    submissions: Submissions,
+    /// Of the frame: lights, views.
+    prepared: [usize; 2],
+    statistics: BlobStatistics,
+}
+
+impl BlobShadow {
+    /// Makes pipeline and buffers.
+    ///
+    /// # Errors
+    /// [`BlobShadowError`] if a count or a format is out of range.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &BlobShadowDescriptor<'_>,
+    ) -> Result<Self, BlobShadowError> {
+        descriptor.validate(device)?;
+        let label = match descriptor.label {
+            Some(label) => format!("shadows blobs {label}"),
+            None => "shadows blobs".to_owned(),
+        };
+        let blobs = BlobBuffer::new(device, &label, descriptor.receivers);
+        let lights = Records::new(device, &label, descriptor.lights);
+        let receivers = descriptor
+            .receivers
+            .then(|| Receivers::new(device, &label, &lights.buffer, blobs.buffer()));
+        let decals = descriptor.decals.as_ref();
+        Ok(Self {
+            strips: descriptor.strips,
+            most: [descriptor.lights, descriptor.views],
+            decals: decals.map(|decals| Decals::new(device, &label, descriptor, decals)),
+            receivers,
+            views: Records::new(device, &label, descriptor.views),
+            lights,
+            blobs,
+            uploads: Uploads::new(device),
+            submissions: Submissions::default(),
+            prepared: [0; 2],
+            statistics: BlobStatistics::default(),
+            label,
+        })
+    }
+
+    /// Finds what has changed and stages it. (Nothing goes through the queue, which is there as in every
+    /// other `prepare`.)
+    ///
+    /// # Errors
+    /// [`BlobShadowError`] if a light, a caster or a blob is out of range or there are too many; what was
+    /// prepared before then stays.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        _: &wgpu::Queue,
+        frame: &BlobFrame<'_>,
+    ) -> Result<(), BlobShadowError> {
+        frame.validate(device, self.most)?;
+        let (count, limit) = (frame.len(), self.blobs.most(device));
+        if count as u64 > limit {
+            return Err(BlobShadowError::TooManyBlobs { count, limit });
+        }
+        let encoder_dropped = self.submissions.take_dropped();
+        let not_encoded = self.uploads.is_waiting();
+        if not_encoded || encoder_dropped {
+            self.forget();
+        }
+        if self.blobs.reserve(device, count)
+            && let Some(receivers) = &mut self.receivers
+        {
+            receivers.rebind(device, &self.lights.buffer, self.blobs.buffer());
+        }
+        let changed = self.blobs.write(&mut self.uploads, frame.all());
+        let lights = frame.lights.iter().map(LightRecord::new);
+        let no_more = std::iter::repeat(LightRecord::NONE);
+        let lights = lights.chain(no_more).take(self.most[0] as usize);
+        self.lights.write(&mut self.uploads, lights);
+        let views = frame.views.iter().map(ViewRecord::new);
+        self.views.write(&mut self.uploads, views);
+        self.prepared = [frame.lights.len(), frame.views.len()];
+        self.statistics = BlobStatistics {
+            blobs: self.blobs.len(),
+            without_shadow: self.blobs.without_shadow(),
+            changed,
+            uploaded: self.uploads.bytes(),
+            bytes: self.blobs.buffer().size()
+                + self.lights.buffer.size()
+                + self.views.buffer.size(),
+            not_encoded,
+            encoder_dropped,
+        };
+        Ok(())
+    }
+
+    /// Records what the last [`prepare`](Self::prepare) found: copies to the GPU, once. What is recorded must
+    /// be submitted, before what draws decals or reads the blobs.
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if self.uploads.record(encoder) {
+            self.submissions.watch(encoder);
+        }
+    }
+
+    /// Takes nothing for written: the next [`prepare`](Self::prepare) uploads everything. For a host that has lost
+    /// what was recorded in a way that cannot be seen from here: a submission that failed.
+    pub fn invalidate(&mut self) {
+        self.forget();
+    }
+
+    /// A bind group by which decals read the host's depth: that of what is to be darkened, for as long as the
+    /// host uses this texture. Its whole picture is taken for what the view shows.
+    ///
+    /// # Errors
+    /// [`BlobShadowError::Depth`] if it is no depth texture of one layer and one sample with
+    /// `TEXTURE_BINDING`; [`BlobShadowError::NoDecals`] if no decals were asked for.
+    pub fn decal_bind_group(
+        &self,
+        device: &wgpu::Device,
+        depth: &wgpu::TextureView,
+    ) -> Result<wgpu::BindGroup, BlobShadowError> {
+        let decals = self.decals.as_ref().ok_or(BlobShadowError::NoDecals)?;
+        let buffers = [&self.views.buffer, &self.lights.buffer];
+        decals.group(device, &self.label, buffers, depth)
+    }
+
+    /// Draws all blobs for one of the frame's lights in one of its views: one instanced draw, which multiplies
+    /// the pass's target with the visibility. The pass is as
+    /// [`BlobDecalDescriptor`](crate::BlobDecalDescriptor) says, and its viewport the whole picture. Bind
+    /// group 0, vertex buffer 0 and the index buffer are changed.
+    ///
+    /// # Errors
+    /// [`BlobRenderError`] if what was prepared is not on its way to the GPU, or the frame has no such light or
+    /// view. Nothing is then drawn.
+    pub fn render(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        light: usize,
+        view: usize,
+        depth: &wgpu::BindGroup,
+    ) -> Result<(), BlobRenderError> {
+        let Some(decals) = &self.decals else {
+            return Err(BlobRenderError::NoDecals);
+        };
+        if self.uploads.is_waiting() {
+            return Err(BlobRenderError::NotEncoded);
+        }
+        if self.submissions.is_dropped() {
+            return Err(BlobRenderError::Dropped);
+        }
+        let [lights, views] = self.prepared;
+        if light >= lights || view >= views {
+            return Err(BlobRenderError::NoSuch {
+                light,
+                view,
+                lights,
+                views,
+            });
+        }
+        if self.blobs.len() > 0 {
+            let instances = (self.blobs.instances(), self.blobs.len());
+            decals.draw(pass, depth, [view, light], instances);
+        }
+        Ok(())
+    }
+
+    /// WGSL for the host's shader, whose bind group `group` is [`bind_group`](Self::bind_group):
+    ///
+    /// - `shadows_blob_visibility(light: u32, position: vec3f) -> f32`, 1 lit, 0 in shadow; `position` in world
+    ///   space;
+    /// - `shadows_blob_visibility_of(light: u32, position: vec3f, own: u32) -> f32`, the same without the shadow
+    ///   of one blob, by its place in the frame (casters first).
+    ///
+    /// A light that the frame has not is not shadowed.
+    pub fn wgsl_module(&self, group: u32) -> String {
+        receivers::source(self.strips, self.most[0], group)
+    }
+
+    /// Layout of [`bind_group`](Self::bind_group), for fragment and compute shaders; `None` if
+    /// [`BlobShadowDescriptor::receivers`](crate::BlobShadowDescriptor::receivers) is false.
+    pub fn bind_group_layout(&self) -> Option<&wgpu::BindGroupLayout> {
+        Some(self.receivers.as_ref()?.layout())
+    }
+
+    /// What the host's shader reads. Ask for it after every [`prepare`](Self::prepare), which may make it
+    /// anew; `None` as [`bind_group_layout`](Self::bind_group_layout).
+    pub fn bind_group(&self) -> Option<&wgpu::BindGroup> {
+        Some(self.receivers.as_ref()?.group())
+    }
+
+    /// What the last [`prepare`](Self::prepare) found.
+    pub fn statistics(&self) -> BlobStatistics {
+        self.statistics
+    }
+
+    fn forget(&mut self) {
+        self.uploads.clear();
+        self.blobs.forget();
+        self.lights.written.clear();
+        self.views.written.clear();
+    }
+}
+
+/// A uniform buffer of records that are told apart by dynamic offsets.
+#[derive(Debug)]
+struct Records<T> {
+    buffer: wgpu::Buffer,
+    /// What it holds once the uploads are recorded.
+    written: Vec<T>,
+}
+
+impl<T: bytemuck::Pod + PartialEq> Records<T> {
+    fn new(device: &wgpu::Device, label: &str, count: u32) -> Self {
+        Self {
+            buffer: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: u64::from(count) * STRIDE,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+            written: Vec::new(),
+        }
+    }
+
+    fn write(&mut self, uploads: &mut Uploads, records: impl Iterator<Item = T>) {
+        for (at, record) in records.enumerate() {
+            if self.written.get(at) == Some(&record) {
+                continue;
+            }
+            uploads.write(
+                &self.buffer,
+                at as u64 * STRIDE,
+                bytemuck::bytes_of(&record),
+            );
+            match self.written.get_mut(at) {
+                Some(old) => *old = record,
+                None => self.written.push(record),
+            }
+        }
+    }
+}
