@@ -16,7 +16,7 @@ build() {
     [ "$folder" != dev ] || folder=debug
     rm -rf dist
     mkdir dist
-    cargo run --quiet --locked --manifest-path bindgen/Cargo.toml -- \
+    cargo run --quiet --locked --manifest-path "$PWD/bindgen/Cargo.toml" -- \
         "target/wasm32-unknown-unknown/$folder/shadows_web.wasm" dist
     cp page/* dist/
 }

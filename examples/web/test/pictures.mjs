@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-/** Part of the pixels that may differ: ... */
+/** Part of the pixels that may differ from what the same code draws natively, on the same SwiftShader. */
 const TOLERATED = 0;
 
 /** Scenes, lights and methods that are compared; every scene, light and method occurs. */
