@@ -17,7 +17,7 @@ pub struct ProjectedShadowDescriptor<'a> {
     /// them.
     pub layer_size: u32,
     /// Bytes that layers may take, with their mip levels (4 bytes a texel, and a third); as many whole layers
-    /// as that gives, at least one. Default 64 MiB: eleven layers of 1024 texels, 187 shadows of 256.
+    /// as that gives, at least one. Default 64 MiB: twelve layers of 1024 texels, 192 shadows of 256.
     pub memory: u64,
     /// Whether shadows whose light and casters have not changed are left alone. Default true; false draws
     /// all of them every frame, for measuring what that is worth.

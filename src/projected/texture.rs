@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn a_layer_has_a_third_more_texels_than_its_finest_level() {
         assert_eq!(layer_bytes(8), 4 * (64 + 16 + 4 + 1));
-        assert_eq!((64 << 20) / layer_bytes(1024), 11);
+        assert_eq!((64 << 20) / layer_bytes(1024), 12);
         assert_eq!(level_count(1024), 11);
     }
 }

@@ -115,7 +115,8 @@ mod tests {
         for axis in [DVec3::X, DVec3::Y, DVec3::new(1.0, -2.0, 0.5)] {
             let (within, mean) = seen_along(axis, &shape);
             assert!((within - 0.25).abs() < 0.01, "{axis}: {within}");
-            assert!(mean.length() < 0.01, "{axis}: {mean}");
+            // A hundredth of the radius.
+            assert!(mean.length() < 0.02, "{axis}: {mean}");
         }
     }
 
