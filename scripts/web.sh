@@ -18,12 +18,6 @@ build() {
     mkdir dist
     cargo run --quiet --locked --manifest-path bindgen/Cargo.toml -- \
         "target/wasm32-unknown-unknown/$folder/shadows_web.wasm" dist
-    if [ "$1" = release ] && command -v wasm-opt >/dev/null; then
-        wasm-opt -Os --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int \
-            --enable-mutable-globals --enable-reference-types --enable-multivalue \
-            dist/shadows_web_bg.wasm -o dist/smaller.wasm &&
-            mv dist/smaller.wasm dist/shadows_web_bg.wasm
-    fi
     cp page/* dist/
 }
 

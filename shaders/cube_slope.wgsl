@@ -50,7 +50,11 @@ fn shadows_cube_mapped(
     receiver.texel = shadows_cube_across(face, from_light) * (light.texels / major);
     receiver.light = light;
     receiver.tile = shadows_cube_tile(light, face);
-    let found = shadows_cube_slopes(map, map_sampler, receiver, taps);
+    // Texels as far as rounding may have moved the receiver.
+    let per_length = 1.0 / (light.texel * major);
+    let moved = light.rounding * length(position) * per_length;
+    let step = shadows_cube_stride(light, moved);
+    let found = shadows_cube_slopes(map, map_sampler, receiver, step, taps);
     let own = light.depth_per / (light.depth_bias * major);
     // Four texels of depth from one texel to the next.
     let bend = shadows_cube_bend(found, 4.0 * own * light.texel);
@@ -59,8 +63,7 @@ fn shadows_cube_mapped(
     let forward = own - dot(across, from_light) / major;
     let normal = across + shadows_cube_to_world(face, vec3f(forward, 0.0, 0.0));
     // Texels around the receiver, and around where it is taken to be.
-    let world = reach.y + reach.w + light.rounding * length(position);
-    let texels = reach.x + reach.z + world / (light.texel * major);
+    let texels = reach.x + reach.z + (reach.y + reach.w) * per_length + moved;
     let beside = own / (own + texels * bend);
     let facing = dot(normal, from_light);
     return ShadowsCubeDerived(normal, dot(normal, normal), facing, beside * abs(facing));
@@ -75,8 +78,8 @@ fn shadows_cube_stored_at(
     return shadows_cube_stored(map, map_sampler, receiver, texel + 0.5 + receiver.light.middle);
 }
 
-// The receiver's texel, or the nearest that has others to all sides on the same face.
-fn shadows_cube_inner(receiver: ShadowsCubeReceiver) -> vec2f {
-    let most = receiver.light.middle - 1.5;
+// The receiver's texel, or the nearest that has others so far away to all sides on the same face.
+fn shadows_cube_inner(receiver: ShadowsCubeReceiver, step: f32) -> vec2f {
+    let most = receiver.light.middle - step - 0.5;
     return shadows_cube_floor(receiver, clamp(receiver.texel, vec2f(-most), vec2f(most)));
 }

@@ -19,30 +19,37 @@ fn shadows_cube_doubt(position: vec3f, x: vec3f, y: vec3f) -> f32 {
     return squared * s;
 }
 
-// The slopes of the map around a texel, for a receiver that says which map. Along each axis the lesser
-// of two counts: the other may reach over the edge of what the texel shows. `taps` is 5, or 0 where
-// nothing is asked: drivers that run both sides of a branch run a loop once at least.
+// The slopes of the map around a texel, for a receiver that says which map, to texels `step` away: as far as
+// rounding has likely moved the receiver. Along each axis the lesser of two counts: the other may reach over the
+// edge of what the texel shows. `taps` is 5, or 0 where nothing is asked: drivers that run both sides of a branch
+// run a loop once at least.
 fn shadows_cube_slopes(
     map: texture_2d_array<f32>,
     map_sampler: sampler,
     receiver: ShadowsCubeReceiver,
+    step: f32,
     taps: i32,
 ) -> ShadowsCubeSlopes {
-    let texel = shadows_cube_inner(receiver);
+    let texel = shadows_cube_inner(receiver, step);
     // There, and to the left, to the right, above and below.
     var middle = 0.0;
     var around = vec4f(0.0);
     for (var i = 0; i < taps; i++) {
-        let side = select(1.0, -1.0, (i & 1) == 1);
+        let side = select(step, -step, (i & 1) == 1);
         let along = select(select(vec2f(0.0), vec2f(1.0, 0.0), i > 0), vec2f(0.0, 1.0), i > 2);
         let stored = shadows_cube_stored_at(map, map_sampler, receiver, texel + side * along);
         middle = select(middle, stored, i == 0);
         around = select(around, vec4f(stored), vec4i(1, 2, 3, 4) == vec4i(i));
     }
-    let before = middle - around.xz;
-    let behind = around.yw - middle;
+    let before = (middle - around.xz) / step;
+    let behind = (around.yw - middle) / step;
     let slope = select(before, behind, abs(behind) < abs(before));
     return ShadowsCubeSlopes(slope, abs(behind - before));
+}
+
+// How far apart these texels are: a quarter of what rounding may have moved the receiver, which most are within.
+fn shadows_cube_stride(light: ShadowsLight, moved: f32) -> f32 {
+    return clamp(floor(0.25 * moved), 1.0, floor(0.5 * light.middle));
 }
 
 // How much they are taken to differ: by no more than `steepest` and twice the slope itself.

@@ -101,10 +101,7 @@ fuzz_target!(|input: (Settings, Story<Frame>)| {
             device,
             queue,
             &ShadowVolumeFrame {
-                lights: &[VolumeLight {
-                    light,
-                    range: frame.range.map(|range| range.0),
-                }],
+                lights: &[VolumeLight::new(light, frame.range.map(|range| range.0))],
                 views: &[VolumeView {
                     view,
                     target_size: frame.target_size.map(|size| size.map(u32::from)),

@@ -14,13 +14,15 @@ pub struct Caster {
     pub mesh: CasterMesh,
     /// Any affine map from the mesh's space to world space: scale, shear and mirror included.
     pub world_from_object: Affine3A,
-    /// The layers it is on, a bit each. A light of a [`ShadowAtlas`](crate::ShadowAtlas) casts the shadows of
-    /// what is on any of its own layers ([`AtlasLight::with_layers`](crate::AtlasLight::with_layers)); other
-    /// maps and shadow volumes take no notice. Default all.
+    /// The layers it is on, a bit each. A light of a [`ShadowAtlas`](crate::ShadowAtlas) or of shadow volumes
+    /// casts the shadows of what is on any of its own layers
+    /// ([`AtlasLight::with_layers`](crate::AtlasLight::with_layers),
+    /// [`VolumeLight::with_layers`](crate::VolumeLight::with_layers)); maps of one light and projected shadows take no notice.
+    /// Default all.
     pub layers: u32,
-    /// Whose it is: an atlas's light of the same owner
-    /// ([`AtlasLight::owned_by`](crate::AtlasLight::owned_by)) does not cast its shadow, as a lamp shines
-    /// out of its own bulb. Other maps and shadow volumes take no notice. Default `None`: nobody's.
+    /// Whose it is: a light of the same owner ([`AtlasLight::owned_by`](crate::AtlasLight::owned_by),
+    /// [`VolumeLight::owned_by`](crate::VolumeLight::owned_by)) does not cast its shadow, as a lamp shines
+    /// out of its own bulb. Maps of one light and projected shadows take no notice. Default `None`: nobody's.
     pub owner: Option<NonZeroU32>,
 }
 

@@ -4,9 +4,11 @@ mod bounds;
 mod caster_tree;
 mod casters;
 mod digest;
+mod filter;
 mod frustum;
 
 pub(crate) use bounds::{CasterBounds, HalfSpace};
 pub(crate) use casters::{Casters, Change, Record, caster_digest};
 pub(crate) use digest::Digest;
+pub(crate) use filter::CasterFilter;
 pub(crate) use frustum::{Frustum, Region};

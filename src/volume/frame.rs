@@ -1,7 +1,10 @@
 //! What one frame consists of: lights, views, casters.
 
+use std::num::NonZeroU32;
+
 use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::Bounds;
+use crate::scene::CasterFilter;
 use crate::{
     Caster, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight, View,
 };
@@ -10,7 +13,7 @@ use crate::{
 ///
 /// ```
 /// use shadows::{PointLight, VolumeLight, glam::Vec3};
-/// let lamp = VolumeLight::from(PointLight::new(Vec3::Y, 30.0));
+/// let lamp = VolumeLight::from(PointLight::new(Vec3::Y, 30.0)).with_layers(0b1);
 /// assert_eq!(lamp.range, Some(30.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,31 +23,63 @@ pub struct VolumeLight {
     /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
     /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
     pub range: Option<f32>,
+    /// The casters whose shadows it casts are on any of these layers, a bit each ([`Caster::layers`]).
+    /// Default all.
+    pub layers: u32,
+    /// Whose it is: it casts no shadow of what is its owner's ([`Caster::owner`]), such as a lamp's own
+    /// shade. Default `None`: nobody's.
+    pub owner: Option<NonZeroU32>,
+}
+
+impl VolumeLight {
+    /// A light with this range that casts the shadows of all casters.
+    pub fn new(light: HomogeneousLight, range: Option<f32>) -> Self {
+        let CasterFilter { layers, owner } = CasterFilter::ALL;
+        Self {
+            light,
+            range,
+            layers,
+            owner,
+        }
+    }
+
+    /// The same, casting the shadows of casters alone that are on any of these layers, a bit each
+    /// ([`Caster::layers`]).
+    pub fn with_layers(self, layers: u32) -> Self {
+        Self { layers, ..self }
+    }
+
+    /// The same, casting no shadow of what is its owner's ([`Caster::owner`]): a lamp's own shade.
+    pub fn owned_by(self, owner: NonZeroU32) -> Self {
+        Self {
+            owner: Some(owner),
+            ..self
+        }
+    }
+
+    fn filter(&self) -> CasterFilter {
+        let Self { layers, owner, .. } = *self;
+        CasterFilter { layers, owner }
+    }
 }
 
 impl From<HomogeneousLight> for VolumeLight {
     /// Without a range.
     fn from(light: HomogeneousLight) -> Self {
-        Self { light, range: None }
+        Self::new(light, None)
     }
 }
 
 impl From<PointLight> for VolumeLight {
     fn from(light: PointLight) -> Self {
-        Self {
-            light: light.homogeneous(),
-            range: Some(light.range),
-        }
+        Self::new(light.homogeneous(), Some(light.range))
     }
 }
 
 impl From<SpotLight> for VolumeLight {
     /// Shining all around: what is outside the cone is for the host's light pass to leave dark.
     fn from(light: SpotLight) -> Self {
-        Self {
-            light: light.homogeneous(),
-            range: Some(light.range),
-        }
+        Self::new(light.homogeneous(), Some(light.range))
     }
 }
 
@@ -124,7 +159,7 @@ impl ShadowVolumeFrame<'_> {
                 return Err(ShadowVolumeError::TargetSize(size));
             }
         }
-        for VolumeLight { light, range } in self.lights {
+        for VolumeLight { light, range, .. } in self.lights {
             light.validate()?;
             if let Some(range) = *range
                 && !(range.is_finite() && range > 0.0)
@@ -146,6 +181,7 @@ impl ShadowVolumeFrame<'_> {
         Some(Situation {
             light: self.lights.get(light)?.light,
             range: self.lights.get(light)?.range,
+            filter: self.lights.get(light)?.filter(),
             view: self.views.get(view)?.view,
             target_size: self.views.get(view)?.target_size,
             receivers: self.receivers,
@@ -158,6 +194,7 @@ impl ShadowVolumeFrame<'_> {
 pub(crate) struct Situation {
     pub light: HomogeneousLight,
     pub range: Option<f32>,
+    pub filter: CasterFilter,
     pub view: View,
     pub target_size: Option<[u32; 2]>,
     pub receivers: Option<Bounds>,

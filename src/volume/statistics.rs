@@ -12,6 +12,8 @@ pub enum CasterState {
     ZFail,
     /// Left out: its mesh has no triangles.
     Empty,
+    /// Left out: it is on none of the light's layers, or of the light's own owner.
+    Masked,
     /// Left out: its transform leaves no area of it that the light sees. It is flattened to a line or a
     /// point, or to a plane that holds the light.
     EdgeOn,
@@ -34,6 +36,7 @@ impl From<Skip> for CasterState {
     fn from(skip: Skip) -> Self {
         match skip {
             Skip::Empty => Self::Empty,
+            Skip::Masked => Self::Masked,
             Skip::EdgeOn => Self::EdgeOn,
             Skip::OutOfRange => Self::OutOfRange,
             Skip::OutOfView => Self::OutOfView,
@@ -55,10 +58,13 @@ pub struct VolumeStatistics {
     /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
     /// as [`StartFrom::AwayFacing`](crate::StartFrom::AwayFacing) asks; 0 where it is not asked for.
     pub casters_away_facing: u32,
-    /// Casters left out, for any of the next four reasons.
+    /// Casters left out, for any of the next five reasons.
     pub casters_skipped: u32,
     /// Casters left out because their meshes have no triangles.
     pub skipped_empty: u32,
+    /// Casters left out because the light is not to cast their shadows
+    /// ([`VolumeLight::layers`](crate::VolumeLight::layers), [`owner`](crate::VolumeLight::owner)).
+    pub skipped_masked: u32,
     /// Casters left out because their transforms leave no area of them that the light sees: those of
     /// scale 0 on two axes or all, and those flattened to a plane that holds the light. (Flattened to
     /// any other plane, a caster casts what is left of it.)
@@ -141,6 +147,7 @@ impl Tally {
         sum.casters_away_facing += own.casters_away_facing;
         sum.casters_skipped += own.casters_skipped;
         sum.skipped_empty += own.skipped_empty;
+        sum.skipped_masked += own.skipped_masked;
         sum.skipped_edge_on += own.skipped_edge_on;
         sum.skipped_out_of_range += own.skipped_out_of_range;
         sum.skipped_out_of_view += own.skipped_out_of_view;
@@ -153,6 +160,7 @@ impl Tally {
             CasterState::ZPass => &mut statistics.casters_z_pass,
             CasterState::ZFail => &mut statistics.casters_z_fail,
             CasterState::Empty => &mut statistics.skipped_empty,
+            CasterState::Masked => &mut statistics.skipped_masked,
             CasterState::EdgeOn => &mut statistics.skipped_edge_on,
             CasterState::OutOfRange => &mut statistics.skipped_out_of_range,
             CasterState::OutOfView => &mut statistics.skipped_out_of_view,

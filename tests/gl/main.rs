@@ -5,6 +5,8 @@ mod common;
 #[path = "../common/cubes.rs"]
 mod cubes;
 mod depth;
+#[path = "../common/ground.rs"]
+mod ground;
 mod kinds;
 mod old_gl;
 #[path = "../common/receivers.rs"]

@@ -11,7 +11,7 @@ use shadows::{
 
 use crate::common::noop;
 use crate::common::shapes::{Random, cuboid};
-use crate::gl;
+use crate::{gl, ground};
 use host::gpu::Gpu;
 
 /// Set in the process that the test starts for itself: Mesa is told by its environment what to be.
@@ -154,59 +154,6 @@ fn flat(gpu: &Gpu, light: FlatLight, casters: &[Caster]) -> ShadowMap {
     map
 }
 
-const SIZE: u32 = 64;
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
-/// A pipeline that shows the ground from 2.2 before to 2.2 behind the origin through a sampler's module.
-fn pipeline(
-    gpu: &Gpu,
-    (module, layout): (String, &wgpu::BindGroupLayout),
-    call: &str,
-) -> wgpu::RenderPipeline {
-    let source = module
-        + &format!(
-            "
-        @vertex fn screen(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {{
-            return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.5, 1.0);
-        }}
-        @fragment fn show(@builtin(position) at: vec4f) -> @location(0) vec4f {{
-            let ground = (at.xy / {SIZE}.0 - 0.5) * 4.4;
-            return vec4f({call});
-        }}"
-        );
-    let device = &gpu.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("screen"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("show"),
-            compilation_options: Default::default(),
-            targets: &[Some(FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
-
 /// The broken twin: what the device says of a module with gathers.
 fn refuses_gathers(old: &Gpu) -> bool {
     let (device, queue) = noop();
@@ -216,10 +163,10 @@ fn refuses_gathers(old: &Gpu) -> bool {
         .wgsl_module(0);
     assert!(module.contains("textureGather"));
     let here = PcfSampler::new(&old.device, &old.queue, &descriptor).unwrap();
-    let call = "shadows_visibility_flat(vec3f(ground, 0.0), vec3f(1.0))";
+    let show = "return vec4f(shadows_visibility_flat(vec3f(unit, 0.0), vec3f(1.0)));";
     let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal]
         .map(|filter| old.device.push_error_scope(filter));
-    pipeline(old, (module, here.bind_group_layout()), call);
+    ground::pipeline(old, &module, show, &[here.bind_group_layout()]);
     let errors = scopes
         .into_iter()
         .rev()
@@ -227,7 +174,7 @@ fn refuses_gathers(old: &Gpu) -> bool {
     errors.flatten().count() == 1
 }
 
-/// That ground, a byte a point.
+/// The ground from 2.2 before to 2.2 behind the origin, a byte a point.
 fn picture(gpu: &Gpu, map: AnyMap<'_>, kernel: Kernel, shift: f32) -> Vec<u8> {
     let descriptor = PcfDescriptor {
         kernel,
@@ -240,30 +187,12 @@ fn picture(gpu: &Gpu, map: AnyMap<'_>, kernel: Kernel, shift: f32) -> Vec<u8> {
         _ => "shadows",
     };
     let pixel = if sampler.takes_pixel() { ", at.xy" } else { "" };
-    let call = format!(
-        "{prefix}_visibility_flat(vec3f(ground.x + {shift:?}, 0.0, ground.y), vec3f(0.0, 1.0, 0.0){pixel})"
+    let show = format!(
+        "let place = vec3f(unit.x, 0.0, unit.y) * 4.4 + vec3f({shift:?}, 0.0, 0.0);
+        return vec4f({prefix}_visibility_flat(place, vec3f(0.0, 1.0, 0.0){pixel}));"
     );
-    let target = gpu.target([SIZE, SIZE], FORMAT, 1);
-    gpu.checked(|| {
-        let module = (sampler.wgsl_module(0), sampler.bind_group_layout());
-        let pipeline = pipeline(gpu, module, &call);
-        let group = sampler.bind_group(&gpu.device, map).unwrap();
-        let view = target.create_view(&Default::default());
-        gpu.run(|encoder| {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations::default(),
-                })],
-                ..Default::default()
-            });
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.draw(0..3, 0..1);
-        });
-    });
-    let pixels = gpu.read_texture(&target, 0, wgpu::TextureAspect::All);
+    let group = gpu.checked(|| sampler.bind_group(&gpu.device, map).unwrap());
+    let (module, layouts) = (sampler.wgsl_module(0), [sampler.bind_group_layout()]);
+    let pixels = ground::picture(gpu, (&module, &show), &layouts, &[group]);
     pixels.into_iter().step_by(4).collect()
 }

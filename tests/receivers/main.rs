@@ -8,6 +8,8 @@ mod cube_receivers;
 mod cubes;
 #[path = "../common/exact_kernels.rs"]
 mod exact_kernels;
+#[path = "../common/ground.rs"]
+mod ground;
 #[path = "../common/pcf.rs"]
 mod pcf;
 mod pcf_gather;

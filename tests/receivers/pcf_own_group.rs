@@ -1,7 +1,7 @@
 //! Maps in a bind group of the host's, beside its own bindings: the same picture as through groups of their own.
 
 use crate::common::shapes::cuboid;
-use crate::cubes;
+use crate::{cubes, ground};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::error::PcfError;
@@ -11,9 +11,6 @@ use shadows::{
     ShadowMapDescriptor, VogelDisk, glam, wgpu,
 };
 use wgpu::util::DeviceExt as _;
-
-const SIZE: u32 = 64;
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A lamp and a sun over one box, and what reads them: five bindings and three.
 struct Stage {
@@ -149,76 +146,13 @@ fn picture(
     layouts: &[&wgpu::BindGroupLayout],
     groups: &[wgpu::BindGroup],
 ) -> Vec<u8> {
-    let source = format!(
-        "{modules}
-        @group(0) @binding(0) var<uniform> scale: vec4f;
-        @vertex fn screen(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {{
-            return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.5, 1.0);
-        }}
-        @fragment fn show(@builtin(position) at: vec4f) -> @location(0) vec4f {{
-            let ground = (at.xy / {SIZE}.0 - 0.5) * scale.x;
-            let place = vec3f(ground.x, 0.0, ground.y);
-            let lamp = {lamp}shadows_visibility(place, at.xy);
-            return vec4f(lamp, {sun}shadows_flat_visibility(place), 0.0, 1.0);
-        }}"
+    let module = format!("{modules}\n@group(0) @binding(0) var<uniform> scale: vec4f;");
+    let show = format!(
+        "let place = vec3f(unit.x, 0.0, unit.y) * scale.x;
+        let lamp = {lamp}shadows_visibility(place, at.xy);
+        return vec4f(lamp, {sun}shadows_flat_visibility(place), 0.0, 1.0);"
     );
-    let target = gpu.target([SIZE, SIZE], FORMAT, 1);
-    gpu.checked(|| {
-        let pipeline = pipeline(gpu, source, layouts);
-        let view = target.create_view(&Default::default());
-        gpu.run(|encoder| {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations::default(),
-                })],
-                ..Default::default()
-            });
-            pass.set_pipeline(&pipeline);
-            for (index, group) in (0..).zip(groups) {
-                pass.set_bind_group(index, group, &[]);
-            }
-            pass.draw(0..3, 0..1);
-        });
-    });
-    gpu.read_texture(&target, 0, wgpu::TextureAspect::All)
-}
-
-fn pipeline(gpu: &Gpu, source: String, layouts: &[&wgpu::BindGroupLayout]) -> wgpu::RenderPipeline {
-    let device = &gpu.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    });
-    let layouts: Vec<_> = layouts.iter().map(|layout| Some(*layout)).collect();
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &layouts,
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("screen"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("show"),
-            compilation_options: Default::default(),
-            targets: &[Some(FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    ground::picture(gpu, (&module, &show), layouts, groups)
 }
 
 #[test]

@@ -7,6 +7,7 @@ use shadows::{Kernel, wgsl};
 use crate::Module;
 use crate::pcf::{WAYS, made};
 use host::peers::PEERS;
+use host::scene::leaf_mask;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -28,33 +29,47 @@ pub fn all() -> Vec<Module> {
     all
 }
 
-/// The example host, lit in both of its ways. The first sampler is as good as any: it calls all alike.
+/// The example host's modules, as its pipelines put them together. The first sampler is as good as any: it
+/// calls all alike.
 fn host() -> Vec<Module> {
-    let folder = root().join("examples/host/src/shaders");
-    let file = |name: &str| read(&folder.join(name));
+    let file = |name: &str| read(&host_shaders().join(name));
     let shared = [wgsl::POSITION.to_owned(), file("host.wgsl")].concat();
+    let leaves = leaf_mask::wgsl();
     let way = &WAYS[0];
     let (device, queue) = way.device();
     let sampler = made(&device, &queue, &way.descriptor(Kernel::ALL[0]));
     let asks =
         "fn host_visibility(at: HostReceiver) -> f32 { return shadows_visibility(at.world); }";
+    let sampled = [&sampler.wgsl_module(1)[..], asks, &file("sampled.wgsl")].concat();
+    let masked = leaves.clone() + &file("masked.wgsl");
+    let of_host = |name: &str, parts: &[&str]| Module::new(name, shared.clone() + &parts.concat());
     vec![
-        Module::new("host", shared.clone()),
-        Module::new(
-            "host-unshadowed",
-            [&shared, &file("unshadowed.wgsl")[..]].concat(),
+        of_host("host", &[]),
+        of_host("host-sky", &[&file("sky.wgsl")]),
+        of_host("host-masked", &[&masked]),
+        of_host("host-unshadowed", &[&file("unshadowed.wgsl")]),
+        of_host("host-sampled", &[&sampled]),
+        of_host(
+            "host-masked-lit",
+            &[&sampled, &masked, &file("masked_lit.wgsl")],
         ),
-        Module::new(
-            "host-sampled",
-            [
-                &shared,
-                &sampler.wgsl_module(1)[..],
-                asks,
-                &file("sampled.wgsl"),
-            ]
-            .concat(),
-        ),
+        Module::new("host-masked-casters", leaves + &file("caster.wgsl")),
     ]
+}
+
+fn host_shaders() -> PathBuf {
+    root().join("examples/host/src/shaders")
+}
+
+#[test]
+fn every_shader_of_the_host_is_in_a_module() {
+    let modules = host();
+    let files = std::fs::read_dir(host_shaders()).unwrap();
+    let left_out = files.map(|file| file.unwrap().path()).filter(|path| {
+        let text = read(path);
+        !modules.iter().any(|module| module.wgsl.contains(&text))
+    });
+    assert_eq!(left_out.collect::<Vec<_>>(), Vec::<PathBuf>::new());
 }
 
 fn peers() -> Vec<Module> {

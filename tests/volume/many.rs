@@ -1,5 +1,7 @@
 //! One renderer for all lights and views of a frame: each picture as alone, at the price of what changed.
 
+use std::num::NonZeroU32;
+
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use shadows::error::VolumeRenderError;
@@ -36,7 +38,7 @@ impl Scene {
 
     /// What a new renderer of one light and one view counts.
     fn alone(&self, theatre: &Theatre, way: Silhouettes, light: usize, view: usize) -> Vec<u8> {
-        let VolumeLight { light, range } = self.lights[light];
+        let VolumeLight { light, range, .. } = self.lights[light];
         let one = OneLight {
             range,
             ..OneLight::new(&self.views[view].view, light, &self.casters)
@@ -53,10 +55,7 @@ fn eye(turn: f32) -> VolumeView {
 
 fn lamp_at(turn: f32) -> VolumeLight {
     let place = Quat::from_rotation_y(turn) * Vec3::new(-2.0, 6.0, 2.5);
-    VolumeLight {
-        light: HomogeneousLight::point(place),
-        range: Some(12.0),
-    }
+    VolumeLight::new(HomogeneousLight::point(place), Some(12.0))
 }
 
 fn scene(theatre: &Theatre) -> Scene {
@@ -113,6 +112,55 @@ fn every_light_in_every_view_is_as_alone() {
                 seen.push(counts);
             }
         }
+    }
+}
+
+#[test]
+fn lights_cast_what_is_on_their_layers_and_not_what_is_their_owners() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let theatre = Theatre::new(gpu);
+    let owner = NonZeroU32::new(7).unwrap();
+    for way in WAYS {
+        let mut scene = scene(&theatre);
+        for (i, caster) in scene.casters.iter_mut().enumerate() {
+            caster.layers = 1 << (i % 3);
+            caster.owner = (i % 4 == 0).then_some(owner);
+        }
+        let mut renderer = theatre.renderer(way);
+        // As with the casters alone that a light casts the shadows of.
+        let mut check = |scene: &Scene, light: usize, casts: fn(&Caster) -> bool| {
+            let (counts, statistics) = draw(&theatre, &mut renderer, scene);
+            let mut admitted = scene.clone();
+            admitted.casters.retain(casts);
+            for (view, counts) in counts[light].iter().enumerate() {
+                let of = |scene: &Scene| scene.alone(&theatre, way, light, view);
+                assert!(
+                    *counts == of(&admitted),
+                    "{way:?}, light {light}, view {view}"
+                );
+                // The broken twin: a light that takes no notice.
+                assert!(*counts != of(scene), "{way:?}, light {light}, view {view}");
+            }
+            statistics.skipped_masked
+        };
+        scene.lights[0] = lamp_at(0.0).with_layers(0b011);
+        assert_eq!(check(&scene, 0, |caster| caster.layers & 0b011 != 0), 2 * 8);
+        scene.lights[2] = lamp_at(2.0).owned_by(owner);
+        assert_eq!(
+            check(&scene, 2, |caster| caster.owner.is_none()),
+            2 * (8 + 6)
+        );
+        // Another mask, and other layers of a caster, with all else as it was.
+        scene.lights[0] = lamp_at(0.0).with_layers(0b100);
+        assert_eq!(
+            check(&scene, 0, |caster| caster.layers & 0b100 != 0),
+            2 * (16 + 6)
+        );
+        scene.casters[0].layers = 0b110;
+        assert_eq!(
+            check(&scene, 0, |caster| caster.layers & 0b100 != 0),
+            2 * (15 + 6)
+        );
     }
 }
 

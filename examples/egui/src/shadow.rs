@@ -313,10 +313,10 @@ impl Volumes {
     fn prepare(&mut self, gpu: &Gpu, frame: &Frame<'_>) -> Result<()> {
         let (view, light, size) = (frame.view, frame.light, frame.size);
         let volumes = ShadowVolumeFrame {
-            lights: &[VolumeLight {
+            lights: &[VolumeLight::new(
                 light,
-                range: (!light.is_directional()).then_some(frame.range),
-            }],
+                (!light.is_directional()).then_some(frame.range),
+            )],
             views: &[VolumeView {
                 view: frame.view,
                 target_size: Some(size),

@@ -38,6 +38,7 @@ pub fn of_volumes(s: &VolumeStatistics) -> Rows {
         ("z-pass, z-fail", methods),
         ("searched again", s.casters_extracted.to_string()),
         ("out of range", s.skipped_out_of_range.to_string()),
+        ("masked", s.skipped_masked.to_string()),
         ("seen from the edge", s.skipped_edge_on.to_string()),
         ("out of view", s.skipped_out_of_view.to_string()),
         ("draws", s.draws.to_string()),

@@ -34,10 +34,7 @@ impl<'a> OneLight<'a> {
     /// Gives what it is as a frame.
     pub fn with<T>(&self, work: impl FnOnce(&ShadowVolumeFrame<'_>) -> T) -> T {
         work(&ShadowVolumeFrame {
-            lights: &[VolumeLight {
-                light: self.light,
-                range: self.range,
-            }],
+            lights: &[VolumeLight::new(self.light, self.range)],
             views: &[VolumeView {
                 view: *self.view,
                 target_size: self.target_size,

@@ -25,7 +25,7 @@ export class ErrorMeter {
     this.halves = undefined;
     this.done = false;
     this.draw(0.5);
-    showErrors(null, 'as soon as nothing moves', 0);
+    showErrors(null, 'once nothing moves', 0);
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.#start(), PAUSE);
   }

@@ -24,11 +24,17 @@ function problem(text) {
   place.textContent = text ?? '';
 }
 
-async function whyNot() {
-  if (!window.isSecureContext) return 'Browsers offer WebGPU only to pages that come over HTTPS or from this computer (localhost).';
-  if (!navigator.gpu) return 'This page draws with WebGPU, which this browser does not offer.';
+/** Why there can be no picture, and the graphics processor if there can. */
+async function findAdapter() {
+  const no = (why) => ({ why });
+  if (!window.isSecureContext) {
+    return no('Browsers offer WebGPU only to pages that come over HTTPS or from this computer (localhost).');
+  }
+  if (!navigator.gpu) return no('This page draws with WebGPU, which this browser does not offer.');
   const adapter = await navigator.gpu.requestAdapter().catch(() => null);
-  return adapter ? undefined : 'This browser has WebGPU, but no graphics processor or driver that it would use.';
+  if (!adapter) return no('This browser has WebGPU, but no graphics processor or driver that it would use.');
+  const { vendor, architecture, device, description } = adapter.info;
+  return { name: [...new Set([vendor, architecture, device, description])].filter(Boolean).join(' ') };
 }
 
 /** Pixels of the canvas for its place on the page. */
@@ -135,7 +141,7 @@ function showNames(controls) {
 }
 
 async function start() {
-  const why = await whyNot();
+  const { why, name } = await findAdapter();
   if (why) {
     sorry(why);
     return;
@@ -162,7 +168,7 @@ async function start() {
     problem,
   );
   view = new View(page, controls, meter);
-  document.getElementById('adapter').textContent = page.adapter();
+  document.getElementById('adapter').textContent = name;
   showBar(view.bar);
   showNames(controls);
   showKind(page, controls.values.show);

@@ -74,8 +74,8 @@ impl Default for Choice {
             left: Method::Textbook,
             right: Method::Map,
             maps: Maps {
-                kernel: Kernel::Weighted5,
-                size: 1024,
+                kernel: Kernel::Weighted3,
+                size: 512,
                 bias: Bias::default(),
             },
             show: Show::Picture,

@@ -205,10 +205,7 @@ impl Shadow {
             Means::Atlas(atlas) => atlas.prepare(gpu, inputs)?,
             Means::Volumes(volumes) => {
                 let frame = ShadowVolumeFrame {
-                    lights: &[VolumeLight {
-                        light: inputs.homogeneous(),
-                        range: inputs.range(),
-                    }],
+                    lights: &[VolumeLight::new(inputs.homogeneous(), inputs.range())],
                     views: &[VolumeView {
                         view: inputs.view,
                         target_size: Some(inputs.size),

@@ -189,11 +189,6 @@ impl Page {
         self.error.0.lock().ok().and_then(|error| error.clone())
     }
 
-    /// The GPU by name.
-    pub fn adapter(&self) -> String {
-        host::gpu::describe(&self.app.gpu.info)
-    }
-
     /// What the last frame came to, of the left half (0) or the right one (1): what was drawn, draws,
     /// triangles, bytes.
     pub fn statistics(&self, side: usize) -> Vec<JsValue> {

@@ -6,8 +6,8 @@ use super::{Bias, Cascades, CasterSides, DepthBounds, StaticLayers};
 use crate::error::ShadowAtlasError;
 use crate::map::encoding::{quantum, texel_bytes};
 use crate::map::plan::TileSize;
-use crate::map::projection::CasterFilter;
 use crate::mesh::{Bounds, Caster};
+use crate::scene::CasterFilter;
 use crate::{DirectionalLight, Light, PointLight, Radius, SpotLight, View};
 
 /// Texels along the smallest tile.

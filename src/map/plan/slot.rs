@@ -201,7 +201,11 @@ impl Slot {
 
     fn touched_by(&self, record: &Record, all: u8) -> u8 {
         match &self.current {
-            Some(current) if !(record.casts() && current.of.filter.admits(record)) => 0,
+            Some(current)
+                if !(record.casts() && current.of.filter.admits(record.layers, record.owner)) =>
+            {
+                0
+            }
             Some(_) if !self.cull => all,
             Some(current) => current.sides.touched_by(record),
             None => 0,

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use super::slot::Slot;
-use crate::map::projection::{CasterFilter, LightProjection, SlotLight};
+use crate::map::projection::{LightProjection, SlotLight};
+use crate::scene::CasterFilter;
 use crate::scene::Casters;
 
 /// Frames in which a light reaches no caster after which its texels are given back: enough that a

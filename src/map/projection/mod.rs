@@ -20,6 +20,4 @@ pub(crate) use light_box::LightBox;
 pub(crate) use near::NearPlane;
 pub(crate) use placement::{MapShape, Placed};
 pub(crate) use spot::fit_spot;
-pub(crate) use tiles::{
-    CasterFilter, LightProjection, MOST_TILES, SlotLight, TileProjection, TileSides,
-};
+pub(crate) use tiles::{LightProjection, MOST_TILES, SlotLight, TileProjection, TileSides};

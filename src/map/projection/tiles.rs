@@ -1,14 +1,12 @@
 //! What a light's tiles show of the world, whatever its kind.
 
-use std::num::NonZeroU32;
-
 use glam::{DVec3, Mat4, Vec3};
 
 use super::cube::{ALL_FACES, CubeFace, clear_of_near, touched_faces};
 use super::flat::{FlatFrame, FlatFrustum};
 use super::near::NearPlane;
 use crate::PointLight;
-use crate::scene::{CasterBounds, Record};
+use crate::scene::{CasterBounds, CasterFilter, Record};
 
 /// The most tiles that a light has: the cascades of a directional light.
 pub(crate) const MOST_TILES: usize = 8;
@@ -128,25 +126,6 @@ impl LightProjection {
         };
         // Not -0, which is equal to 0.
         (origin + Vec3::ZERO).to_array().map(f32::to_bits)
-    }
-}
-
-/// Which casters a light casts the shadows of, by what the host says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct CasterFilter {
-    pub layers: u32,
-    pub owner: Option<NonZeroU32>,
-}
-
-impl CasterFilter {
-    pub const ALL: Self = Self {
-        layers: u32::MAX,
-        owner: None,
-    };
-
-    pub fn admits(self, record: &Record) -> bool {
-        let owned = self.owner.is_some() && self.owner == record.owner;
-        self.layers & record.layers != 0 && !owned
     }
 }
 

@@ -122,7 +122,7 @@ impl Swatch {
             CasterState::ZFail => Some(Self::CastersZFail),
             CasterState::OutOfRange => Some(Self::CastersOutOfRange),
             CasterState::OutOfView => Some(Self::CastersOutOfView),
-            CasterState::Empty | CasterState::EdgeOn => None,
+            CasterState::Empty | CasterState::Masked | CasterState::EdgeOn => None,
         }
     }
 }

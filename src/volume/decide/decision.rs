@@ -77,12 +77,14 @@ impl Choices {
     /// Decides, with the light in the mesh's own space, if the mesh has a side that it sees.
     pub fn decide(&self, known: &KnownCaster, light: Option<&ObjectLight>) -> Decision {
         let empty = (known.mesh().triangle_count() == 0).then_some(Skip::Empty);
-        let skip = empty.or_else(|| self.rules.skips(&known.world));
+        let masked = (!self.admits(&known.caster)).then_some(Skip::Masked);
+        let skip = empty.or(masked);
+        let skip = skip.or_else(|| self.rules.skips(&known.world));
         let skip = skip.or(light.is_none().then_some(Skip::EdgeOn));
         let held = match skip {
             None => true,
             Some(Skip::OutOfView) => self.keep,
-            Some(Skip::Empty | Skip::EdgeOn | Skip::OutOfRange) => false,
+            Some(Skip::Empty | Skip::Masked | Skip::EdgeOn | Skip::OutOfRange) => false,
         };
         let form = skip.is_none().then(|| self.form(known));
         let state = match (&form, skip) {
@@ -103,6 +105,10 @@ impl Choices {
             form,
             volume,
         }
+    }
+
+    fn admits(&self, caster: &Caster) -> bool {
+        self.of.filter.admits(caster.layers, caster.owner)
     }
 
     fn form(&self, known: &KnownCaster) -> Form {

@@ -203,6 +203,7 @@ fn is_castable(nearest: f64, reach: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use crate::scene::CasterFilter;
     use glam::{Vec3, camera::rh};
 
     use super::*;
@@ -222,6 +223,7 @@ mod tests {
         let situation = Situation {
             light,
             range: Some(200.0),
+            filter: CasterFilter::ALL,
             view,
             target_size: None,
             receivers: Some(BOX),
@@ -305,6 +307,7 @@ mod tests {
             let situation = Situation {
                 light,
                 range: None,
+                filter: CasterFilter::ALL,
                 view,
                 target_size: None,
                 receivers: Some(Bounds {

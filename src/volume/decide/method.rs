@@ -129,6 +129,7 @@ pub(crate) enum DarkCap {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Skip {
     Empty,
+    Masked,
     EdgeOn,
     OutOfRange,
     OutOfView,

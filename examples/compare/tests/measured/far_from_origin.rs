@@ -11,6 +11,8 @@ use shadows::{
 
 use crate::common::shapes::Random;
 use crate::receivers::ask_changed;
+use compare::hard::{cases, techniques};
+use compare::shadow::Shadow;
 use compare::stage::Stage;
 use host::gpu::Gpu;
 use host::renderer::ShadowAccess;
@@ -405,4 +407,40 @@ fn where_derivatives_say_nothing_the_map_does() {
     });
     let [asked, never] = [asked, never].map(|[lit, shadow]| lit + shadow);
     assert!(asked < 150 && never > 8 * asked, "{asked}, {never}");
+}
+
+/// Of a directional light's map, the kernel's own and with another word of its shader.
+fn visibility_with(sampler: &PcfSampler, from: &str, to: &str) -> String {
+    let module = host::pipelines::visibility_module(sampler);
+    assert!(module.contains(from), "{from}");
+    module.replace(from, to)
+}
+
+/// A face that the map shows on less than a texel, and a place that rounding moves over an edge.
+#[test]
+fn planes_from_the_map_hold_on_grazed_faces_and_beside_edges() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut all = techniques().unwrap().into_iter();
+    let technique = all.find(|technique| technique.name == "flat-2x2").unwrap();
+    let case = cases::all().find(|case| case.name == "Far from the origin, plain f32");
+    let situations = case.unwrap().situations;
+    let dark = |round: u64, what: &str, module: fn(&PcfSampler) -> String| {
+        let mut all = situations(&mut host::random::Random(round)).into_iter();
+        let situation = all.find(|situation| situation.what == what).unwrap();
+        let stage = Stage::new(&gpu, situation.scene.clone(), compare::hard::SIZE).unwrap();
+        let reference = stage.reference(|_| ()).unwrap();
+        let mut shadow = Shadow::read_by(&gpu, &stage.renderer, technique.clone(), module).unwrap();
+        let picture = stage.picture(&gpu, &mut shadow, &stage.inputs).unwrap();
+        let frame = situation.frame(&technique, &mut shadow, &picture.visibility);
+        let found = reference.compare(&picture.visibility, frame.interior);
+        found.unwrap().false_shadow_interior
+    };
+    let whole = host::pipelines::visibility_module;
+    assert_eq!(dark(0, "1e3, sun", whole), 0);
+    assert_eq!(dark(1, "1e6, sun", whole), 0);
+    // The broken twins: no more than four texels from texel to texel; and texels side by side.
+    let steep = |sampler: &PcfSampler| visibility_with(sampler, "clamp(certain, 4.0, 64.0)", "4.0");
+    let near = |sampler: &PcfSampler| visibility_with(sampler, "floor(0.25 * moved)", "0.0");
+    assert!(dark(0, "1e3, sun", steep) > 10);
+    assert!(dark(1, "1e6, sun", near) > 50);
 }
