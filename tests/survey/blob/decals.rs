@@ -215,12 +215,12 @@ fn orthographic() -> Look {
     }
 }
 
-/// Hulls that end behind the far plane.
+/// Hulls that end behind the far plane, 20 m away.
 fn beyond() -> Trial {
-    Trial {
-        reach: 300.0,
-        ..Trial::under(LAMP, 0.4).looking(depth(DepthConvention::Standard))
-    }
+    let mut trial = Trial::under(LAMP, 0.4).looking(depth(DepthConvention::Standard));
+    trial.scene.camera.near = 0.02;
+    trial.reach = 300.0;
+    trial
 }
 
 /// Between the ball and its shadow, which is looked at.
