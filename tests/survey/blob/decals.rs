@@ -215,16 +215,16 @@ fn orthographic() -> Look {
     }
 }
 
-/// Hulls that end behind the far plane.
+/// Hulls that end behind the far plane, 20 m away.
 fn beyond() -> Trial {
-    Trial {
-        reach: 300.0,
-        ..Trial::under(LAMP, 0.4).looking(depth(DepthConvention::Standard))
-    }
+    let mut trial = Trial::under(LAMP, 0.4).looking(depth(DepthConvention::Standard));
+    trial.scene.camera.near = 0.02;
+    trial.reach = 300.0;
+    trial
 }
 
-/// Near the ball, between it and its shadow, and along the floor.
-const INSIDE: [Vec3; 2] = [Vec3::new(-2.9, 0.35, -0.7), Vec3::new(0.5, 0.0, 1.0)];
+/// Between the ball and its shadow, which is looked at.
+const INSIDE: [Vec3; 2] = [Vec3::new(-2.9, 0.35, -0.7), Vec3::new(-3.6, 0.0, -1.05)];
 
 #[test]
 fn decals_show_what_the_function_says_in_every_view() {
@@ -285,9 +285,10 @@ fn broken_decals_are_found() {
         ),
         // A hull that does not widen by the penumbra.
         ("far_width, side.z", "near_width, side.z", lamp()),
+        // One that ends at the caster.
         (
-            "let deep = mix(start, end, side.z);",
-            "let deep = mix(start, 0.0, side.z);",
+            "let end = blob.radius + light.reach;",
+            "let end = blob.radius;",
             lamp(),
         ),
         // Near sides: not there for an eye inside.
@@ -311,7 +312,8 @@ fn broken_decals_are_found() {
     ] {
         let both = trial.broken(&gpu, from, to);
         println!("{from}: {}", both.differing());
-        assert!(both.differing() > 30, "{from}: {}", both.differing());
+        // None of the sound ones does.
+        assert!(both.differing() > 10, "{from}: {}", both.differing());
     }
 }
 
