@@ -14,7 +14,8 @@ struct ShadowsBlobView {
 
 @group(0) @binding(0) var<uniform> shadows_blob_view: ShadowsBlobView;
 @group(0) @binding(1) var<uniform> shadows_blob_light: ShadowsBlobLight;
-@group(0) @binding(2) var shadows_blob_depth: texture_depth_2d;
+// Not as depth, which GL does not load texel by texel.
+@group(0) @binding(2) var shadows_blob_depth: texture_2d<f32>;
 
 struct ShadowsBlobInstance {
     @location(0) row_x: vec4f,
@@ -117,7 +118,7 @@ fn shadows_blob_vertex(
 @fragment
 fn shadows_blob_fragment(in: ShadowsBlobFragment) -> @location(0) vec4f {
     let size = vec2f(textureDimensions(shadows_blob_depth));
-    let depth = textureLoad(shadows_blob_depth, vec2i(in.clip.xy), 0);
+    let depth = textureLoad(shadows_blob_depth, vec2i(in.clip.xy), 0).x;
     if depth == shadows_blob_view.clear_depth {
         return vec4f(1.0);
     }

@@ -279,7 +279,7 @@ fn broken_decals_are_found() {
     for (from, to, trial) in [
         // No depth: all receivers at one distance.
         (
-            "textureLoad(shadows_blob_depth, vec2i(in.clip.xy), 0)",
+            "textureLoad(shadows_blob_depth, vec2i(in.clip.xy), 0).x",
             "0.009",
             lamp(),
         ),
