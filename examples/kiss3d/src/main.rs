@@ -16,7 +16,7 @@ use glam::{DAffine3, DMat3, Mat3, Mat4, Quat, Vec3};
 use kiss3d::camera::{Camera3d, OrbitCamera3d};
 use kiss3d::color::Color;
 use kiss3d::post_processing::Tonemap;
-use kiss3d::resource::Material3d;
+use kiss3d::resource::{Material3d, MaterialManager3d};
 use kiss3d::scene::{InstanceData3d, SceneNode3d};
 use kiss3d::window::{NumSamples, OffscreenSurface};
 use shadows::reference::{
@@ -108,7 +108,10 @@ async fn run(path: &std::path::Path) -> Result<()> {
     let shadows = Rc::new(RefCell::new(Shadows::new()?));
     let shown = Rc::new(RefCell::new(0));
     let material: Box<dyn Material3d> = Box::new(Lit::new(shadows.clone(), shown.clone())?);
-    root.set_material_recursive(Rc::new(RefCell::new(material)));
+    let material = Rc::new(RefCell::new(material));
+    // kiss3d begins and flushes the frames of the materials that it knows by a name.
+    MaterialManager3d::get_global_manager(|known| known.add(material.clone(), "lit"));
+    root.set_material_recursive(material);
 
     // Once so that kiss3d tells the camera of the surface's size.
     surface.render_3d(&mut root, &mut camera).await;

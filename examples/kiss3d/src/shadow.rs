@@ -71,13 +71,13 @@ impl Shadows {
         let context = Context::get();
         let mut casters = Vec::new();
         for node in nodes {
+            let places = transforms(node);
             let data = node.data();
             let Some(object) = data.object() else {
                 continue;
             };
             let mesh = self.mesh(&context.device, object)?;
-            let at = |world| Caster::new(mesh.clone(), world);
-            casters.extend(transforms(node, object).into_iter().map(at));
+            casters.extend(places.into_iter().map(|at| Caster::new(mesh.clone(), at)));
         }
         let view = View::new(clip_from_world, DepthConvention::Standard)?;
         let frame = AtlasFrame {
