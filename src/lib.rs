@@ -10,8 +10,9 @@
 //!
 //! | | what it is | what it is for |
 //! |---|---|---|
-//! | [`CubeShadowMap`] | depth of the casters on six cube faces | point lights, soft edges, many receivers |
-//! | [`ShadowMap`] | depth of the casters on one square | spot and directional lights |
+//! | [`CubeShadowMap`] | depth of the casters on six cube faces | a point light |
+//! | [`ShadowMap`] | depth of the casters on one square | a spot or a directional light |
+//! | [`ShadowAtlas`] | all lights of a scene as tiles of one texture | many lights of any kind in one bind group, cascades |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
 //! | [`BlobShadow`] | an ellipsoid for each caster, its penumbra computed | soft shadows of thousands of things whose shape does not matter |
