@@ -44,9 +44,8 @@ impl Shadows {
     /// What stands before the material's own WGSL.
     pub fn wgsl(&self) -> Result<String> {
         let place = ModulePlace {
-            group: 0,
             first_binding: FIRST_BINDING,
-            prefix: "",
+            ..Default::default()
         };
         Ok(self.sampler.wgsl_module_at(&place)?)
     }
@@ -110,19 +109,17 @@ impl Shadows {
             min: points.iter().copied().fold(Vec3::INFINITY, Vec3::min),
             max: points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max),
         };
-        let made = CasterMesh::from_host(
-            device,
-            &HostMesh {
-                vertices: coords.buffer().expect("it was loaded"),
-                stride: 12,
-                offset: 0,
-                indices: faces.buffer().expect("it was loaded"),
-                index_format: VERTEX_INDEX_FORMAT,
-                index_offset: 0,
-                index_count: mesh.num_indices(),
-                bounds,
-            },
-        )?;
+        let host = HostMesh {
+            vertices: coords.buffer().expect("it was loaded"),
+            stride: 12,
+            offset: 0,
+            indices: faces.buffer().expect("it was loaded"),
+            index_format: VERTEX_INDEX_FORMAT,
+            index_offset: 0,
+            index_count: mesh.num_indices(),
+            bounds,
+        };
+        let made = CasterMesh::from_host(device, &host)?;
         self.meshes.insert(key, made.clone());
         Ok(made)
     }
