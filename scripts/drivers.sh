@@ -109,11 +109,11 @@ on() {
 # Where each module is a suite of its own.
 folders='tests/maps tests/receivers examples/compare/tests/measured'
 
-# The test binary that a suite is in.
+# The test binary that a suite is in. `volume::passes` is a part of `volume`.
 home() {
     case $1 in
-    lib | gl | volume)
-        echo "$1"
+    lib | gl | volume | volume::*)
+        echo "${1%%::*}"
         return
         ;;
     esac
@@ -145,7 +145,7 @@ suites() {
     for suite in "$@"; do
         home=$(home "$suite")
         filter=
-        [ "$home" = "$suite" ] || filter=$suite::
+        [ "$home" = "$suite" ] || filter=${suite#"$home"::}::
         echo "$suite $(sed -n "s/^$home //p" "$out/binaries") $filter"
     done
 }
@@ -227,8 +227,14 @@ run() {
     done <"$out/suites"
 }
 
-# Mesa's and SwiftShader's rasterisers on depths, samplers on whole numbers, and every call once.
+# Mesa's and SwiftShader's rasterisers on depths, samplers on whole numbers, and every call once; Vulkan's own
+# rules on maps and volumes.
 short() {
+    if [ -e "$chromium/VkLayer_khronos_validation.json" ]; then
+        validate map_calls volume::flat_end volume::one_pass volume::without_stencil
+    else
+        echo 'no validation layer is installed here (scripts/drivers.sh install swiftshader): not run' >&2
+    fi
     if [ -z "$(manifest mesa)$(manifest swiftshader)" ]; then
         echo 'no other driver is installed here (scripts/drivers.sh install): not run' >&2
         return 0
@@ -236,7 +242,11 @@ short() {
     run mesa swiftshader -- depth_planes cube_formats pcf_gather map_calls
 }
 
-# Vulkan's own rules, hazards between passes included, on lavapipe.
+# What Vulkan's rules say of naga and wgpu, whatever a host does; docs/drivers.md has the causes.
+known_rules='VUID-StandaloneSpirv-None-10684|VUID-VkGraphicsPipelineCreateInfo-pDynamicStates-00754'
+
+# Vulkan's own rules, hazards between passes included, on lavapipe. The layer must have been there, and must have
+# said nothing beside what is known.
 validate() {
     if [ ! -e "$chromium/VkLayer_khronos_validation.json" ]; then
         echo 'no validation layer here; scripts/drivers.sh install swiftshader' >&2
@@ -246,7 +256,7 @@ validate() {
     suites "$@" >"$out/suites"
     said=0
     for suite in "$@"; do
-        log=$PWD/$out/validate/$suite.txt
+        log=$PWD/$out/validate/$(echo "$suite" | tr -s : -).txt
         rm -f "$log"
         cat >"$out/validate/vk_layer_settings.txt" <<EOF
 khronos_validation.debug_action = VK_DBG_LAYER_ACTION_LOG_MSG
@@ -259,9 +269,15 @@ EOF
         # shellcheck disable=SC2086
         VK_LAYER_PATH=$chromium VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation \
             VK_LAYER_SETTINGS_PATH=$PWD/$out/validate on lavapipe $binary >"$log.out" 2>&1 || said=1
-        messages=$(grep -c '^Validation' "$log" || true)
-        echo "$suite: $(grep 'test result' "$log.out"), $messages messages"
-        [ "$messages" -eq 0 ] || said=1
+        if ! grep -q 'Validation Layer Info' "$log.out"; then
+            echo "$suite: the layer was not loaded, see $log.out" >&2
+            return 1
+        fi
+        rules=$(grep '^Validation' "$log" || true)
+        new=$(printf '%s' "$rules" | grep -cvE "$known_rules" || true)
+        all=$(printf '%s' "$rules" | grep -c . || true)
+        echo "$suite: $(grep 'test result' "$log.out"), $new messages, $((all - new)) known"
+        [ "$new" -eq 0 ] || said=1
     done
     return $said
 }

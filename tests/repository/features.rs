@@ -4,20 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::read;
-
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            files.push(path);
-        }
-    }
-    files
-}
+use super::{read, rust_files};
 
 /// Folders of `tests/` that hold a binary, by name.
 fn binaries() -> Vec<(String, PathBuf)> {
