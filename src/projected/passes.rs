@@ -1,6 +1,6 @@
 //! The passes that draw tiles: the casters of each, and then its mip levels.
 
-use super::descriptor::ProjectedCaster;
+use super::descriptor::Projector;
 use super::draws::{Draw, INSTANCE_SIZE, Instance, list};
 use super::pipelines::{CasterPipelines, TilePipelines, TileSquare};
 use super::texture::MipTexture;
@@ -60,10 +60,10 @@ impl Passes {
         self.rows.clear();
     }
 
-    /// Lists a tile.
-    pub fn add(&mut self, frame: &FlatFrame, place: Place, casters: &[ProjectedCaster]) {
+    /// Lists a projector's tile.
+    pub fn add(&mut self, frame: &FlatFrame, place: Place, projector: &Projector<'_>) {
         let mut draws = Vec::new();
-        list(frame, casters, &mut self.rows, &mut draws);
+        list(frame, projector, &mut self.rows, &mut draws);
         self.pending.push(Pending { place, draws });
     }
 

@@ -282,7 +282,7 @@ impl ProjectedShadow {
             };
             records.push(ProjectedRecord::new(lies, place, self.layer_size));
             if state == ProjectorState::Drawn {
-                self.passes.add(lies, place, projector.casters);
+                self.passes.add(lies, place, projector);
             }
         }
         self.passes
