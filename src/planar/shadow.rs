@@ -158,8 +158,10 @@ impl PlanarShadow {
     }
 
     /// Has the next [`prepare`](Self::prepare) upload everything anew: for a host that has lost what was recorded
-    /// in a way that cannot be seen here, such as a submission that failed.
+    /// in a way that cannot be seen here, such as a submission that failed. Until that is encoded
+    /// [`render`](Self::render) is [`PlanarRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
+        (self.prepared, self.encoded) = (false, false);
         self.uploads.clear();
         self.uniforms.forget();
         for plane in &mut self.planes {

@@ -561,6 +561,14 @@ fn forgotten_calls_are_told_and_made_good() {
     let picture = stage.draw_with(&gpu, &mut planar, &casters);
     assert!(planar.statistics().encoder_dropped);
     assert_eq!(stage.judge(&stage.truth(), &picture).wrong, 0);
+    // What the host declares lost is not drawn, not even if it is encoded, before it is prepared.
+    assert_eq!(render(&planar, [0; 3]), Ok(()));
+    planar.invalidate();
+    gpu.run(|encoder| planar.encode(encoder));
+    assert_eq!(render(&planar, [0; 3]), Err(PlanarRenderError::NotEncoded));
+    let picture = stage.draw_with(&gpu, &mut planar, &casters);
+    assert!(planar.statistics().uploaded > 0 && !planar.statistics().not_encoded);
+    assert_eq!(stage.judge(&stage.truth(), &picture).wrong, 0);
     for (place, what) in [
         ([1, 0, 0], "light"),
         ([0, 1, 0], "plane"),

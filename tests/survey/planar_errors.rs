@@ -47,6 +47,35 @@ fn descriptors_that_do_not_fit_are_refused() {
         ..usual
     };
     refused(&wrong, &Error::ColorFormat { place: 1, format });
+    let eight = [Some(wgpu::TextureFormat::R8Unorm); 9];
+    let lists: [(&[_], _, u64, u64); 3] = [
+        (&eight, "max_color_attachments", 9, 8),
+        // Those that have no format count, too.
+        (&[None; 9], "max_color_attachments", 9, 8),
+        (
+            &[Some(wgpu::TextureFormat::Rgba32Float); 3],
+            "max_color_attachment_bytes_per_sample",
+            48,
+            32,
+        ),
+    ];
+    for (color_formats, name, needed, available) in lists {
+        let wrong = PlanarShadowDescriptor {
+            color_formats,
+            ..usual
+        };
+        let error = Error::ColorLimit {
+            name,
+            needed,
+            available,
+        };
+        refused(&wrong, &error);
+        let fits = PlanarShadowDescriptor {
+            color_formats: &color_formats[1..],
+            ..usual
+        };
+        assert!(PlanarShadow::new(&noop().0, &fits).is_ok());
+    }
     let unblended = Some(wgpu::TextureFormat::R32Uint);
     for (color_formats, target, found) in [
         (&[][..], 0, None),
