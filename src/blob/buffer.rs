@@ -1,7 +1,10 @@
 //! The blobs on the GPU, of which only what has changed is written.
 
+use std::ops::Range;
+
 use super::ellipsoid::Blob;
 use super::records::BlobRecord;
+use crate::map::buffer;
 use crate::uploads::Uploads;
 
 /// Before the blobs: their number.
@@ -21,6 +24,8 @@ pub(super) struct BlobBuffer {
     /// What the records were made from.
     blobs: Vec<Blob>,
     records: Vec<BlobRecord>,
+    /// How many of them cast nothing.
+    without_shadow: u32,
     /// How many of them the buffer holds once the uploads are recorded, and what count it holds.
     written: usize,
     count: Option<u32>,
@@ -32,13 +37,14 @@ impl BlobBuffer {
             true => wgpu::BufferUsages::STORAGE,
             false => wgpu::BufferUsages::empty(),
         };
-        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST | storage;
+        let usage = wgpu::BufferUsages::VERTEX | storage;
         Self {
             label: label.to_owned(),
             usage,
             buffer: buffer(device, label, HEADER + LEAST * RECORD, usage),
             blobs: Vec::new(),
             records: Vec::new(),
+            without_shadow: 0,
             written: 0,
             count: None,
         }
@@ -84,56 +90,60 @@ impl BlobBuffer {
         self.count = None;
     }
 
-    /// Uploads those that are not what they were; tells how many.
-    pub fn write(&mut self, uploads: &mut Uploads, blobs: impl Iterator<Item = Blob>) -> u32 {
+    /// Takes over a list of blobs and uploads those that are not what they were; tells how many.
+    ///
+    /// `may_differ`: places below `count` and blobs there, in order, among them all that differ.
+    pub fn write(
+        &mut self,
+        uploads: &mut Uploads,
+        count: usize,
+        may_differ: impl Iterator<Item = (usize, Blob)>,
+    ) -> u32 {
         let mut changed = 0;
-        let mut run: Option<std::ops::Range<usize>> = None;
-        let mut count = 0;
-        for (at, blob) in blobs.enumerate() {
-            count = at + 1;
-            let is_new = self.blobs.get(at) != Some(&blob);
-            if is_new {
-                changed += 1;
-                let record = BlobRecord::new(&blob);
-                match self.blobs.get_mut(at) {
-                    Some(old) => (*old, self.records[at]) = (blob, record),
-                    None => {
-                        self.blobs.push(blob);
-                        self.records.push(record);
-                    }
-                }
-            }
-            if !is_new && at < self.written {
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for (at, blob) in may_differ {
+            if self.blobs.get(at) == Some(&blob) {
                 continue;
             }
-            match &mut run {
-                Some(run) if at <= run.end + GAP => run.end = at + 1,
-                _ => {
-                    if let Some(done) = run.replace(at..at + 1) {
-                        self.upload(uploads, done);
-                    }
-                }
+            changed += 1;
+            self.set(at, blob);
+            if at < self.written {
+                append(&mut runs, at..at + 1);
             }
         }
-        if let Some(last) = run {
-            self.upload(uploads, last);
+        for gone in self.records.drain(count..) {
+            self.without_shadow -= u32::from(!gone.casts());
         }
         self.blobs.truncate(count);
-        self.records.truncate(count);
+        if self.written < count {
+            append(&mut runs, self.written..count);
+        }
         self.written = count;
+        for run in runs {
+            let at = HEADER + run.start as u64 * RECORD;
+            uploads.write(&self.buffer, at, bytemuck::cast_slice(&self.records[run]));
+        }
         if self.count.replace(count as u32) != Some(count as u32) {
-            uploads.write(
-                &self.buffer,
-                0,
-                bytemuck::bytes_of(&[count as u32, 0, 0, 0]),
-            );
+            let header = [count as u32, 0, 0, 0];
+            uploads.write(&self.buffer, 0, bytemuck::bytes_of(&header));
         }
         changed
     }
 
-    fn upload(&self, uploads: &mut Uploads, run: std::ops::Range<usize>) {
-        let at = HEADER + run.start as u64 * RECORD;
-        uploads.write(&self.buffer, at, bytemuck::cast_slice(&self.records[run]));
+    /// Puts a blob in place of another, or behind the last.
+    fn set(&mut self, at: usize, blob: Blob) {
+        let record = BlobRecord::new(&blob);
+        self.without_shadow += u32::from(!record.casts());
+        match self.records.get_mut(at) {
+            Some(old) => {
+                self.without_shadow -= u32::from(!old.casts());
+                (*old, self.blobs[at]) = (record, blob);
+            }
+            None => {
+                self.records.push(record);
+                self.blobs.push(blob);
+            }
+        }
     }
 
     pub fn len(&self) -> u32 {
@@ -141,20 +151,14 @@ impl BlobBuffer {
     }
 
     pub fn without_shadow(&self) -> u32 {
-        self.records.iter().filter(|record| !record.casts()).count() as u32
+        self.without_shadow
     }
 }
 
-fn buffer(
-    device: &wgpu::Device,
-    label: &str,
-    size: u64,
-    usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage,
-        mapped_at_creation: false,
-    })
+/// Adds records to be written behind others: to the last run, if little lies between.
+fn append(runs: &mut Vec<Range<usize>>, more: Range<usize>) {
+    match runs.last_mut().filter(|last| more.start <= last.end + GAP) {
+        Some(last) => last.end = more.end,
+        None => runs.push(more),
+    }
 }

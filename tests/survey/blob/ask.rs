@@ -49,15 +49,25 @@ pub fn answers_of(
     questions: &[Question],
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
-    let device = &gpu.device;
     let descriptor = BlobShadowDescriptor {
         lights: 256,
         strips,
         ..Default::default()
     };
-    let mut shadow = BlobShadow::new(device, &descriptor).unwrap();
-    shadow.prepare(device, &gpu.queue, frame).unwrap();
+    let mut shadow = BlobShadow::new(&gpu.device, &descriptor).unwrap();
+    shadow.prepare(&gpu.device, &gpu.queue, frame).unwrap();
     gpu.run(|encoder| shadow.encode(encoder));
+    answers_by(gpu, &shadow, questions, change)
+}
+
+/// The same of what was prepared and encoded.
+pub fn answers_by(
+    gpu: &Gpu,
+    shadow: &BlobShadow,
+    questions: &[Question],
+    change: impl FnOnce(String) -> String,
+) -> Vec<f32> {
+    let device = &gpu.device;
     let data: Vec<[f32; 8]> = questions
         .iter()
         .map(|q| {

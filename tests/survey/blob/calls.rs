@@ -7,6 +7,7 @@ use shadows::{
     DirectionalLight, HomogeneousLight, wgpu,
 };
 
+use super::ask::{Question, answers_by};
 use crate::common::shapes::{cuboid, sphere, square};
 use crate::common::{noop, noop_with, two_noop_devices};
 use host::gpu::Gpu;
@@ -167,10 +168,18 @@ fn descriptors_out_of_range_are_refused() {
         wgpu::TextureFormat::Depth32Float,
         wgpu::TextureFormat::R32Uint,
         wgpu::TextureFormat::Bc1RgbaUnorm,
+        // They blend, if they could be drawn into.
+        wgpu::TextureFormat::Rgba8Snorm,
+        wgpu::TextureFormat::Rgb9e5Ufloat,
     ] {
         let expected = BlobShadowError::TargetFormat(format);
         assert_eq!(refused(&target(format)), expected);
     }
+    let by_adapter = wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
+    let (own_formats, _) = noop_with(by_adapter, wgpu::Limits::defaults());
+    let whole = wgpu::TextureFormat::R32Uint;
+    let error = BlobShadow::new(&own_formats, &target(whole)).map(|_| ());
+    assert_eq!(error.unwrap_err(), BlobShadowError::TargetFormat(whole));
     let color = wgpu::TextureFormat::R8Unorm;
     let descriptor = BlobShadowDescriptor {
         decals: Some(BlobDecalDescriptor {
@@ -191,6 +200,129 @@ fn descriptors_out_of_range_are_refused() {
     };
     let shadow = BlobShadow::new(&device, &decals_only).unwrap();
     assert!(shadow.bind_group().is_none() && shadow.bind_group_layout().is_none());
+}
+
+#[test]
+fn receivers_read_as_many_lights_as_one_binding_holds() {
+    let limits = wgpu::Limits {
+        max_uniform_buffer_binding_size: 16 << 10,
+        ..wgpu::Limits::defaults()
+    };
+    let (device, _) = noop_with(wgpu::Features::empty(), limits);
+    let new = |lights, receivers| {
+        let descriptor = BlobShadowDescriptor {
+            lights,
+            receivers,
+            ..with_decals()
+        };
+        BlobShadow::new(&device, &descriptor).map(|_| ())
+    };
+    assert_eq!(new(64, true), Ok(()));
+    let expected = BlobShadowError::Range {
+        what: "lights",
+        value: 65,
+        limit: 64,
+    };
+    assert_eq!(new(65, true), Err(expected));
+    assert_eq!(new(256, false), Ok(()), "decals read one of them");
+}
+
+#[test]
+fn what_is_beyond_f32_casts_nothing() {
+    let (device, queue) = noop();
+    let mut shadow = BlobShadow::new(&device, &with_decals()).unwrap();
+    // A plate that lies aside of its mesh's origin, farther than f32 reaches.
+    let mut plate = square(1.0);
+    plate.positions.iter_mut().for_each(|[_, y, _]| *y = 3.0);
+    let away = Affine3A::from_scale(Vec3::new(1.0, 1.2e38, 1.0));
+    let casters = [
+        plate.caster(&device, away),
+        plate.caster(&device, Affine3A::IDENTITY),
+    ];
+    assert!(!Blob::of_caster(&casters[0]).centre.is_finite());
+    let frame = BlobFrame {
+        lights: &[sun()],
+        casters: &casters,
+        // The second is as large as what casts may be, the third larger.
+        blobs: &[
+            Blob::sphere(Vec3::ZERO, 1.0),
+            Blob::sphere(Vec3::ZERO, 9e15),
+            Blob::sphere(Vec3::ZERO, 2e16),
+        ],
+        ..Default::default()
+    };
+    shadow.prepare(&device, &queue, &frame).unwrap();
+    let found = shadow.statistics();
+    assert_eq!((found.blobs, found.without_shadow), (5, 2));
+}
+
+#[test]
+fn casters_come_go_and_move_before_blobs_that_stay() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let cube = cuboid(Vec3::splat(0.4));
+    let mesh = cube.mesh(&gpu.device);
+    let at = |x: f32, z: f32| {
+        let place = Affine3A::from_translation(Vec3::new(x, 1.0, z));
+        shadows::Caster::new(mesh.clone(), place)
+    };
+    let blobs = [1.0, 3.0].map(|x| Blob::sphere(Vec3::new(x, 1.0, -3.0), 0.5));
+    let flat = Blob::sphere(Vec3::Y, 0.0);
+    let below = (0..14 * 9).map(|i| Vec3::new((i % 14) as f32 - 2.0, 0.0, (i / 14) as f32 - 4.0));
+    let questions: Vec<Question> = below.map(|at| Question::of(at, 0)).collect();
+    let new = || BlobShadow::new(&gpu.device, &Default::default()).unwrap();
+    let mut kept = new();
+    let mut step = |casters: &[shadows::Caster], blobs: &[Blob], encode: bool| {
+        let frame = BlobFrame {
+            lights: &[sun()],
+            casters,
+            blobs,
+            ..Default::default()
+        };
+        kept.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+        let found = kept.statistics();
+        if encode {
+            gpu.run(|encoder| kept.encode(encoder));
+            let mut fresh = new();
+            fresh.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+            gpu.run(|encoder| fresh.encode(encoder));
+            let [ours, theirs] =
+                [&kept, &fresh].map(|shadow| answers_by(&gpu, shadow, &questions, |text| text));
+            assert_eq!(ours, theirs);
+            let dark = ours.iter().filter(|v| **v < 0.5).count();
+            let without = found.without_shadow as usize;
+            assert_eq!(dark, casters.len() + blobs.len() - without);
+            assert_eq!(found.without_shadow, fresh.statistics().without_shadow);
+        }
+        (found.changed, found.uploaded)
+    };
+    let mut casters = vec![at(0.0, 0.0), at(2.0, 0.0), at(4.0, 0.0)];
+    assert_eq!(step(&casters, &blobs, true), (5, 5 * 64 + 16 + 256));
+    assert_eq!(step(&casters, &blobs, true), (0, 0));
+    casters[1] = at(2.0, 2.0);
+    assert_eq!(step(&casters, &blobs, true), (1, 64));
+    // What does not change an ellipsoid.
+    casters[2].layers = 1;
+    mesh.bump_revision();
+    assert_eq!(step(&casters, &blobs, true), (0, 0));
+    // One goes: all behind it are in other places; one more comes, before the same blobs.
+    casters.remove(0);
+    assert_eq!(step(&casters, &blobs, true), (4, 4 * 64 + 16));
+    casters.push(at(6.0, 1.0));
+    assert_eq!(step(&casters, &blobs, true), (3, 3 * 64 + 16));
+    casters.swap(0, 2);
+    assert_eq!(step(&casters, &blobs, true).0, 2);
+    // More than there was room for, and none.
+    let many: Vec<_> = (0..70)
+        .map(|i| at((i % 11) as f32, (i / 11) as f32 - 2.0))
+        .collect();
+    assert_eq!(step(&many, &blobs, true), (72, 72 * 64 + 16));
+    assert_eq!(step(&[], &blobs, true).0, 2);
+    assert_eq!(step(&casters, &[flat, blobs[0]], true).0, 5);
+    // What changed in a frame that was not encoded is not lost in the next.
+    casters[0] = at(8.0, 3.0);
+    step(&casters, &blobs, false);
+    assert_eq!(step(&casters, &blobs, true), (0, 5 * 64 + 16 + 256));
+    assert_eq!(step(&casters[..1], &[], true).0, 0);
 }
 
 #[test]
@@ -427,6 +559,7 @@ fn nothing_is_drawn_before_it_is_encoded_nor_what_the_frame_has_not() {
         result
     };
     assert_eq!(render(&plain, 0, 0), Err(BlobRenderError::NoDecals));
+    assert_eq!(render(&shadow, 0, 0), Err(BlobRenderError::NotEncoded));
     let view = view_as(&floor(), [64, 64], Look::default()).unwrap();
     let blobs = row(3);
     let frame = BlobFrame {
@@ -453,4 +586,11 @@ fn nothing_is_drawn_before_it_is_encoded_nor_what_the_frame_has_not() {
         };
         assert_eq!(render(&shadow, light, view), Err(expected));
     }
+    // What the host declares lost is not drawn before it is prepared and encoded again.
+    shadow.invalidate();
+    gpu.run(|encoder| shadow.encode(encoder));
+    assert_eq!(render(&shadow, 0, 0), Err(BlobRenderError::NotEncoded));
+    shadow.prepare(device, &gpu.queue, &frame).unwrap();
+    gpu.run(|encoder| shadow.encode(encoder));
+    assert_eq!(render(&shadow, 0, 0), Ok(()));
 }

@@ -58,27 +58,27 @@ fn what_is_beyond_a_lights_range_casts_nothing_within_it() {
     fn at(place: Vec3) -> Affine3A {
         Affine3A::from_translation(place)
     }
-    // A small one within the range of 8, and far behind the receivers a wide one, seen all around it.
-    let near = square(1.0, Vec3::Y * 6.0);
+    // Two small ones within the range of 8, and far behind the receivers a wide one, seen between them.
+    let [left, right] = [-1.5, 1.5].map(|x| square(0.5, Vec3::new(x, 6.0, 0.0)));
     let far = square(9.0, Vec3::Y * -6.0);
-    let casters = opaque(&[near, far]);
+    let casters = opaque(&[left, right, far]);
     let lights: [fn(f32) -> Light; 2] = [
         |range| PointLight::new(Vec3::Y * 10.0, range).into(),
         |range| SpotLight::new(Vec3::Y * 10.0, Vec3::NEG_Y, 0.5, range).into(),
     ];
-    // Under the small one, and beside its shadow but in the tile.
-    let points = [0.0, 1.53].map(|x| Point::at(Vec3::new(x, 4.0, 0.0)));
+    // Under a small one, and between the two.
+    let points = [2.25, 0.0].map(|x| Point::at(Vec3::new(x, 4.0, 0.0)));
     let seen = |shadow: &ProjectedShadow| ask(&gpu, shadow, 0, &points);
     for light in lights {
         let shadow = drawn(&gpu, &[Projector::new(light(8.0), &casters)]);
         assert_eq!(seen(&shadow), [[0.0; 3], [1.0; 3]]);
-        assert_eq!(shadow.statistics().triangles, 2);
+        assert_eq!(shadow.statistics().triangles, 4);
         // The broken twin: a light that reaches both.
         let shadow = drawn(&gpu, &[Projector::new(light(40.0), &casters)]);
         assert_eq!(seen(&shadow), [[0.0; 3]; 2], "falsely");
-        assert_eq!(shadow.statistics().triangles, 4);
+        assert_eq!(shadow.statistics().triangles, 6);
         // With nothing in range there is no shadow.
-        let shadow = drawn(&gpu, &[Projector::new(light(8.0), &casters[1..])]);
+        let shadow = drawn(&gpu, &[Projector::new(light(8.0), &casters[2..])]);
         assert_eq!(shadow.state(0), Some(ProjectorState::Empty));
     }
 }
