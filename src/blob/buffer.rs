@@ -111,9 +111,9 @@ impl BlobBuffer {
                 append(&mut runs, at..at + 1);
             }
         }
-        for gone in self.records.drain(count..) {
-            self.without_shadow -= u32::from(!gone.casts());
-        }
+        let gone = self.records.get(count..).unwrap_or_default();
+        self.without_shadow -= gone.iter().filter(|record| !record.casts()).count() as u32;
+        self.records.truncate(count);
         self.blobs.truncate(count);
         if self.written < count {
             append(&mut runs, self.written..count);
