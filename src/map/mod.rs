@@ -31,7 +31,8 @@ pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 pub use gpu::HostDraw;
 pub(crate) use gpu::{
-    INSTANCE_SIZE, Instance, LightRecord, UNIFORM_LIGHTS, UNIFORM_STRIDE, buffer, instance,
+    DynamicUniforms, INSTANCE_SIZE, Instance, LightRecord, UNIFORM_LIGHTS, buffer, instance,
+    largest_buffer,
 };
 pub use plan::TileSize;
 pub(crate) use plan::{Place, TileAllocator};

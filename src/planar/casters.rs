@@ -3,7 +3,7 @@
 use super::axes::PlaneAxes;
 use super::light::{Casts, PlaneLight};
 use super::statistics::PlanarStatistics;
-use crate::map::{INSTANCE_SIZE, Instance, buffer, instance};
+use crate::map::{INSTANCE_SIZE, Instance, buffer, instance, largest_buffer};
 use crate::mesh::{Caster, CasterMesh};
 use crate::scene::Casters;
 use crate::uploads::Uploads;
@@ -83,7 +83,7 @@ impl PlaneCasters {
             .extend(rows.map(|caster| instance(&(plane_from_world * caster.transform()))));
         let size = self.rows.len() as u64 * INSTANCE_SIZE;
         if size > self.buffer.size() {
-            let room = size.next_power_of_two().min(largest(device));
+            let room = size.next_power_of_two().min(largest_buffer(device));
             self.buffer = buffer(device, &self.label, room, wgpu::BufferUsages::VERTEX);
         }
         uploads.write(&self.buffer, 0, bytemuck::cast_slice(&self.rows));
@@ -167,17 +167,11 @@ pub(crate) fn reorders(casters: &Casters) -> bool {
         })
 }
 
-/// The first caster that only the host can draw.
-pub(crate) fn host_drawn(casters: &[Caster]) -> Option<usize> {
-    casters
-        .iter()
-        .position(|caster| caster.mesh.is_host_drawn())
-}
-
-/// The largest buffer that copies can fill.
-pub(crate) fn largest(device: &wgpu::Device) -> u64 {
-    let limit = device.limits().max_buffer_size;
-    limit - limit % wgpu::COPY_BUFFER_ALIGNMENT
+/// The first caster that only the host can draw, of those that the last comparison found to differ: what has it is
+/// refused, and never becomes what others are compared with.
+pub(crate) fn host_drawn(casters: &Casters, all: &[Caster]) -> Option<usize> {
+    let mut different = casters.different().iter().map(|&index| index as usize);
+    different.find(|&index| all[index].mesh.is_host_drawn())
 }
 
 /// One draw call: a mesh, and where its rows lie.

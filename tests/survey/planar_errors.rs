@@ -280,12 +280,16 @@ fn frames_that_are_not_sound_are_refused_and_change_nothing() {
     let error = shadows::error::CasterError::NotFinite { index: 0 };
     refuse(&frame, error.into());
     let drawn_by_host = CasterMesh::host_drawn(&device, casters[0].mesh.bounds(), 1).unwrap();
-    let wrong = [Caster::new(drawn_by_host, Affine3A::IDENTITY)];
-    let frame = PlanarFrame {
-        casters: &wrong,
-        ..sound
-    };
-    refuse(&frame, Error::HostDrawn { index: 0 });
+    let drawn_by_host = Caster::new(drawn_by_host, Affine3A::IDENTITY);
+    // Behind one that is as it was; and again, as it was before but not taken over.
+    let wrong = [casters[0].clone(), drawn_by_host];
+    for (wrong, index) in [(&wrong[..], 1), (&wrong, 1), (&wrong[1..], 0)] {
+        let frame = PlanarFrame {
+            casters: wrong,
+            ..sound
+        };
+        refuse(&frame, Error::HostDrawn { index });
+    }
 }
 
 #[test]
