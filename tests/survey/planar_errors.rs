@@ -281,9 +281,11 @@ fn frames_that_are_not_sound_are_refused_and_change_nothing() {
     refuse(&frame, error.into());
     let drawn_by_host = CasterMesh::host_drawn(&device, casters[0].mesh.bounds(), 1).unwrap();
     let drawn_by_host = Caster::new(drawn_by_host, Affine3A::IDENTITY);
-    // Behind one that is as it was; and again, as it was before but not taken over.
+    // Behind one that is as it was; and again, as it was before but not taken over; and behind one that moved.
     let wrong = [casters[0].clone(), drawn_by_host];
-    for (wrong, index) in [(&wrong[..], 1), (&wrong, 1), (&wrong[1..], 0)] {
+    let mut moved = wrong.clone();
+    moved[0].world_from_object.translation.x += 1.0;
+    for (wrong, index) in [(&wrong[..], 1), (&wrong, 1), (&wrong[1..], 0), (&moved, 1)] {
         let frame = PlanarFrame {
             casters: wrong,
             ..sound
