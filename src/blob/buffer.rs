@@ -1,10 +1,9 @@
 //! The blobs on the GPU, of which only what has changed is written.
 
-use std::ops::Range;
-
 use super::ellipsoid::Blob;
 use super::records::BlobRecord;
 use crate::map::buffer;
+use crate::runs::Runs;
 use crate::uploads::Uploads;
 
 /// Before the blobs: their number.
@@ -12,8 +11,6 @@ pub(super) const HEADER: u64 = 16;
 const RECORD: u64 = size_of::<BlobRecord>() as u64;
 /// Records at first.
 const LEAST: u64 = 64;
-/// Records that are rather written again than left out between two that have changed: a copy costs more.
-const GAP: usize = 16;
 
 /// The buffer that decals are instances of and receivers read.
 #[derive(Debug)]
@@ -100,7 +97,7 @@ impl BlobBuffer {
         may_differ: impl Iterator<Item = (usize, Blob)>,
     ) -> u32 {
         let mut changed = 0;
-        let mut runs: Vec<Range<usize>> = Vec::new();
+        let mut runs = Runs::default();
         for (at, blob) in may_differ {
             if self.blobs.get(at) == Some(&blob) {
                 continue;
@@ -108,7 +105,7 @@ impl BlobBuffer {
             changed += 1;
             self.set(at, blob);
             if at < self.written {
-                append(&mut runs, at..at + 1);
+                runs.add(at..at + 1);
             }
         }
         let gone = self.records.get(count..).unwrap_or_default();
@@ -116,13 +113,10 @@ impl BlobBuffer {
         self.records.truncate(count);
         self.blobs.truncate(count);
         if self.written < count {
-            append(&mut runs, self.written..count);
+            runs.add(self.written..count);
         }
         self.written = count;
-        for run in runs {
-            let at = HEADER + run.start as u64 * RECORD;
-            uploads.write(&self.buffer, at, bytemuck::cast_slice(&self.records[run]));
-        }
+        runs.write(uploads, (&self.buffer, HEADER), &self.records);
         if self.count.replace(count as u32) != Some(count as u32) {
             let header = [count as u32, 0, 0, 0];
             uploads.write(&self.buffer, 0, bytemuck::bytes_of(&header));
@@ -152,13 +146,5 @@ impl BlobBuffer {
 
     pub fn without_shadow(&self) -> u32 {
         self.without_shadow
-    }
-}
-
-/// Adds records to be written behind others: to the last run, if little lies between.
-fn append(runs: &mut Vec<Range<usize>>, more: Range<usize>) {
-    match runs.last_mut().filter(|last| more.start <= last.end + GAP) {
-        Some(last) => last.end = more.end,
-        None => runs.push(more),
     }
 }

@@ -5,6 +5,7 @@ use super::light::{Casts, PlaneLight};
 use super::statistics::PlanarStatistics;
 use crate::map::{INSTANCE_SIZE, Instance, buffer, instance, largest_buffer};
 use crate::mesh::{Caster, CasterMesh};
+use crate::runs::Runs;
 use crate::scene::Casters;
 use crate::uploads::Uploads;
 
@@ -50,14 +51,18 @@ impl PlaneCasters {
             return self.rebuild(device, uploads, (casters, all));
         }
         let plane_from_world = axes.plane_from_world();
+        let mut changed = Vec::new();
         for change in casters.changes() {
             let row = instance(&(plane_from_world * all[change.index].transform()));
             let place = self.places[change.index] as usize;
             if std::mem::replace(&mut self.rows[place], row) != row {
-                let offset = place as u64 * INSTANCE_SIZE;
-                uploads.write(&self.buffer, offset, bytemuck::bytes_of(&row));
+                changed.push(place);
             }
         }
+        changed.sort_unstable();
+        let mut runs = Runs::default();
+        changed.iter().for_each(|&place| runs.add(place..place + 1));
+        runs.write(uploads, (&self.buffer, 0), &self.rows);
     }
 
     fn rebuild(

@@ -33,7 +33,8 @@ use crate::uploads::Uploads;
 ///
 /// What did not change costs nothing: in a frame in which lights, planes, views and casters are as they were nothing is
 /// uploaded. For every plane it is
-/// - 48 bytes for a caster that moves, and for each of all casters where any comes, goes or changes its mesh;
+/// - 48 bytes for a caster that moves (and for up to 16 that lie between two such: one more copy costs more), and for
+///   each of all casters where any comes, goes or changes its mesh;
 /// - 112 bytes for a light that moves in each view, and for a view that moves under each light;
 /// - 24 bytes for each triangle of a polygon that changes (two less than it has corners);
 /// - all of that, where the plane changes, or the casters together move by about as much as they are wide: positions

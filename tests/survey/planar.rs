@@ -535,6 +535,15 @@ fn only_what_moved_is_uploaded() {
     stage.grounds[0].body = 3;
     let fewer = stage.draw_with(&gpu, &mut planar, &casters);
     assert_eq!(stage.judge(&stage.truth(), &fewer).wrong, 0);
+    // All move, of which the first does not lie first in the buffer.
+    for (caster, body) in casters.iter_mut().zip(&mut stage.bodies) {
+        caster.world_from_object.translation.z += 0.3;
+        body.transform = caster.world_from_object;
+    }
+    let moved = stage.draw_with(&gpu, &mut planar, &casters);
+    assert_eq!(uploaded(&planar), 3 * 48);
+    assert_eq!(stage.judge(&stage.truth(), &moved).wrong, 0);
+    assert!(stage.judge(&stage.truth(), &fewer).wrong > 0, "the twin");
 }
 
 #[test]
