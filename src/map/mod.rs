@@ -11,6 +11,7 @@ mod flat;
 mod flat_descriptor;
 mod gpu;
 mod one_light;
+mod overlay;
 mod plan;
 mod projection;
 mod sides;

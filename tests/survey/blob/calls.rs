@@ -7,7 +7,7 @@ use shadows::{
     DirectionalLight, HomogeneousLight, wgpu,
 };
 
-use super::ask::{Question, answers_by};
+use super::ask::{Question, answers_from};
 use crate::common::shapes::{cuboid, sphere, square};
 use crate::common::{noop, noop_with, two_noop_devices};
 use host::gpu::Gpu;
@@ -286,7 +286,7 @@ fn casters_come_go_and_move_before_blobs_that_stay() {
             fresh.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
             gpu.run(|encoder| fresh.encode(encoder));
             let [ours, theirs] =
-                [&kept, &fresh].map(|shadow| answers_by(&gpu, shadow, &questions, |text| text));
+                [&kept, &fresh].map(|shadow| answers_from(&gpu, shadow, &questions, |text| text));
             assert_eq!(ours, theirs);
             let dark = ours.iter().filter(|v| **v < 0.5).count();
             let without = found.without_shadow as usize;
