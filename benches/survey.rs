@@ -3,7 +3,10 @@
 //! - `blob_decals_10000`, `blob_decals_1000`: so many blobs over a floor at 1280x720, a sun of slope 0.05 and a
 //!   reach of 1 m, in one draw: encode and wait for the device. All cover the same part of the picture, so the
 //!   fewer are larger. `blob_decals_10000_vs_1000` is the ratio.
-//! - `blob_prepare_kept_vs_moving`: `prepare` alone for 10,000 casters, nothing moving over everything moving.
+//! - `planar_draws_10000_vs_1000`: so many boxes in rows onto a floor under a sun, into a stencil of 1280x720;
+//!   `planar_soft_10000_vs_1000`: the same from 4 places of the sun into 512x512 texels, and
+//!   `projected_10000_vs_1000` into a tile of 1024x1024 and its mips, each with its `prepare`, without a cache.
+//! - `..._prepare_kept_vs_moving`: `prepare` alone for 10,000 casters, nothing moving over everything moving.
 //!
 //! Times are wall time of medians; `--quick` takes fewer rounds.
 
@@ -15,6 +18,12 @@ mod shared;
 
 #[path = "survey/blob.rs"]
 mod blob;
+#[path = "survey/planar.rs"]
+mod planar;
+#[path = "survey/projected.rs"]
+mod projected;
+#[path = "survey/sides.rs"]
+mod sides;
 
 use std::time::Duration;
 
@@ -27,8 +36,14 @@ fn main() {
         Err(error) => return eprintln!("skipped: {error:#}"),
     };
     println!("adapter {}, clock wall", host::gpu::describe(&gpu.info));
-    blob::decals(&gpu, if quick { 5 } else { 25 });
-    blob::prepare(&gpu, if quick { 9 } else { 51 });
+    let [draws, prepares] = if quick { [5, 9] } else { [25, 51] };
+    blob::decals(&gpu, draws);
+    blob::prepares(&gpu, prepares);
+    planar::draws(&gpu, draws);
+    planar::soft_draws(&gpu, draws);
+    planar::prepares(&gpu, prepares);
+    projected::draws(&gpu, draws);
+    projected::prepares(&gpu, prepares);
 }
 
 fn ratio(name: &str, ours: &[Duration], theirs: &[Duration]) {

@@ -105,6 +105,11 @@ fn shadows_blob_vertex(
     in: ShadowsBlobInstance,
 ) -> ShadowsBlobFragment {
     let blob = shadows_blob_of(in.row_x, in.row_y, in.row_z, in.extent);
+    if !shadows_blob_casts(blob) {
+        // All corners in one place, beside the picture.
+        let nowhere = vec4f(2.0, 2.0, 0.5, 1.0);
+        return ShadowsBlobFragment(nowhere, in.row_x, in.row_y, in.row_z, in.extent);
+    }
     // Mirrored once more, so that far sides are back sides.
     let mirrored = select(corner, corner ^ 1u, shadows_blob_view.turn < 0.0);
     let from_centre = shadows_blob_corner(blob, shadows_blob_light, mirrored);

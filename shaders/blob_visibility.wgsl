@@ -32,6 +32,11 @@ struct ShadowsBlobLight {
     spare_14: array<vec4f, 14>,
 }
 
+// One without an area has neither a radius nor a map that could be reckoned with.
+fn shadows_blob_casts(blob: ShadowsBlob) -> bool {
+    return blob.radius > 0.0 && blob.opacity > 0.0;
+}
+
 fn shadows_blob_centre(blob: ShadowsBlob) -> vec3f {
     return vec3f(blob.row_x.w, blob.row_y.w, blob.row_z.w);
 }
@@ -157,6 +162,9 @@ fn shadows_blob_past(
     from_centre: vec3f,
     to_light: vec3f,
 ) -> f32 {
+    if !shadows_blob_casts(blob) {
+        return 1.0;
+    }
     let beyond = (length(from_centre) - blob.radius) / light.reach;
     let fade = 1.0 - smoothstep(SHADOWS_BLOB_FADE, 1.0, beyond);
     return 1.0 - blob.opacity * fade * shadows_blob_covered(blob, light, from_centre, to_light);

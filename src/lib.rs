@@ -210,6 +210,7 @@ pub mod planar;
 pub mod projected;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod runs;
 mod scene;
 mod shader;
 mod submissions;

@@ -6,14 +6,13 @@ use host::gpu::Gpu;
 use host::renderer::{Renderer, view};
 use host::scene::{Scene, floor};
 use host::scene_gpu::SceneGpu;
-use shadows::glam::{Affine3A, Vec3};
+use shadows::glam::Vec3;
 use shadows::{
-    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor, Caster,
+    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor,
     DirectionalLight, wgpu,
 };
 
-use crate::ratio;
-use crate::shapes::cuboid;
+use crate::sides::{kept_vs_moving, many_vs_few};
 
 const SIZE: [u32; 2] = [1280, 720];
 
@@ -59,7 +58,7 @@ pub fn decals(gpu: &Gpu, rounds: u32) {
     gpu.run(|encoder| host.draw_ambient(encoder, &scene_gpu));
     let mask = gpu.target(SIZE, wgpu::TextureFormat::R8Unorm, 1);
     let mask = mask.create_view(&Default::default());
-    let mut sides = [10_000, 1000].map(|count| {
+    let of = |count| {
         let mut blobs = new(gpu);
         let frame = BlobFrame {
             lights: &[sun()],
@@ -74,53 +73,36 @@ pub fn decals(gpu: &Gpu, rounds: u32) {
         let depth = blobs
             .decal_bind_group(&gpu.device, host.depth_stencil())
             .expect("the depth can be read");
-        (blobs, depth, Vec::new())
-    });
-    // The first round makes pipelines.
-    for round in 0..=rounds {
-        for (blobs, depth, times) in &mut sides {
-            let start = Instant::now();
-            gpu.run(|encoder| {
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: &mask,
-                        depth_slice: None,
-                        resolve_target: None,
-                        ops: wgpu::Operations {
-                            load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
-                            store: wgpu::StoreOp::Store,
-                        },
-                    })],
-                    ..Default::default()
-                });
-                blobs.render(&mut pass, 0, 0, depth).expect("it is encoded");
+        (blobs, depth)
+    };
+    many_vs_few("blob_decals_10000_vs_1000", rounds, of, |(blobs, depth)| {
+        gpu.run(|encoder| {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &mask,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
             });
-            if round > 0 {
-                times.push(start.elapsed());
-            }
-        }
-    }
-    let [(_, _, many), (_, _, few)] = &sides;
-    ratio("blob_decals_10000_vs_1000", many, few);
+            blobs.render(&mut pass, 0, 0, depth).expect("it is encoded");
+        });
+    });
 }
 
-pub fn prepare(gpu: &Gpu, rounds: u32) {
-    let mesh = cuboid(Vec3::splat(0.3)).mesh(&gpu.device);
-    let place = |i: usize| Vec3::new((i % 100) as f32, 0.3, (i / 100) as f32);
-    let casters: Vec<Caster> = (0..10_000)
-        .map(|i| Caster::new(mesh.clone(), Affine3A::from_translation(place(i))))
-        .collect();
-    let mut moving = casters.clone();
+pub fn prepares(gpu: &Gpu, rounds: u32) {
     let [mut kept, mut moved] = [new(gpu), new(gpu)];
-    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
-    for round in 0..=rounds {
-        for caster in &mut moving {
-            caster.world_from_object.translation.y += 0.001;
-        }
-        for (blobs, casters, times) in [
-            (&mut kept, &casters, &mut ours),
-            (&mut moved, &moving, &mut theirs),
-        ] {
+    let sides = [&mut kept, &mut moved];
+    kept_vs_moving(
+        "blob_prepare_kept_vs_moving",
+        gpu,
+        rounds,
+        sides,
+        |blobs, casters| {
             let frame = BlobFrame {
                 lights: &[sun()],
                 casters,
@@ -130,12 +112,10 @@ pub fn prepare(gpu: &Gpu, rounds: u32) {
             blobs
                 .prepare(&gpu.device, &gpu.queue, &frame)
                 .expect("the frame is in range");
-            if round > 0 {
-                times.push(start.elapsed());
-            }
+            let time = start.elapsed();
             gpu.run(|encoder| blobs.encode(encoder));
-        }
-    }
+            time
+        },
+    );
     assert_eq!(kept.statistics().uploaded, 0);
-    ratio("blob_prepare_kept_vs_moving", &ours, &theirs);
 }

@@ -2,6 +2,8 @@
 
 use super::ellipsoid::Blob;
 use super::records::BlobRecord;
+use crate::map::buffer;
+use crate::runs::Runs;
 use crate::uploads::Uploads;
 
 /// Before the blobs: their number.
@@ -9,8 +11,6 @@ pub(super) const HEADER: u64 = 16;
 const RECORD: u64 = size_of::<BlobRecord>() as u64;
 /// Records at first.
 const LEAST: u64 = 64;
-/// Records that are rather written again than left out between two that have changed: a copy costs more.
-const GAP: usize = 16;
 
 /// The buffer that decals are instances of and receivers read.
 #[derive(Debug)]
@@ -21,6 +21,8 @@ pub(super) struct BlobBuffer {
     /// What the records were made from.
     blobs: Vec<Blob>,
     records: Vec<BlobRecord>,
+    /// How many of them cast nothing.
+    without_shadow: u32,
     /// How many of them the buffer holds once the uploads are recorded, and what count it holds.
     written: usize,
     count: Option<u32>,
@@ -32,13 +34,14 @@ impl BlobBuffer {
             true => wgpu::BufferUsages::STORAGE,
             false => wgpu::BufferUsages::empty(),
         };
-        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST | storage;
+        let usage = wgpu::BufferUsages::VERTEX | storage;
         Self {
             label: label.to_owned(),
             usage,
             buffer: buffer(device, label, HEADER + LEAST * RECORD, usage),
             blobs: Vec::new(),
             records: Vec::new(),
+            without_shadow: 0,
             written: 0,
             count: None,
         }
@@ -84,56 +87,57 @@ impl BlobBuffer {
         self.count = None;
     }
 
-    /// Uploads those that are not what they were; tells how many.
-    pub fn write(&mut self, uploads: &mut Uploads, blobs: impl Iterator<Item = Blob>) -> u32 {
+    /// Takes over a list of blobs and uploads those that are not what they were; tells how many.
+    ///
+    /// `may_differ`: places below `count` and blobs there, in order, among them all that differ.
+    pub fn write(
+        &mut self,
+        uploads: &mut Uploads,
+        count: usize,
+        may_differ: impl Iterator<Item = (usize, Blob)>,
+    ) -> u32 {
         let mut changed = 0;
-        let mut run: Option<std::ops::Range<usize>> = None;
-        let mut count = 0;
-        for (at, blob) in blobs.enumerate() {
-            count = at + 1;
-            let is_new = self.blobs.get(at) != Some(&blob);
-            if is_new {
-                changed += 1;
-                let record = BlobRecord::new(&blob);
-                match self.blobs.get_mut(at) {
-                    Some(old) => (*old, self.records[at]) = (blob, record),
-                    None => {
-                        self.blobs.push(blob);
-                        self.records.push(record);
-                    }
-                }
-            }
-            if !is_new && at < self.written {
+        let mut runs = Runs::default();
+        for (at, blob) in may_differ {
+            if self.blobs.get(at) == Some(&blob) {
                 continue;
             }
-            match &mut run {
-                Some(run) if at <= run.end + GAP => run.end = at + 1,
-                _ => {
-                    if let Some(done) = run.replace(at..at + 1) {
-                        self.upload(uploads, done);
-                    }
-                }
+            changed += 1;
+            self.set(at, blob);
+            if at < self.written {
+                runs.add(at..at + 1);
             }
         }
-        if let Some(last) = run {
-            self.upload(uploads, last);
-        }
-        self.blobs.truncate(count);
+        let gone = self.records.get(count..).unwrap_or_default();
+        self.without_shadow -= gone.iter().filter(|record| !record.casts()).count() as u32;
         self.records.truncate(count);
+        self.blobs.truncate(count);
+        if self.written < count {
+            runs.add(self.written..count);
+        }
         self.written = count;
+        runs.write(uploads, (&self.buffer, HEADER), &self.records);
         if self.count.replace(count as u32) != Some(count as u32) {
-            uploads.write(
-                &self.buffer,
-                0,
-                bytemuck::bytes_of(&[count as u32, 0, 0, 0]),
-            );
+            let header = [count as u32, 0, 0, 0];
+            uploads.write(&self.buffer, 0, bytemuck::bytes_of(&header));
         }
         changed
     }
 
-    fn upload(&self, uploads: &mut Uploads, run: std::ops::Range<usize>) {
-        let at = HEADER + run.start as u64 * RECORD;
-        uploads.write(&self.buffer, at, bytemuck::cast_slice(&self.records[run]));
+    /// Puts a blob in place of another, or behind the last.
+    fn set(&mut self, at: usize, blob: Blob) {
+        let record = BlobRecord::new(&blob);
+        self.without_shadow += u32::from(!record.casts());
+        match self.records.get_mut(at) {
+            Some(old) => {
+                self.without_shadow -= u32::from(!old.casts());
+                (*old, self.blobs[at]) = (record, blob);
+            }
+            None => {
+                self.records.push(record);
+                self.blobs.push(blob);
+            }
+        }
     }
 
     pub fn len(&self) -> u32 {
@@ -141,20 +145,6 @@ impl BlobBuffer {
     }
 
     pub fn without_shadow(&self) -> u32 {
-        self.records.iter().filter(|record| !record.casts()).count() as u32
+        self.without_shadow
     }
-}
-
-fn buffer(
-    device: &wgpu::Device,
-    label: &str,
-    size: u64,
-    usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage,
-        mapped_at_creation: false,
-    })
 }

@@ -1,6 +1,8 @@
 //! What blob shadows are made from.
 
+use super::records::STRIDE;
 use crate::error::BlobShadowError;
+use crate::volume::light_pass::targets::is_drawable;
 
 /// Strips of a light's disk, at most.
 const MOST_STRIPS: u32 = 64;
@@ -12,7 +14,8 @@ pub(super) const MOST: u32 = 256;
 pub struct BlobShadowDescriptor<'a> {
     /// Names the GPU objects, after "shadows blobs". Default none.
     pub label: Option<&'a str>,
-    /// Lights of a frame, at most: 1 (default) to 256.
+    /// Lights of a frame, at most: 1 (default) to 256, and to what the device's
+    /// `max_uniform_buffer_binding_size` holds of 256 bytes each where `receivers` is true: 64 in 16 KiB.
     pub lights: u32,
     /// Views of a frame, at most: 1 (default) to 256. Only decals are drawn for a view.
     pub views: u32,
@@ -63,16 +66,27 @@ impl Default for BlobDecalDescriptor {
 
 impl BlobShadowDescriptor<'_> {
     pub(super) fn validate(&self, device: &wgpu::Device) -> Result<(), BlobShadowError> {
+        let limits = device.limits();
+        let held = |bytes: u64| (bytes / STRIDE).min(u64::from(MOST)) as u32;
+        // Receivers read all lights in one binding, decals one of them.
+        let bound = match self.receivers {
+            true => limits.max_uniform_buffer_binding_size,
+            false => limits.max_buffer_size,
+        };
         for (what, value, limit) in [
-            ("lights", self.lights, MOST),
-            ("views", self.views, MOST),
+            (
+                "lights",
+                self.lights,
+                held(bound.min(limits.max_buffer_size)),
+            ),
+            ("views", self.views, held(limits.max_buffer_size)),
             ("strips", self.strips, MOST_STRIPS),
         ] {
             if !(1..=limit).contains(&value) {
                 return Err(BlobShadowError::Range { what, value, limit });
             }
         }
-        if self.receivers && device.limits().max_storage_buffers_per_shader_stage == 0 {
+        if self.receivers && limits.max_storage_buffers_per_shader_stage == 0 {
             return Err(BlobShadowError::NoStorage);
         }
         match &self.decals {
@@ -86,10 +100,8 @@ impl BlobDecalDescriptor {
     fn validate(&self, device: &wgpu::Device) -> Result<(), BlobShadowError> {
         let features = device.features();
         let format = self.target_format;
-        let usable = features.contains(format.required_features());
         let blends = wgpu::TextureFormatFeatureFlags::BLENDABLE;
-        let flags = format.guaranteed_format_features(features).flags;
-        if !usable || format.is_depth_stencil_format() || !flags.contains(blends) {
+        if !is_drawable(device, format, 1, blends) {
             return Err(BlobShadowError::TargetFormat(format));
         }
         match self.depth_stencil_format {

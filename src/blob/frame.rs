@@ -16,7 +16,8 @@ pub struct BlobLight {
     pub radius: f32,
     /// How far from a caster its shadow is seen, in world units, counted from a sphere around its ellipsoid;
     /// greater than 0. The shadow is whole up to three quarters of it, fades, and is gone at its end. Decals
-    /// cover no more than this, so a short reach is a cheap one.
+    /// cover no more than this, so a short reach is a cheap one. More than 1e16 counts as that, which `f32` can
+    /// still square and add up.
     pub reach: f32,
 }
 
@@ -69,21 +70,12 @@ pub struct BlobFrame<'a> {
 }
 
 impl BlobFrame<'_> {
-    /// Everything that casts, in order.
-    pub(super) fn all(&self) -> impl Iterator<Item = Blob> {
-        let casters = self.casters.iter().map(Blob::of_caster);
-        casters.chain(self.blobs.iter().copied())
-    }
-
     pub(super) fn len(&self) -> usize {
         self.casters.len() + self.blobs.len()
     }
 
-    pub(super) fn validate(
-        &self,
-        device: &wgpu::Device,
-        [lights, views]: [u32; 2],
-    ) -> Result<(), BlobShadowError> {
+    /// Checks all but the casters.
+    pub(super) fn validate(&self, [lights, views]: [u32; 2]) -> Result<(), BlobShadowError> {
         for (what, count, limit) in [
             ("lights", self.lights.len(), lights),
             ("views", self.views.len(), views),
@@ -94,9 +86,6 @@ impl BlobFrame<'_> {
         }
         for (index, light) in self.lights.iter().enumerate() {
             light.validate_as(index)?;
-        }
-        for (index, caster) in self.casters.iter().enumerate() {
-            caster.validate(index, device)?;
         }
         for (index, blob) in self.blobs.iter().enumerate() {
             if !blob.is_finite() {

@@ -44,20 +44,28 @@ pub(super) struct ViewRecord {
     pub spare_6: [[f32; 4]; 6],
 }
 
+/// The farthest that shadows are seen, and the largest radius of what casts one: shaders square it, and `f32`
+/// ends at 3e38.
+pub(super) const FARTHEST: f32 = 1e16;
+
 /// Bytes of a light or a view: what dynamic offsets are multiples of on every device.
 pub(super) const STRIDE: u64 = 256;
 const _: () = assert!(size_of::<LightRecord>() as u64 == STRIDE);
 const _: () = assert!(size_of::<ViewRecord>() as u64 == STRIDE);
 
 impl BlobRecord {
-    /// One that casts nothing has no radius: the shader's first test leaves it out.
+    /// One that casts nothing has no radius, by which shaders leave it out.
     pub fn new(blob: &Blob) -> Self {
+        // Of a caster that is placed beyond `f32`.
+        if !blob.is_finite() {
+            return Self::default();
+        }
         let Some((unit, radius)) = to_unit_sphere(blob.linear()) else {
             return Self::default();
         };
         let unit = unit.as_mat3();
         let radius = (radius as f32).next_up();
-        if !unit.is_finite() || !radius.is_finite() {
+        if !unit.is_finite() || radius > FARTHEST {
             return Self::default();
         }
         let row = |axis: usize| unit.row(axis).extend(blob.centre[axis]).to_array();
@@ -96,7 +104,7 @@ impl LightRecord {
         Self {
             homogeneous: homogeneous.to_array(),
             radius: light.radius,
-            reach: light.reach,
+            reach: light.reach.min(FARTHEST),
             ..Self::NONE
         }
     }

@@ -3,11 +3,14 @@
 use super::buffer::BlobBuffer;
 use super::decals::Decals;
 use super::descriptor::BlobShadowDescriptor;
+use super::ellipsoid::Blob;
 use super::frame::BlobFrame;
 use super::receivers::{self, Receivers};
 use super::records::{LightRecord, STRIDE, ViewRecord};
 use super::statistics::BlobStatistics;
 use crate::error::{BlobRenderError, BlobShadowError};
+use crate::map::buffer;
+use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
 
@@ -36,7 +39,8 @@ use crate::uploads::Uploads;
 ///
 /// # What is written again
 ///
-/// Ellipsoids, lights and views that are as they were are not uploaded: of a frame in which nothing has changed
+/// Casters that are as they were, at the place in the list where they were, are neither checked nor computed again;
+/// ellipsoids, lights and views that are as they were are not uploaded. Of a frame in which nothing has changed
 /// nothing is.
 #[derive(Debug)]
 pub struct BlobShadow {
@@ -44,6 +48,7 @@ pub struct BlobShadow {
     strips: u32,
     /// At most: lights, views.
     most: [u32; 2],
+    casters: Casters,
     blobs: BlobBuffer,
     lights: Records<LightRecord>,
     views: Records<ViewRecord>,
@@ -51,8 +56,8 @@ pub struct BlobShadow {
     receivers: Option<Receivers>,
     uploads: Uploads,
     submissions: Submissions,
-    /// Of the frame: lights, views.
-    prepared: [usize; 2],
+    /// Of the frame: lights, views. `None` before there is one, and after `invalidate`.
+    prepared: Option<[usize; 2]>,
     statistics: BlobStatistics,
 }
 
@@ -83,10 +88,11 @@ impl BlobShadow {
             receivers,
             views: Records::new(device, &label, descriptor.views),
             lights,
+            casters: Casters::default(),
             blobs,
             uploads: Uploads::new(device),
             submissions: Submissions::default(),
-            prepared: [0; 2],
+            prepared: None,
             statistics: BlobStatistics::default(),
             label,
         })
@@ -104,11 +110,13 @@ impl BlobShadow {
         _: &wgpu::Queue,
         frame: &BlobFrame<'_>,
     ) -> Result<(), BlobShadowError> {
-        frame.validate(device, self.most)?;
+        frame.validate(self.most)?;
         let (count, limit) = (frame.len(), self.blobs.most(device));
         if count as u64 > limit {
             return Err(BlobShadowError::TooManyBlobs { count, limit });
         }
+        self.casters.compare(frame.casters, device)?;
+        self.casters.update(frame.casters);
         let encoder_dropped = self.submissions.take_dropped();
         let not_encoded = self.uploads.is_waiting();
         if not_encoded || encoder_dropped {
@@ -119,14 +127,14 @@ impl BlobShadow {
         {
             receivers.rebind(device, &self.lights.buffer, self.blobs.buffer());
         }
-        let changed = self.blobs.write(&mut self.uploads, frame.all());
+        let changed = self.write_blobs(frame);
         let lights = frame.lights.iter().map(LightRecord::new);
         let no_more = std::iter::repeat(LightRecord::NONE);
         let lights = lights.chain(no_more).take(self.most[0] as usize);
         self.lights.write(&mut self.uploads, lights);
         let views = frame.views.iter().map(ViewRecord::new);
         self.views.write(&mut self.uploads, views);
-        self.prepared = [frame.lights.len(), frame.views.len()];
+        self.prepared = Some([frame.lights.len(), frame.views.len()]);
         self.statistics = BlobStatistics {
             blobs: self.blobs.len(),
             without_shadow: self.blobs.without_shadow(),
@@ -150,8 +158,10 @@ impl BlobShadow {
     }
 
     /// Takes nothing for written: the next [`prepare`](Self::prepare) uploads everything. For a host that has lost
-    /// what was recorded in a way that cannot be seen from here: a submission that failed.
+    /// what was recorded in a way that cannot be seen from here: a submission that failed. Until then
+    /// [`render`](Self::render) is [`BlobRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
+        self.prepared = None;
         self.forget();
     }
 
@@ -189,13 +199,13 @@ impl BlobShadow {
         let Some(decals) = &self.decals else {
             return Err(BlobRenderError::NoDecals);
         };
-        if self.uploads.is_waiting() {
+        let prepared = self.prepared.filter(|_| !self.uploads.is_waiting());
+        let Some([lights, views]) = prepared else {
             return Err(BlobRenderError::NotEncoded);
-        }
+        };
         if self.submissions.is_dropped() {
             return Err(BlobRenderError::Dropped);
         }
-        let [lights, views] = self.prepared;
         if light >= lights || view >= views {
             return Err(BlobRenderError::NoSuch {
                 light,
@@ -218,7 +228,9 @@ impl BlobShadow {
     /// - `shadows_blob_visibility_of(light: u32, position: vec3f, own: u32) -> f32`, the same without the shadow
     ///   of one blob, by its place in the frame (casters first).
     ///
-    /// A light that the frame has not is not shadowed.
+    /// `light` is the light's place in the frame. One that the frame has not is not shadowed, as long as it is below
+    /// [`BlobShadowDescriptor::lights`](crate::BlobShadowDescriptor::lights), the length of the array that the
+    /// module reads; beyond that WGSL has it read as any light of the array.
     pub fn wgsl_module(&self, group: u32) -> String {
         receivers::source(self.strips, self.most[0], group)
     }
@@ -240,6 +252,19 @@ impl BlobShadow {
         self.statistics
     }
 
+    /// Those of the casters first, as far as they changed.
+    fn write_blobs(&mut self, frame: &BlobFrame<'_>) -> u32 {
+        let casters = frame.casters;
+        let changes = self.casters.changes();
+        let changed = changes.filter_map(|change| {
+            let caster = casters.get(change.index)?;
+            Some((change.index, Blob::of_caster(caster)))
+        });
+        let blobs = (casters.len()..).zip(frame.blobs.iter().copied());
+        self.blobs
+            .write(&mut self.uploads, frame.len(), changed.chain(blobs))
+    }
+
     fn forget(&mut self) {
         self.uploads.clear();
         self.blobs.forget();
@@ -259,12 +284,12 @@ struct Records<T> {
 impl<T: bytemuck::Pod + PartialEq> Records<T> {
     fn new(device: &wgpu::Device, label: &str, count: u32) -> Self {
         Self {
-            buffer: device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: u64::from(count) * STRIDE,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
+            buffer: buffer(
+                device,
+                label,
+                u64::from(count) * STRIDE,
+                wgpu::BufferUsages::UNIFORM,
+            ),
             written: Vec::new(),
         }
     }

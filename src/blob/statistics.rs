@@ -6,8 +6,8 @@
 pub struct BlobStatistics {
     /// Blobs of the frame: casters and ellipsoids.
     pub blobs: u32,
-    /// Those that cast nothing: without an area, so large or so small that `f32` cannot hold their map, or of
-    /// opacity 0.
+    /// Those that cast nothing: without an area, of opacity 0, so large (1e16) or so small that shaders cannot
+    /// reckon with them in `f32`, or casters whose centre is beyond `f32`.
     pub without_shadow: u32,
     /// Blobs whose ellipsoid is not what it was: the only ones that are computed and uploaded.
     pub changed: u32,

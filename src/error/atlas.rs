@@ -95,7 +95,7 @@ pub enum ShadowAtlasError {
     /// The tiles do not fit, each as small as it may be.
     #[error(transparent)]
     Space(TileSizeError),
-    /// More lights than one buffer of the device can hold.
+    /// More lights than shaders of the device can read.
     #[error(
         "{records} records of lights, one for each light, view and cascade, are out of range; the device's shaders read {limit}"
     )]
@@ -104,6 +104,19 @@ pub enum ShadowAtlasError {
         records: usize,
         /// The most that work.
         limit: usize,
+    },
+    /// More lights than one buffer of the device can hold the matrices of: 256 bytes for each of the 8 tiles that a
+    /// light may have.
+    #[error(
+        "{lights} lights, directional ones counted once for each view, need {size} bytes for their tiles' matrices, {limit} are possible in one buffer (max_buffer_size); pass fewer lights, or ask for more when the device is created"
+    )]
+    TooManyMatrices {
+        /// Lights, a directional one once for each view.
+        lights: usize,
+        /// Bytes needed.
+        size: u64,
+        /// Bytes possible.
+        limit: u64,
     },
     /// A caster is out of range.
     #[error(transparent)]

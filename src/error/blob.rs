@@ -24,8 +24,8 @@ pub enum BlobShadowError {
         "the device has no storage buffers, by which shaders read the blobs; set `receivers` to false and draw decals"
     )]
     NoStorage,
-    /// Decals cannot be blended into this target.
-    #[error("{0:?} does not blend on this device; pass a colour format that does")]
+    /// Decals cannot be drawn into this target, or not blended there.
+    #[error("{0:?} cannot be drawn into and blended on this device; pass a colour format that can")]
     TargetFormat(wgpu::TextureFormat),
     /// The attachment beside the target has no depth and no stencil, or the device lacks its feature.
     #[error(
@@ -122,7 +122,7 @@ pub enum BlobRenderError {
     /// There is no pipeline for decals.
     #[error("no decals were asked for; set `decals` in the BlobShadowDescriptor")]
     NoDecals,
-    /// What was prepared is not on its way to the GPU.
+    /// What was prepared is not on its way to the GPU, or nothing was since `new` or `invalidate`.
     #[error(
         "render was called before encode; call prepare, then encode, then render in every frame"
     )]

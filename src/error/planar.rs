@@ -21,15 +21,27 @@ pub enum PlanarShadowError {
     /// The sample count is neither 1 nor 4.
     #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
     SampleCount(u32),
-    /// A colour format that no target of the pass can have, or more of them than the device takes.
+    /// A colour format that no target of the pass can have.
     #[error(
-        "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can, at most max_color_attachments of them"
+        "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can"
     )]
     ColorFormat {
         /// Place in the list of colour formats.
         place: usize,
         /// The format found there.
         format: wgpu::TextureFormat,
+    },
+    /// More colour targets, or more bytes in them, than the device takes.
+    #[error(
+        "color_formats need {name} of {needed}, and the device has {available}; pass fewer or smaller formats, or ask for more when the device is created"
+    )]
+    ColorLimit {
+        /// The limit's name in [`wgpu::Limits`].
+        name: &'static str,
+        /// What is needed.
+        needed: u64,
+        /// What the device has.
+        available: u64,
     },
     /// The target that is to be darkened is not there, or cannot be blended.
     #[error(
@@ -158,7 +170,7 @@ pub enum PlanarShadowError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PlanarRenderError {
-    /// `encode` was not called since the last `prepare`, or neither ever was.
+    /// `encode` was not called since the last `prepare`, or neither was since `new` or `invalidate`.
     #[error("call prepare, then encode into the encoder of this pass, before render")]
     NotEncoded,
     /// What was recorded never comes to the GPU.

@@ -3,6 +3,7 @@
 use super::cube::CubeShadowMap;
 use super::encoding::DepthEncoding;
 use super::gpu::LightRecord;
+use super::overlay::Overlay;
 use crate::error::CubeShadowMapError;
 
 /// How to make a [`CubeCross`].
@@ -150,47 +151,17 @@ fn pipeline(
     layout: &wgpu::BindGroupLayout,
     descriptor: &CubeCrossDescriptor<'_>,
 ) -> wgpu::RenderPipeline {
-    let shader = crate::shader::module(device, label, crate::wgsl::CUBE_CROSS);
     let linear = descriptor.encoding == DepthEncoding::LinearDistance;
-    let constants = [("linear", f64::from(u8::from(linear)))];
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(label),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(label),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &shader,
-            entry_point: Some("vertex"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: descriptor
-            .depth_stencil
-            .map(|format| wgpu::DepthStencilState {
-                format,
-                depth_write_enabled: Some(false),
-                depth_compare: Some(wgpu::CompareFunction::Always),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-        multisample: wgpu::MultisampleState {
-            count: descriptor.samples,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module: &shader,
-            entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            targets: &[Some(descriptor.format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let overlay = Overlay {
+        label,
+        shader: crate::wgsl::CUBE_CROSS,
+        layout,
+        buffers: &[],
+        topology: wgpu::PrimitiveTopology::TriangleList,
+        constants: &[("linear", f64::from(u8::from(linear)))],
+        format: descriptor.format,
+        depth_stencil: descriptor.depth_stencil,
+        samples: descriptor.samples,
+    };
+    overlay.pipeline(device)
 }

@@ -11,6 +11,7 @@ mod flat;
 mod flat_descriptor;
 mod gpu;
 mod one_light;
+mod overlay;
 mod plan;
 mod projection;
 mod sides;
@@ -31,7 +32,8 @@ pub use flat::{ShadowMap, texture_from_clip};
 pub use flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 pub use gpu::HostDraw;
 pub(crate) use gpu::{
-    INSTANCE_SIZE, Instance, LightRecord, UNIFORM_LIGHTS, UNIFORM_STRIDE, buffer, instance,
+    DynamicUniforms, INSTANCE_SIZE, Instance, LightRecord, UNIFORM_LIGHTS, buffer, instance,
+    largest_buffer,
 };
 pub use plan::TileSize;
 pub(crate) use plan::{Place, TileAllocator};

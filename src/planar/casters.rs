@@ -3,8 +3,9 @@
 use super::axes::PlaneAxes;
 use super::light::{Casts, PlaneLight};
 use super::statistics::PlanarStatistics;
-use crate::map::{INSTANCE_SIZE, Instance, buffer, instance};
+use crate::map::{INSTANCE_SIZE, Instance, buffer, instance, largest_buffer};
 use crate::mesh::{Caster, CasterMesh};
+use crate::runs::Runs;
 use crate::scene::Casters;
 use crate::uploads::Uploads;
 
@@ -50,14 +51,18 @@ impl PlaneCasters {
             return self.rebuild(device, uploads, (casters, all));
         }
         let plane_from_world = axes.plane_from_world();
+        let mut changed = Vec::new();
         for change in casters.changes() {
             let row = instance(&(plane_from_world * all[change.index].transform()));
             let place = self.places[change.index] as usize;
             if std::mem::replace(&mut self.rows[place], row) != row {
-                let offset = place as u64 * INSTANCE_SIZE;
-                uploads.write(&self.buffer, offset, bytemuck::bytes_of(&row));
+                changed.push(place);
             }
         }
+        changed.sort_unstable();
+        let mut runs = Runs::default();
+        changed.iter().for_each(|&place| runs.add(place..place + 1));
+        runs.write(uploads, (&self.buffer, 0), &self.rows);
     }
 
     fn rebuild(
@@ -83,7 +88,7 @@ impl PlaneCasters {
             .extend(rows.map(|caster| instance(&(plane_from_world * caster.transform()))));
         let size = self.rows.len() as u64 * INSTANCE_SIZE;
         if size > self.buffer.size() {
-            let room = size.next_power_of_two().min(largest(device));
+            let room = size.next_power_of_two().min(largest_buffer(device));
             self.buffer = buffer(device, &self.label, room, wgpu::BufferUsages::VERTEX);
         }
         uploads.write(&self.buffer, 0, bytemuck::cast_slice(&self.rows));
@@ -167,17 +172,11 @@ pub(crate) fn reorders(casters: &Casters) -> bool {
         })
 }
 
-/// The first caster that only the host can draw.
-pub(crate) fn host_drawn(casters: &[Caster]) -> Option<usize> {
-    casters
-        .iter()
-        .position(|caster| caster.mesh.is_host_drawn())
-}
-
-/// The largest buffer that copies can fill.
-pub(crate) fn largest(device: &wgpu::Device) -> u64 {
-    let limit = device.limits().max_buffer_size;
-    limit - limit % wgpu::COPY_BUFFER_ALIGNMENT
+/// The first caster that only the host can draw, of those that the last comparison found to differ: what has it is
+/// refused, and never becomes what others are compared with.
+pub(crate) fn host_drawn(casters: &Casters, all: &[Caster]) -> Option<usize> {
+    let mut different = casters.different().iter().map(|&index| index as usize);
+    different.find(|&index| all[index].mesh.is_host_drawn())
 }
 
 /// One draw call: a mesh, and where its rows lie.

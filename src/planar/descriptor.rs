@@ -2,7 +2,7 @@
 
 use crate::DepthConvention;
 use crate::error::PlanarShadowError;
-use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_stencil, is_drawable};
+use crate::volume::light_pass::targets::{DEPTH_STENCIL, bytes_a_sample, has_stencil, is_drawable};
 
 /// What is done where there is shadow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -111,11 +111,33 @@ impl PlanarShadowDescriptor<'_> {
 
     fn validate_colors(&self, device: &wgpu::Device) -> Result<(), PlanarShadowError> {
         let drawable = |format, also| is_drawable(device, format, self.sample_count, also);
-        let most = device.limits().max_color_attachments as usize;
         for (place, format) in self.color_formats.iter().enumerate() {
             let Some(format) = *format else { continue };
-            if place >= most || !drawable(format, wgpu::TextureFormatFeatureFlags::empty()) {
+            if !drawable(format, wgpu::TextureFormatFeatureFlags::empty()) {
                 return Err(PlanarShadowError::ColorFormat { place, format });
+            }
+        }
+        let limits = device.limits();
+        let bytes = bytes_a_sample(self.color_formats.iter().copied().flatten());
+        for (name, needed, available) in [
+            (
+                "max_color_attachments",
+                self.color_formats.len() as u64,
+                limits.max_color_attachments,
+            ),
+            (
+                "max_color_attachment_bytes_per_sample",
+                u64::from(bytes),
+                limits.max_color_attachment_bytes_per_sample,
+            ),
+        ] {
+            let available = u64::from(available);
+            if needed > available {
+                return Err(PlanarShadowError::ColorLimit {
+                    name,
+                    needed,
+                    available,
+                });
             }
         }
         let PlanarOutput::Darken { target } = self.output else {

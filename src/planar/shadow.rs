@@ -1,17 +1,16 @@
 //! Planar shadows in the host's passes: prepare, encode, render.
 
 use super::axes::{PlaneAxes, Whereabouts};
-use super::casters::{PlaneCasters, host_drawn, largest, reorders};
+use super::casters::{PlaneCasters, host_drawn, reorders};
 use super::descriptor::PlanarShadowDescriptor;
 use super::frame::{PlanarFrame, PlanarLight, PlanarOutline};
 use super::gpu::{
-    CastKey, CastPipelines, DynamicUniforms, Marking, MarkingPipelines, OutlineGpu, PassFormats,
-    PlanarUniform,
+    CastKey, CastPipelines, Marking, MarkingPipelines, OutlineGpu, PassFormats, PlanarUniform,
 };
 use super::pairs::Pair;
 use super::statistics::PlanarStatistics;
 use crate::error::{PlanarRenderError, PlanarShadowError};
-use crate::map::INSTANCE_SIZE;
+use crate::map::{DynamicUniforms, INSTANCE_SIZE, largest_buffer};
 use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
@@ -33,8 +32,13 @@ use crate::uploads::Uploads;
 /// receiver. A [`Polygon`](PlanarOutline::Polygon) is compared with the depth buffer, and wants everything drawn.
 ///
 /// What did not change costs nothing: in a frame in which lights, planes, views and casters are as they were nothing is
-/// uploaded; where a caster moves, 48 bytes a plane; where a light or a view moves, 112 bytes for each plane under it
-/// or in it.
+/// uploaded. For every plane it is
+/// - 48 bytes for a caster that moves (and for up to 16 that lie between two such: one more copy costs more), and for
+///   each of all casters where any comes, goes or changes its mesh;
+/// - 112 bytes for a light that moves in each view, and for a view that moves under each light;
+/// - 24 bytes for each triangle of a polygon that changes (two less than it has corners);
+/// - all of that, where the plane changes, or the casters together move by about as much as they are wide: positions
+///   on a plane are counted from a point of it near the casters.
 ///
 /// # What it does not do
 ///
@@ -48,7 +52,7 @@ pub struct PlanarShadow {
     markings: MarkingPipelines,
     uniforms: DynamicUniforms<PlanarUniform>,
     casters: Casters,
-    whereabouts: (u64, Whereabouts),
+    whereabouts: Whereabouts,
     planes: Vec<Plane>,
     /// By light, then plane.
     pairs: Vec<Option<Pair>>,
@@ -86,7 +90,7 @@ impl PlanarShadow {
             None => "shadows planar".to_owned(),
         };
         let formats = PassFormats::new(&label, descriptor);
-        let uniforms = DynamicUniforms::new(device, &label);
+        let uniforms = DynamicUniforms::new(device, format!("{label} uniforms"), 1);
         let markings = MarkingPipelines::new(device, &formats, uniforms.layout(), descriptor);
         Ok(Self {
             casts: CastPipelines::new(device, &formats, uniforms.layout()),
@@ -98,7 +102,7 @@ impl PlanarShadow {
                 ..*descriptor
             },
             casters: Casters::default(),
-            whereabouts: (u64::MAX, Whereabouts::default()),
+            whereabouts: Whereabouts::default(),
             planes: Vec::new(),
             pairs: Vec::new(),
             counts: [0; 3],
@@ -125,10 +129,10 @@ impl PlanarShadow {
     ) -> Result<(), PlanarShadowError> {
         frame.validate(&self.descriptor)?;
         check_sizes(device, frame)?;
-        if let Some(index) = host_drawn(frame.casters) {
+        self.casters.compare(frame.casters, device)?;
+        if let Some(index) = host_drawn(&self.casters, frame.casters) {
             return Err(PlanarShadowError::HostDrawn { index });
         }
-        self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
         let [not_encoded, encoder_dropped] = self.forget();
         self.follow_planes(device, frame);
@@ -158,8 +162,10 @@ impl PlanarShadow {
     }
 
     /// Has the next [`prepare`](Self::prepare) upload everything anew: for a host that has lost what was recorded
-    /// in a way that cannot be seen here, such as a submission that failed.
+    /// in a way that cannot be seen here, such as a submission that failed. Until that is encoded
+    /// [`render`](Self::render) is [`PlanarRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
+        (self.prepared, self.encoded) = (false, false);
         self.uploads.clear();
         self.uniforms.forget();
         for plane in &mut self.planes {
@@ -287,14 +293,11 @@ impl PlanarShadow {
     }
 
     fn follow_planes(&mut self, device: &wgpu::Device, frame: &PlanarFrame<'_>) {
-        if self.whereabouts.0 != self.casters.frame() {
-            let whereabouts = Whereabouts::of(self.casters.records());
-            self.whereabouts = (self.casters.frame(), whereabouts);
-        }
+        self.whereabouts.follow(&self.casters);
         let reordered = reorders(&self.casters);
         self.planes.truncate(frame.planes.len());
         for (index, receiver) in frame.planes.iter().enumerate() {
-            let axes = PlaneAxes::new(receiver.point, receiver.normal, self.whereabouts.1);
+            let axes = PlaneAxes::new(receiver.point, receiver.normal, self.whereabouts);
             if index == self.planes.len() {
                 self.planes.push(Plane {
                     casters: PlaneCasters::new(device, &self.label, axes),
@@ -397,7 +400,7 @@ impl PlanarShadow {
 
 /// Whether the device's buffers can hold a frame.
 fn check_sizes(device: &wgpu::Device, frame: &PlanarFrame<'_>) -> Result<(), PlanarShadowError> {
-    let limit = largest(device);
+    let limit = largest_buffer(device);
     let polygon = |outline| match outline {
         PlanarOutline::Stencil(_) => 0,
         PlanarOutline::Polygon(corners) => OutlineGpu::size(corners.len()),
@@ -413,8 +416,7 @@ fn check_sizes(device: &wgpu::Device, frame: &PlanarFrame<'_>) -> Result<(), Pla
         (
             "lights, planes and views",
             DynamicUniforms::<PlanarUniform>::size(uniforms),
-            // A dynamic offset has 32 bits.
-            limit.min(u64::from(u32::MAX)),
+            DynamicUniforms::<PlanarUniform>::most(device),
         ),
     ];
     match sizes.into_iter().find(|&(_, size, limit)| size > limit) {

@@ -2,9 +2,11 @@
 
 use glam::{DAffine3, DVec3, DVec4, Vec3};
 
-use super::descriptor::ProjectedCaster;
+use super::descriptor::{ProjectedCaster, Projector};
+use super::fit::is_in_range;
 use crate::map::FlatFrame;
 use crate::mesh::{CasterMesh, InstanceLayout};
+use crate::scene::CasterBounds;
 
 /// `Instance` in projected_caster.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -56,15 +58,17 @@ impl Draw {
 /// of the host's list, as every product is rounded to the texture's format.
 type Member = (u64, bool, bool, [u32; 16], usize);
 
-/// Appends the draws of one shadow's casters and their instances.
+/// Appends the draws of one shadow's casters and their instances. Those beyond the light's range are left out.
 pub(super) fn list(
     frame: &FlatFrame,
-    casters: &[ProjectedCaster],
+    Projector { light, casters, .. }: &Projector<'_>,
     instances: &mut Vec<Instance>,
     draws: &mut Vec<Draw>,
 ) {
-    let drawn = casters.iter().enumerate();
-    let drawn = drawn.filter(|(_, caster)| caster.caster.mesh.triangle_count() > 0);
+    let drawn = casters.iter().enumerate().filter(|(_, caster)| {
+        let caster = &caster.caster;
+        caster.mesh.triangle_count() > 0 && is_in_range(light, &CasterBounds::of(caster))
+    });
     let rows = Rows::of(frame);
     let mut members: Vec<Member> = drawn
         .map(|(index, caster)| {

@@ -24,6 +24,8 @@ pub(super) fn fit(
     casters: &[CasterBounds],
     size: u32,
 ) -> Result<FlatFrame, ProjectorState> {
+    let casters = casters.iter().filter(|caster| is_in_range(light, caster));
+    let casters: &[CasterBounds] = &casters.copied().collect::<Vec<_>>();
     let frame = match light {
         Light::Point(light) => around(light.position, light.range, casters, size)?,
         Light::Spot(light) => fit_cone(light, casters, size)?,
@@ -33,7 +35,20 @@ pub(super) fn fit(
     fits.then_some(frame).ok_or(ProjectorState::BeyondF32)
 }
 
-/// The smaller of the squares around a spot's cone and around the casters that it reaches.
+/// Whether any of a caster may be within a light's range. What is beyond has no shadow there; in a tile's picture,
+/// which knows no depth, it would darken what lies before it.
+pub(super) fn is_in_range(light: &Light, caster: &CasterBounds) -> bool {
+    let (position, range) = match light {
+        Light::Point(light) => (light.position, light.range),
+        Light::Spot(light) => (light.position, light.range),
+        Light::Directional(_) => return true,
+    };
+    let (apart, range) = (caster.centre - position.as_dvec3(), f64::from(range));
+    let to_box = (apart.abs() - caster.half).max(DVec3::ZERO).length();
+    to_box <= range && apart.length() - caster.radius <= range
+}
+
+/// The smaller of the squares around a spot's cone and around the casters in range that it reaches.
 fn fit_cone(
     light: &SpotLight,
     casters: &[CasterBounds],
@@ -55,17 +70,14 @@ fn fit_cone(
     }
 }
 
-/// A square pyramid from a point around the casters in range.
+/// A square pyramid from a point around casters in range.
 fn around(
     position: Vec3,
     range: f32,
     casters: &[CasterBounds],
     size: u32,
 ) -> Result<FlatFrame, ProjectorState> {
-    let in_range = |caster: &CasterBounds| {
-        caster.centre.distance(position.as_dvec3()) - caster.radius <= f64::from(range)
-    };
-    let casters = casters.iter().filter(|caster| in_range(caster));
+    let casters = casters.iter();
     let casters: Vec<CasterBounds> = casters.map(|caster| caster.relative_to(position)).collect();
     let toward = middle(&casters).ok_or(ProjectorState::Empty)?;
     let forward = toward.try_normalize().ok_or(ProjectorState::Surrounded)?;

@@ -1,11 +1,13 @@
 //! The passes that draw tiles: the casters of each, and then its mip levels.
 
-use super::descriptor::ProjectedCaster;
+use super::descriptor::Projector;
 use super::draws::{Draw, INSTANCE_SIZE, Instance, list};
 use super::pipelines::{CasterPipelines, TilePipelines, TileSquare};
 use super::texture::MipTexture;
-use crate::map::{FlatFrame, Place};
+use crate::map::{FlatFrame, Place, buffer};
 use crate::uploads::Uploads;
+
+const VERTEX: wgpu::BufferUsages = wgpu::BufferUsages::VERTEX;
 
 /// What casters are drawn with, and which tiles the next encode draws.
 #[derive(Debug)]
@@ -36,8 +38,8 @@ impl Passes {
             casters: CasterPipelines::new(device, label),
             tiles: TilePipelines::new(device, label),
             sources: Vec::new(),
-            instances: vertex_buffer(device, label, INSTANCE_SIZE),
-            squares: vertex_buffer(device, label, size_of::<TileSquare>() as u64),
+            instances: buffer(device, label, INSTANCE_SIZE, VERTEX),
+            squares: buffer(device, label, size_of::<TileSquare>() as u64, VERTEX),
             pending: Vec::new(),
             rows: Vec::new(),
             label: label.to_owned(),
@@ -60,10 +62,10 @@ impl Passes {
         self.rows.clear();
     }
 
-    /// Lists a tile.
-    pub fn add(&mut self, frame: &FlatFrame, place: Place, casters: &[ProjectedCaster]) {
+    /// Lists a projector's tile.
+    pub fn add(&mut self, frame: &FlatFrame, place: Place, projector: &Projector<'_>) {
         let mut draws = Vec::new();
-        list(frame, casters, &mut self.rows, &mut draws);
+        list(frame, projector, &mut self.rows, &mut draws);
         self.pending.push(Pending { place, draws });
     }
 
@@ -229,29 +231,20 @@ impl Passes {
     }
 }
 
-fn vertex_buffer(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
 /// Uploads bytes into a buffer that is made larger if it must be.
 fn stage(
     device: &wgpu::Device,
     uploads: &mut Uploads,
     label: &str,
-    buffer: &mut wgpu::Buffer,
+    to: &mut wgpu::Buffer,
     bytes: &[u8],
 ) {
     let size = bytes.len() as u64;
-    if size > buffer.size() {
+    if size > to.size() {
         let room = size
             .next_power_of_two()
             .min(device.limits().max_buffer_size);
-        *buffer = vertex_buffer(device, label, room);
+        *to = buffer(device, label, room, VERTEX);
     }
-    uploads.write(buffer, 0, bytes);
+    uploads.write(to, 0, bytes);
 }

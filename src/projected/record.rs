@@ -1,6 +1,6 @@
 //! What receivers are told of each shadow.
 
-use crate::map::{FlatFrame, Place};
+use crate::map::{FlatFrame, Place, buffer};
 use crate::support::has_storage;
 use crate::uploads::Uploads;
 
@@ -105,14 +105,9 @@ impl Records {
             true => wgpu::BufferUsages::STORAGE,
             false => wgpu::BufferUsages::UNIFORM,
         };
-        let label = format!("{label} records");
+        let size = (count * size_of::<ProjectedRecord>()) as u64;
         Self {
-            buffer: device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(&label),
-                size: (count * size_of::<ProjectedRecord>()) as u64,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
+            buffer: buffer(device, &format!("{label} records"), size, usage),
             written: vec![Some(ProjectedRecord::LIT); count],
         }
     }

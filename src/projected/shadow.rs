@@ -218,8 +218,9 @@ impl ProjectedShadow {
     /// fn shadows_transmittance_facing(projector: u32, position: vec3f, normal: vec3f, x: vec3f, y: vec3f) -> vec3f
     /// ```
     ///
-    /// Beyond the frame's projectors all is lit. `arrayLength(&shadows_projectors)` (of a uniform buffer 128)
-    /// is at least as many as those.
+    /// `projector` is below `arrayLength(&shadows_projectors)`, which is at least as many as the frame's projectors
+    /// (of a uniform buffer it is 128, the most that a frame may then have). Up to there, what is no
+    /// projector of the frame is lit; beyond, WGSL has it read as any of the array.
     pub fn wgsl_module(&self, group: u32) -> String {
         self.receivers.module(group)
     }
@@ -282,7 +283,7 @@ impl ProjectedShadow {
             };
             records.push(ProjectedRecord::new(lies, place, self.layer_size));
             if state == ProjectorState::Drawn {
-                self.passes.add(lies, place, projector.casters);
+                self.passes.add(lies, place, projector);
             }
         }
         self.passes

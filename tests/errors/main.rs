@@ -1,6 +1,7 @@
 //! Bad input, and what a map decides on the CPU: by wgpu's own validation, without a driver.
 
 mod atlas_culling;
+mod atlas_matrices;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_errors;

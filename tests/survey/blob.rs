@@ -5,4 +5,5 @@ mod area;
 mod ask;
 mod calls;
 mod decals;
+mod errors;
 mod meshes;

@@ -1,5 +1,6 @@
 //! The cheap and the baked techniques against exact visibility, each with what it cannot do.
 
+mod ask;
 mod bake;
 mod blob;
 #[path = "../common/mod.rs"]

@@ -535,6 +535,15 @@ fn only_what_moved_is_uploaded() {
     stage.grounds[0].body = 3;
     let fewer = stage.draw_with(&gpu, &mut planar, &casters);
     assert_eq!(stage.judge(&stage.truth(), &fewer).wrong, 0);
+    // All move, of which the first does not lie first in the buffer.
+    for (caster, body) in casters.iter_mut().zip(&mut stage.bodies) {
+        caster.world_from_object.translation.z += 0.3;
+        body.transform = caster.world_from_object;
+    }
+    let moved = stage.draw_with(&gpu, &mut planar, &casters);
+    assert_eq!(uploaded(&planar), 3 * 48);
+    assert_eq!(stage.judge(&stage.truth(), &moved).wrong, 0);
+    assert!(stage.judge(&stage.truth(), &fewer).wrong > 0, "the twin");
 }
 
 #[test]
@@ -560,6 +569,14 @@ fn forgotten_calls_are_told_and_made_good() {
     assert_eq!(render(&planar, [0; 3]), Err(PlanarRenderError::Dropped));
     let picture = stage.draw_with(&gpu, &mut planar, &casters);
     assert!(planar.statistics().encoder_dropped);
+    assert_eq!(stage.judge(&stage.truth(), &picture).wrong, 0);
+    // What the host declares lost is not drawn, not even if it is encoded, before it is prepared.
+    assert_eq!(render(&planar, [0; 3]), Ok(()));
+    planar.invalidate();
+    gpu.run(|encoder| planar.encode(encoder));
+    assert_eq!(render(&planar, [0; 3]), Err(PlanarRenderError::NotEncoded));
+    let picture = stage.draw_with(&gpu, &mut planar, &casters);
+    assert!(planar.statistics().uploaded > 0 && !planar.statistics().not_encoded);
     assert_eq!(stage.judge(&stage.truth(), &picture).wrong, 0);
     for (place, what) in [
         ([1, 0, 0], "light"),

@@ -47,6 +47,35 @@ fn descriptors_that_do_not_fit_are_refused() {
         ..usual
     };
     refused(&wrong, &Error::ColorFormat { place: 1, format });
+    let eight = [Some(wgpu::TextureFormat::R8Unorm); 9];
+    let lists: [(&[_], _, u64, u64); 3] = [
+        (&eight, "max_color_attachments", 9, 8),
+        // Those that have no format count, too.
+        (&[None; 9], "max_color_attachments", 9, 8),
+        (
+            &[Some(wgpu::TextureFormat::Rgba32Float); 3],
+            "max_color_attachment_bytes_per_sample",
+            48,
+            32,
+        ),
+    ];
+    for (color_formats, name, needed, available) in lists {
+        let wrong = PlanarShadowDescriptor {
+            color_formats,
+            ..usual
+        };
+        let error = Error::ColorLimit {
+            name,
+            needed,
+            available,
+        };
+        refused(&wrong, &error);
+        let fits = PlanarShadowDescriptor {
+            color_formats: &color_formats[1..],
+            ..usual
+        };
+        assert!(PlanarShadow::new(&noop().0, &fits).is_ok());
+    }
     let unblended = Some(wgpu::TextureFormat::R32Uint);
     for (color_formats, target, found) in [
         (&[][..], 0, None),
@@ -251,12 +280,18 @@ fn frames_that_are_not_sound_are_refused_and_change_nothing() {
     let error = shadows::error::CasterError::NotFinite { index: 0 };
     refuse(&frame, error.into());
     let drawn_by_host = CasterMesh::host_drawn(&device, casters[0].mesh.bounds(), 1).unwrap();
-    let wrong = [Caster::new(drawn_by_host, Affine3A::IDENTITY)];
-    let frame = PlanarFrame {
-        casters: &wrong,
-        ..sound
-    };
-    refuse(&frame, Error::HostDrawn { index: 0 });
+    let drawn_by_host = Caster::new(drawn_by_host, Affine3A::IDENTITY);
+    // Behind one that is as it was; and again, as it was before but not taken over; and behind one that moved.
+    let wrong = [casters[0].clone(), drawn_by_host];
+    let mut moved = wrong.clone();
+    moved[0].world_from_object.translation.x += 1.0;
+    for (wrong, index) in [(&wrong[..], 1), (&wrong, 1), (&wrong[1..], 0), (&moved, 1)] {
+        let frame = PlanarFrame {
+            casters: wrong,
+            ..sound
+        };
+        refuse(&frame, Error::HostDrawn { index });
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use wgpu::util::DeviceExt as _;
 
 use super::ShadowAtlas;
+use crate::map::overlay::Overlay;
 use crate::map::plan::{Place, Tile};
 use crate::map::projection::TileProjection;
 use crate::map::statistics::TileState;
@@ -191,50 +192,21 @@ fn pipeline(
     layout: &wgpu::BindGroupLayout,
     descriptor: &AtlasDebugDescriptor<'_>,
 ) -> wgpu::RenderPipeline {
-    let shader = crate::shader::module(device, label, SHADER);
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(label),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
     let attributes = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4];
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(label),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &shader,
-            entry_point: Some("vertex"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Instance>() as u64,
-                step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &attributes,
-            })],
-        },
-        primitive: wgpu::PrimitiveState {
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            ..Default::default()
-        },
-        depth_stencil: descriptor
-            .depth_stencil
-            .map(|format| wgpu::DepthStencilState {
-                format,
-                depth_write_enabled: Some(false),
-                depth_compare: Some(wgpu::CompareFunction::Always),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-        multisample: wgpu::MultisampleState {
-            count: descriptor.samples,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module: &shader,
-            entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(descriptor.format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let overlay = Overlay {
+        label,
+        shader: SHADER,
+        layout,
+        buffers: &[Some(wgpu::VertexBufferLayout {
+            array_stride: size_of::<Instance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &attributes,
+        })],
+        topology: wgpu::PrimitiveTopology::TriangleStrip,
+        constants: &[],
+        format: descriptor.format,
+        depth_stencil: descriptor.depth_stencil,
+        samples: descriptor.samples,
+    };
+    overlay.pipeline(device)
 }

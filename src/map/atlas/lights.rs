@@ -5,6 +5,7 @@ use super::descriptor::{AtlasFrame, AtlasLight, AtlasView};
 use super::suns::{Sun, Suns};
 use crate::Light;
 use crate::error::ShadowAtlasError;
+use crate::map::gpu::TooLarge;
 use crate::map::plan::{Claim, LitSphere, Screen, importance};
 use crate::map::projection::{LightProjection, SlotLight, fit_spot};
 
@@ -34,6 +35,23 @@ impl ShadowAtlas {
             true => Ok(records),
             false => Err(ShadowAtlasError::TooManyLights { records, limit }),
         }
+    }
+
+    /// Whether one buffer of the device holds the matrices of all that has a slot.
+    pub(super) fn check_matrices(
+        &self,
+        device: &wgpu::Device,
+        entries: &[Entry<'_>],
+    ) -> Result<(), ShadowAtlasError> {
+        let lights = entries.len();
+        let checked = self.gpu.check_slots(device, lights);
+        checked.map_err(
+            |TooLarge { size, limit }| ShadowAtlasError::TooManyMatrices {
+                lights,
+                size,
+                limit,
+            },
+        )
     }
 
     /// Finds what every light's tiles show and where they lie. Tells the slots whose tiles were elsewhere

@@ -203,6 +203,7 @@ impl ShadowAtlas {
     ) -> Result<(usize, bool), ShadowAtlasError> {
         frame.validate(self.layer_size)?;
         let records = self.count_records(frame)?;
+        self.check_matrices(device, entries)?;
         self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
         self.suns.casters_changed(&self.casters);

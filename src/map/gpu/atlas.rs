@@ -128,6 +128,11 @@ impl AtlasGpu {
         resized
     }
 
+    /// Checks that one buffer of the device holds the matrices of so many slots.
+    pub fn check_slots(&self, device: &wgpu::Device, slots: usize) -> Result<(), TooLarge> {
+        self.casting.check_slots(device, slots)
+    }
+
     /// Makes room for so many instances, and for the matrices of so many slots.
     pub fn reserve(
         &mut self,

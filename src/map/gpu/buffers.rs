@@ -13,3 +13,9 @@ pub(crate) fn buffer(
         mapped_at_creation: false,
     })
 }
+
+/// The largest buffer that copies can fill.
+pub(crate) fn largest_buffer(device: &wgpu::Device) -> u64 {
+    let limit = device.limits().max_buffer_size;
+    limit - limit % wgpu::COPY_BUFFER_ALIGNMENT
+}

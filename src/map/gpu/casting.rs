@@ -3,10 +3,11 @@
 use glam::Mat4;
 
 use super::draws::{Draw, DrawLists, ListedDraws};
+use super::dynamic_uniforms::DynamicUniforms;
 use super::host_draw::{DrawByHost, HostDraw};
 use super::instances::{Instances, TooLarge};
 use super::pipelines::{PipelineKind, Pipelines};
-use super::uniforms::{TileUniform, TileUniforms};
+use super::tile_uniform::TileUniform;
 use crate::map::plan::Slot;
 use crate::map::projection::NearPlane;
 use crate::map::sides::CasterSides;
@@ -23,7 +24,7 @@ pub(crate) struct Casting {
     /// The most that a slot has.
     tiles_a_slot: usize,
     pipelines: Pipelines,
-    uniforms: TileUniforms,
+    uniforms: DynamicUniforms<TileUniform>,
     instances: Instances,
     draws: DrawLists,
     uploads: Uploads,
@@ -38,7 +39,7 @@ impl Casting {
         sides: CasterSides,
         (slots, tiles_a_slot): (usize, usize),
     ) -> Self {
-        let uniforms = TileUniforms::new(device, label, (slots * tiles_a_slot).max(1));
+        let uniforms = DynamicUniforms::new(device, format!("{label} faces"), slots * tiles_a_slot);
         Self {
             sides,
             near_plane: NearPlane::new(kind.format, kind.encoding),
@@ -79,7 +80,18 @@ impl Casting {
         self.instances.bytes() + self.uniforms.bytes()
     }
 
-    /// Makes room for so many instances, and for the matrices of so many slots.
+    /// Checks that one buffer of the device holds the matrices of so many slots.
+    pub fn check_slots(&self, device: &wgpu::Device, slots: usize) -> Result<(), TooLarge> {
+        let size = DynamicUniforms::<TileUniform>::size(slots.saturating_mul(self.tiles_a_slot));
+        let limit = DynamicUniforms::<TileUniform>::most(device);
+        match size > limit {
+            true => Err(TooLarge { size, limit }),
+            false => Ok(()),
+        }
+    }
+
+    /// Makes room for so many instances, and for the matrices of so many slots, which were
+    /// [checked](Self::check_slots).
     pub fn reserve(
         &mut self,
         device: &wgpu::Device,

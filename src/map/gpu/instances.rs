@@ -21,7 +21,7 @@ pub(crate) fn instance(light_from_object: &DAffine3) -> Instance {
     ]
 }
 
-/// Bytes that instances need, and that a buffer of the device may have.
+/// Bytes that are needed, and that a buffer of the device may have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TooLarge {
     pub size: u64,

@@ -6,4 +6,4 @@ mod uniforms;
 
 pub(crate) use outline::OutlineGpu;
 pub(crate) use pipelines::{CastKey, CastPipelines, Marking, MarkingPipelines, PassFormats};
-pub(crate) use uniforms::{DynamicUniforms, PlanarUniform};
+pub(crate) use uniforms::PlanarUniform;

@@ -8,10 +8,10 @@ use super::gpu::{CountPipelines, Receiver, SoftUniform, Target, clip_rows};
 use super::samples::{in_square, places};
 use crate::Light;
 use crate::error::PlanarSoftShadowError;
-use crate::map::INSTANCE_SIZE;
+use crate::map::{DynamicUniforms, INSTANCE_SIZE, largest_buffer};
 use crate::planar::axes::{PlaneAxes, Whereabouts};
-use crate::planar::casters::{CastDraw, PlaneCasters, host_drawn, largest, reorders};
-use crate::planar::gpu::{CastKey, DynamicUniforms, PlanarUniform};
+use crate::planar::casters::{CastDraw, PlaneCasters, host_drawn, reorders};
+use crate::planar::gpu::{CastKey, PlanarUniform};
 use crate::planar::light::PlaneLight;
 use crate::planar::statistics::PlanarStatistics;
 use crate::scene::Casters;
@@ -62,6 +62,7 @@ pub struct PlanarSoftShadow {
     pipelines: CountPipelines,
     uniforms: DynamicUniforms<PlanarUniform>,
     casters: Casters,
+    whereabouts: Whereabouts,
     plane: Option<PlaneCasters>,
     /// What the texture shows once the last encode has run.
     shown: Option<Shown>,
@@ -97,7 +98,7 @@ impl PlanarSoftShadow {
             None => "shadows planar soft".to_owned(),
         };
         let target = Target::new(device, &label, descriptor.size);
-        let uniforms = DynamicUniforms::new(device, &label);
+        let uniforms = DynamicUniforms::new(device, format!("{label} uniforms"), 1);
         Ok(Self {
             size: descriptor.size,
             samples: descriptor.samples,
@@ -108,6 +109,7 @@ impl PlanarSoftShadow {
             target,
             uniforms,
             casters: Casters::default(),
+            whereabouts: Whereabouts::default(),
             plane: None,
             shown: None,
             draws: None,
@@ -133,10 +135,10 @@ impl PlanarSoftShadow {
     ) -> Result<(), PlanarSoftShadowError> {
         frame.validate()?;
         self.check_sizes(device, frame)?;
-        if let Some(index) = host_drawn(frame.casters) {
+        self.casters.compare(frame.casters, device)?;
+        if let Some(index) = host_drawn(&self.casters, frame.casters) {
             return Err(PlanarSoftShadowError::HostDrawn { index });
         }
-        self.casters.compare(frame.casters, device)?;
         self.casters.update(frame.casters);
         let encoder_dropped = self.submissions.take_dropped();
         let not_encoded = self.draws.is_some() || self.uploads.is_waiting();
@@ -250,9 +252,9 @@ fn shadows_planar_visibility(world: vec3f) -> f32 {{
     }
 
     fn follow_casters(&mut self, device: &wgpu::Device, frame: &PlanarSoftFrame<'_>) {
-        let whereabouts = Whereabouts::of(self.casters.records());
-        let normal = frame.receiver.normal();
-        let axes = PlaneAxes::of(frame.receiver.corner.as_dvec3(), normal, whereabouts);
+        self.whereabouts.follow(&self.casters);
+        let (corner, normal) = (frame.receiver.corner.as_dvec3(), frame.receiver.normal());
+        let axes = PlaneAxes::of(corner, normal, self.whereabouts);
         let label = &self.label;
         let plane = self
             .plane
@@ -304,7 +306,7 @@ fn shadows_planar_visibility(world: vec3f) -> f32 {{
         device: &wgpu::Device,
         frame: &PlanarSoftFrame<'_>,
     ) -> Result<(), PlanarSoftShadowError> {
-        let limit = largest(device);
+        let limit = largest_buffer(device);
         let casters = frame.casters.len() as u64 * INSTANCE_SIZE;
         let samples = DynamicUniforms::<PlanarUniform>::size(self.samples as usize);
         for (what, size) in [("casters", casters), ("samples", samples)] {

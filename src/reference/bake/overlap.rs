@@ -8,7 +8,8 @@ use super::piece::Piece;
 /// rounding of corners to f32 makes of triangles that touch.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
-/// The first pair that overlaps, as places in the list, the smaller first; each is compared with those before it.
+/// The first triangle that overlaps one before it, and the first of those it overlaps: places in the list, the
+/// smaller first.
 pub(super) fn first_overlap(triangles: &[[DVec2; 3]]) -> Option<[usize; 2]> {
     let mut grid = Grid::new(triangles.len());
     (0..triangles.len()).find_map(|place| {
@@ -33,11 +34,13 @@ impl Grid {
         }
     }
 
-    /// Adds a triangle, unless it overlaps one that is there.
+    /// Adds a triangle; gives the first of those that are there that it overlaps.
     fn insert(&mut self, triangles: &[[DVec2; 3]], place: usize) -> Option<usize> {
         let side = self.side as f64;
         let triangle = triangles[place].map(|corner| corner * side);
         let last = self.side - 1;
+        // The first cell that both touch says nothing of the order in the list: all are asked.
+        let mut first: Option<usize> = None;
         let cells = |low: f64, high: f64| {
             let cell = |at: f64| (at.max(0.0) as usize).min(last);
             cell(low - 1e-9)..=cell(high + 1e-9)
@@ -54,17 +57,16 @@ impl Grid {
             }
             for column in cells(low, high) {
                 let cell = &mut self.cells[row * self.side + column];
-                let met = cell
-                    .iter()
-                    .map(|&other| other as usize)
+                // In the order of the list, so that none behind the first found so far is looked at.
+                let earlier = cell.iter().map(|&other| other as usize);
+                let met = earlier
+                    .take_while(|&other| first.is_none_or(|first| other < first))
                     .find(|&other| overlap(&triangles[other], &triangles[place]));
-                if met.is_some() {
-                    return met;
-                }
+                first = met.or(first);
                 cell.push(place as u32);
             }
         }
-        None
+        first
     }
 }
 

@@ -3,11 +3,11 @@
 use crate::uploads::Uploads;
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
-use crate::volume::plan::meshes::{ITEM_BYTES, LISTS, MeshPool};
+use crate::volume::plan::meshes::{self, ITEM_BYTES, LISTS, MeshPool};
 use crate::volume::plan::params::{
     Arguments, BatchParams, CasterParams, InstanceParams, LightParams, ViewParams,
 };
-use crate::volume::plan::ranges::NAMES;
+use crate::volume::plan::ranges;
 use crate::volume::plan::windows::Windows;
 use crate::volume::plan::work::{Share, Work};
 use crate::volume::silhouette::{Way, Ways};
@@ -332,7 +332,7 @@ impl Buffers {
 fn chunk(label: &str, place: usize) -> [Grown; 3] {
     use wgpu::BufferUsages as U;
     // Facings are read by the pass after the one that writes them. Only caps are read as indices.
-    let name = |i: usize| format!("{label} {} {place}", NAMES[i]);
+    let name = |i: usize| format!("{label} {} {place}", ranges::NAMES[i]);
     [
         Grown::new(name(0), U::STORAGE),
         Grown::keeping(name(1), U::STORAGE | U::INDEX),
@@ -342,8 +342,7 @@ fn chunk(label: &str, place: usize) -> [Grown; 3] {
 
 fn pool(label: &str, place: usize) -> [Grown; LISTS] {
     let name = |what: &str| format!("{label} mesh {what} {place}");
-    ["positions", "triangles", "edges", "edge uses"]
-        .map(|what| Grown::keeping(name(what), wgpu::BufferUsages::STORAGE))
+    meshes::NAMES.map(|what| Grown::keeping(name(what), wgpu::BufferUsages::STORAGE))
 }
 
 /// Bytes from one uniform window to the next.

@@ -23,7 +23,7 @@ pub(crate) fn has_depth_alone(format: wgpu::TextureFormat) -> bool {
 
 /// Whether pictures of this format can be drawn into with so many samples a pixel, and are `also` what
 /// is asked for. A device that goes by its adapter's own formats does not say which they are; there,
-/// every uncompressed colour format is believed to be one.
+/// every uncompressed colour format is believed to be one, but that whole numbers blend nowhere.
 pub(crate) fn is_drawable(
     device: &wgpu::Device,
     format: wgpu::TextureFormat,
@@ -33,6 +33,13 @@ pub(crate) fn is_drawable(
     let features = device.features();
     let is_color = format.has_color_aspect() && !format.is_compressed();
     if !(is_color && features.contains(format.required_features())) {
+        return false;
+    }
+    let whole = matches!(
+        format.sample_type(None, None),
+        Some(wgpu::TextureSampleType::Uint | wgpu::TextureSampleType::Sint)
+    );
+    if whole && also.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE) {
         return false;
     }
     let by_adapter = wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;

@@ -290,6 +290,10 @@ impl VolumeCache {
         wanted.dedup();
         let is_wanted = |slot: &Slot| slot.drawn > 0 && !slot.found;
         wanted.retain(|&number| self.get(number).is_some_and(is_wanted));
+        if wanted.is_empty() {
+            self.last_found.clear();
+            return wanted;
+        }
         wanted.sort_by_key(|&number| self.get(number).map(|slot| slot.mesh.id()));
         let mut total = self.held;
         for slot in wanted.iter().filter_map(|&number| self.get(number)) {

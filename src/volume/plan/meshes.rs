@@ -9,7 +9,8 @@ use crate::volume::silhouette::Way;
 /// The lists of a mesh.
 pub(crate) const LISTS: usize = 4;
 
-const NAMES: [&str; LISTS] = ["positions", "triangles", "edges", "edge uses"];
+/// What they are called, in errors and labels.
+pub(crate) const NAMES: [&str; LISTS] = ["positions", "triangles", "edges", "edge uses"];
 
 /// Bytes of a position, a triangle, an edge and a use of an edge.
 pub(crate) const ITEM_BYTES: [u64; LISTS] = [12, 12, 16, 4];

@@ -33,6 +33,23 @@ fn bytes_are_what_the_map_says() {
     assert_ne!(map.visibility(), other.visibility());
 }
 
+#[test]
+fn maps_of_the_same_texels_are_equal_however_long_they_took() {
+    let yard = Yard::new(8);
+    let light = BakedLight::new(yard.lamp());
+    let map = yard.bake(&light, 4);
+    let again = (0..100).map(|_| yard.bake(&light, 4));
+    let other = again
+        .into_iter()
+        .find(|again| again.seconds() != map.seconds());
+    assert_eq!(
+        map,
+        other.expect("100 bakes of the same time in nanoseconds")
+    );
+    assert_ne!(map, yard.bake(&light, 5));
+    assert_ne!(map, Yard::new(9).bake(&light, 4));
+}
+
 /// wgpu's own validation takes format, size and layout of each as they are, down to the last mip level.
 #[test]
 fn images_fit_their_textures() {

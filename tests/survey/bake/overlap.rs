@@ -124,6 +124,20 @@ fn grid(side: usize) -> impl Strategy<Value = Vec<[f32; 2]>> {
         })
 }
 
+#[test]
+fn the_first_of_several_is_named() {
+    // The last lies on both others. The second is in the first rows of texture coordinates, the first is not.
+    let corner = |x: f32, y: f32, size: f32| [[x, y], [x + size, y], [x, y + size]];
+    let first = corner(0.1, 0.6, 0.3);
+    let second = corner(0.1, 0.1, 0.3);
+    let last = [[0.05, 0.05], [0.45, 0.05], [0.05, 0.95]];
+    let on_both = [first, second, last].concat();
+    assert_eq!(counted(&on_both), (Some([0, 2]), false));
+    assert_eq!(told(&on_both), Err([0, 2]));
+    assert_eq!(told(&[second, first, last].concat()), Err([0, 2]));
+    assert_eq!(told(&[first, second].concat()), Ok(()));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 

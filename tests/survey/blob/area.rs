@@ -247,6 +247,35 @@ fn what_is_flat_casts_and_what_has_no_area_does_not() {
 }
 
 #[test]
+fn what_casts_nothing_is_not_reckoned_with() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let sun = BlobLight::new(DirectionalLight::new(Vec3::Y), 0.1, REACH);
+    // What is found out about a blob is no number, which shows unless nothing is asked.
+    let with = |blob: Blob| {
+        let frame = BlobFrame {
+            lights: &[sun],
+            blobs: &[blob],
+            ..Default::default()
+        };
+        let change = |module: String| {
+            let answer =
+                "return select(0.0, saturate(covered / f32(SHADOWS_BLOB_STRIPS + 1u)), before);";
+            assert!(module.contains(answer));
+            module.replace(answer, "return sqrt(-1.0 - distance);")
+        };
+        answers_of(&gpu, 6, &frame, &[Question::of(Vec3::ZERO, 0)], change)[0]
+    };
+    let ball = Blob::sphere(Vec3::Y * 2.0, 1.0);
+    let clear = Blob {
+        opacity: 0.0,
+        ..ball
+    };
+    assert_eq!(with(clear), 1.0);
+    assert_eq!(with(Blob::sphere(Vec3::Y * 2.0, 0.0)), 1.0);
+    assert!(with(ball).is_nan());
+}
+
+#[test]
 fn a_receiver_inside_is_dark_where_the_surface_is() {
     let Some(gpu) = Gpu::for_test() else { return };
     let blob = Blob {

@@ -1,9 +1,9 @@
 //! The function at given points, and what is true there.
 
 use shadows::glam::{DMat3, Vec3, Vec4Swizzles as _};
-use shadows::{Blob, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor, wgpu};
-use wgpu::util::DeviceExt as _;
+use shadows::{Blob, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor};
 
+use crate::ask::answers_by;
 use host::gpu::Gpu;
 
 const SHADER: &str = "
@@ -49,15 +49,24 @@ pub fn answers_of(
     questions: &[Question],
     change: impl FnOnce(String) -> String,
 ) -> Vec<f32> {
-    let device = &gpu.device;
     let descriptor = BlobShadowDescriptor {
         lights: 256,
         strips,
         ..Default::default()
     };
-    let mut shadow = BlobShadow::new(device, &descriptor).unwrap();
-    shadow.prepare(device, &gpu.queue, frame).unwrap();
+    let mut shadow = BlobShadow::new(&gpu.device, &descriptor).unwrap();
+    shadow.prepare(&gpu.device, &gpu.queue, frame).unwrap();
     gpu.run(|encoder| shadow.encode(encoder));
+    answers_from(gpu, &shadow, questions, change)
+}
+
+/// The same of what was prepared and encoded.
+pub fn answers_from(
+    gpu: &Gpu,
+    shadow: &BlobShadow,
+    questions: &[Question],
+    change: impl FnOnce(String) -> String,
+) -> Vec<f32> {
     let data: Vec<[f32; 8]> = questions
         .iter()
         .map(|q| {
@@ -65,71 +74,11 @@ pub fn answers_of(
             [q.at.x, q.at.y, q.at.z, 0.0, light, own, 0.0, 0.0]
         })
         .collect();
-    let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: None,
-        contents: bytemuck::cast_slice(&data),
-        usage: wgpu::BufferUsages::STORAGE,
-    });
-    let output = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: 4 * questions.len() as u64,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    });
-    let text = shadow.wgsl_module(1);
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl((change(text) + SHADER).into()),
-    });
-    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let own = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries: &[entry(0, true), entry(1, false)],
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&own), shadow.bind_group_layout()],
-        immediate_size: 0,
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some("ask"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &own,
-        entries: &[
-            wgpu::BindGroupEntry {
-                binding: 0,
-                resource: input.as_entire_binding(),
-            },
-            wgpu::BindGroupEntry {
-                binding: 1,
-                resource: output.as_entire_binding(),
-            },
-        ],
-    });
-    gpu.run(|encoder| {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.set_bind_group(1, shadow.bind_group(), &[]);
-        pass.dispatch_workgroups((questions.len() as u32).div_ceil(64), 1, 1);
-    });
-    bytemuck::pod_collect_to_vec(&gpu.read_buffer(&output))
+    let group = (
+        shadow.bind_group_layout().unwrap(),
+        shadow.bind_group().unwrap(),
+    );
+    answers_by(gpu, change(shadow.wgsl_module(1)) + SHADER, group, &data)
 }
 
 /// The part of a light's disk that reaches a point past an ellipsoid, by rays to places on a spiral of golden

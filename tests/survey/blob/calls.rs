@@ -1,32 +1,57 @@
-//! What is uploaded, and what is refused.
+//! What is uploaded and drawn from call to call.
 
-use shadows::error::{BlobRenderError, BlobShadowError, CasterError, LightError};
-use shadows::glam::{Affine3A, Vec3, Vec4};
+use shadows::error::BlobRenderError;
+use shadows::glam::{Affine3A, Vec3};
 use shadows::{
-    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor,
-    DirectionalLight, HomogeneousLight, wgpu,
+    Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor, Caster,
+    DirectionalLight, wgpu,
 };
 
+use super::ask::{Question, answers_from};
+use crate::common::noop;
 use crate::common::shapes::{cuboid, sphere, square};
-use crate::common::{noop, noop_with, two_noop_devices};
 use host::gpu::Gpu;
 use host::renderer::{Look, view_as};
 use host::scene::floor;
 
-fn sun() -> BlobLight {
+pub fn sun() -> BlobLight {
     BlobLight::new(DirectionalLight::new(Vec3::Y), 0.1, 10.0)
 }
 
-fn with_decals() -> BlobShadowDescriptor<'static> {
+pub fn with_decals() -> BlobShadowDescriptor<'static> {
     BlobShadowDescriptor {
         decals: Some(BlobDecalDescriptor::default()),
         ..Default::default()
     }
 }
 
-fn row(count: usize) -> Vec<Blob> {
+pub fn row(count: usize) -> Vec<Blob> {
     let at = |i: usize| Blob::sphere(Vec3::X * i as f32, 0.4);
     (0..count).map(at).collect()
+}
+
+/// A depth texture of one layer.
+pub fn depth(
+    device: &wgpu::Device,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+    [samples, layers]: [u32; 2],
+) -> wgpu::TextureView {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: 16,
+            height: 16,
+            depth_or_array_layers: layers,
+        },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: usage | wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    texture.create_view(&Default::default())
 }
 
 #[test]
@@ -127,276 +152,101 @@ fn a_caster_is_an_ellipsoid_of_its_bounds() {
 }
 
 #[test]
-fn descriptors_out_of_range_are_refused() {
-    let (device, _) = noop();
-    let refused = |descriptor: &BlobShadowDescriptor<'_>| {
-        BlobShadow::new(&device, descriptor)
-            .map(|_| ())
-            .unwrap_err()
-    };
-    for value in [0, 257] {
-        let lights = BlobShadowDescriptor {
-            lights: value,
-            ..Default::default()
-        };
-        let views = BlobShadowDescriptor {
-            views: value,
-            ..Default::default()
-        };
-        let strips = BlobShadowDescriptor {
-            strips: value,
-            ..Default::default()
-        };
-        for (what, descriptor, limit) in [
-            ("lights", lights, 256),
-            ("views", views, 256),
-            ("strips", strips, 64),
-        ] {
-            let expected = BlobShadowError::Range { what, value, limit };
-            assert_eq!(refused(&descriptor), expected);
-        }
-    }
-    let target = |target_format| BlobShadowDescriptor {
-        decals: Some(BlobDecalDescriptor {
-            target_format,
-            ..Default::default()
-        }),
-        ..Default::default()
-    };
-    for format in [
-        wgpu::TextureFormat::Depth32Float,
-        wgpu::TextureFormat::R32Uint,
-        wgpu::TextureFormat::Bc1RgbaUnorm,
-    ] {
-        let expected = BlobShadowError::TargetFormat(format);
-        assert_eq!(refused(&target(format)), expected);
-    }
-    let color = wgpu::TextureFormat::R8Unorm;
-    let descriptor = BlobShadowDescriptor {
-        decals: Some(BlobDecalDescriptor {
-            depth_stencil_format: Some(color),
-            ..Default::default()
-        }),
-        ..Default::default()
-    };
-    assert_eq!(refused(&descriptor), BlobShadowError::DepthFormat(color));
-    let limits = wgpu::Limits::downlevel_webgl2_defaults();
-    let (device, _) = noop_with(wgpu::Features::empty(), limits);
-    let error = BlobShadow::new(&device, &with_decals()).map(|_| ());
-    assert_eq!(error.unwrap_err(), BlobShadowError::NoStorage);
-    // Decals need none.
-    let decals_only = BlobShadowDescriptor {
-        receivers: false,
-        ..with_decals()
-    };
-    let shadow = BlobShadow::new(&device, &decals_only).unwrap();
-    assert!(shadow.bind_group().is_none() && shadow.bind_group_layout().is_none());
-}
-
-#[test]
-fn frames_out_of_range_are_refused_and_leave_what_was() {
-    let [(device, queue), (other, _)] = two_noop_devices();
+fn what_is_beyond_f32_casts_nothing() {
+    let (device, queue) = noop();
     let mut shadow = BlobShadow::new(&device, &with_decals()).unwrap();
-    let view = view_as(&floor(), [64, 64], Look::default()).unwrap();
-    let mut prepare = |frame: BlobFrame<'_>| {
-        let result = shadow.prepare(&device, &queue, &frame);
-        (result, shadow.statistics())
-    };
-    let blobs = row(3);
-    let good = BlobFrame {
+    // A plate that lies aside of its mesh's origin, farther than f32 reaches.
+    let mut plate = square(1.0);
+    plate.positions.iter_mut().for_each(|[_, y, _]| *y = 3.0);
+    let away = Affine3A::from_scale(Vec3::new(1.0, 1.2e38, 1.0));
+    let casters = [
+        plate.caster(&device, away),
+        plate.caster(&device, Affine3A::IDENTITY),
+    ];
+    assert!(!Blob::of_caster(&casters[0]).centre.is_finite());
+    let frame = BlobFrame {
         lights: &[sun()],
-        blobs: &blobs,
+        casters: &casters,
+        // The second is as large as what casts may be, the third larger.
+        blobs: &[
+            Blob::sphere(Vec3::ZERO, 1.0),
+            Blob::sphere(Vec3::ZERO, 9e15),
+            Blob::sphere(Vec3::ZERO, 2e16),
+        ],
         ..Default::default()
     };
-    assert_eq!(prepare(good).1.blobs, 3);
-    let nan = f32::NAN;
-    let caster = cuboid(Vec3::ONE).caster(&device, Affine3A::IDENTITY);
-    let mut wrong = caster.clone();
-    wrong.world_from_object.translation.x = nan;
-    let foreign = cuboid(Vec3::ONE).caster(&other, Affine3A::IDENTITY);
-    let of_lights = |lights| BlobFrame { lights, ..good };
-    let of_blobs = |blobs| BlobFrame { blobs, ..good };
-    let bad = BlobLight {
-        light: HomogeneousLight(Vec4::ZERO),
-        ..sun()
-    };
-    use BlobShadowError as E;
-    for (frame, expected) in [
-        (
-            of_lights(&[sun(), sun()]),
-            E::TooMany {
-                what: "lights",
-                count: 2,
-                limit: 1,
-            },
-        ),
-        (
-            BlobFrame {
-                views: &[view, view],
-                ..good
-            },
-            E::TooMany {
-                what: "views",
-                count: 2,
-                limit: 1,
-            },
-        ),
-        (
-            of_lights(&[bad]),
-            E::Light {
-                index: 0,
-                error: LightError::Direction,
-            },
-        ),
-        (
-            of_lights(&[BlobLight {
-                radius: -1.0,
-                ..sun()
-            }]),
-            E::Radius {
-                index: 0,
-                radius: -1.0,
-            },
-        ),
-        (
-            of_lights(&[BlobLight {
-                reach: 0.0,
-                ..sun()
-            }]),
-            E::Reach {
-                index: 0,
-                reach: 0.0,
-            },
-        ),
-        (
-            of_blobs(&[blobs[0], Blob::sphere(Vec3::ONE, nan)]),
-            E::Blob { index: 1 },
-        ),
-        (
-            of_blobs(&[Blob {
-                opacity: 1.5,
-                ..blobs[0]
-            }]),
-            E::Opacity {
-                index: 0,
-                opacity: 1.5,
-            },
-        ),
-        (
-            BlobFrame {
-                casters: &[caster.clone(), wrong],
-                ..good
-            },
-            E::Caster(CasterError::NotFinite { index: 1 }),
-        ),
-        (
-            BlobFrame {
-                casters: &[foreign],
-                ..good
-            },
-            E::Caster(CasterError::Device { index: 0 }),
-        ),
-    ] {
-        let (result, statistics) = prepare(frame);
-        assert_eq!(result, Err(expected));
-        assert_eq!(statistics.blobs, 3);
-    }
-    for light in [
-        bad,
-        BlobLight {
-            radius: nan,
-            ..sun()
-        },
-    ] {
-        assert!(light.validate().is_err());
-    }
-    let both = BlobFrame {
-        casters: &[caster],
-        ..good
-    };
-    assert_eq!(prepare(both).1.blobs, 4);
+    shadow.prepare(&device, &queue, &frame).unwrap();
+    let found = shadow.statistics();
+    assert_eq!((found.blobs, found.without_shadow), (5, 2));
 }
 
 #[test]
-fn more_blobs_than_buffers_hold_are_refused() {
-    let limits = wgpu::Limits {
-        max_buffer_size: 1 << 16,
-        ..wgpu::Limits::defaults()
+fn casters_come_go_and_move_before_blobs_that_stay() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let cube = cuboid(Vec3::splat(0.4));
+    let mesh = cube.mesh(&gpu.device);
+    let at = |x: f32, z: f32| {
+        let place = Affine3A::from_translation(Vec3::new(x, 1.0, z));
+        Caster::new(mesh.clone(), place)
     };
-    let (device, queue) = noop_with(wgpu::Features::empty(), limits);
-    let mut shadow = BlobShadow::new(&device, &with_decals()).unwrap();
-    let mut prepare = |count| {
+    let blobs = [1.0, 3.0].map(|x| Blob::sphere(Vec3::new(x, 1.0, -3.0), 0.5));
+    let flat = Blob::sphere(Vec3::Y, 0.0);
+    let below = (0..14 * 9).map(|i| Vec3::new((i % 14) as f32 - 2.0, 0.0, (i / 14) as f32 - 4.0));
+    let questions: Vec<Question> = below.map(|at| Question::of(at, 0)).collect();
+    let new = || BlobShadow::new(&gpu.device, &Default::default()).unwrap();
+    let mut kept = new();
+    let mut step = |casters: &[Caster], blobs: &[Blob], encode: bool| {
         let frame = BlobFrame {
             lights: &[sun()],
-            blobs: &row(count),
+            casters,
+            blobs,
             ..Default::default()
         };
-        shadow.prepare(&device, &queue, &frame)
+        kept.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+        let found = kept.statistics();
+        if encode {
+            gpu.run(|encoder| kept.encode(encoder));
+            let mut fresh = new();
+            fresh.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
+            gpu.run(|encoder| fresh.encode(encoder));
+            let [ours, theirs] =
+                [&kept, &fresh].map(|shadow| answers_from(&gpu, shadow, &questions, |text| text));
+            assert_eq!(ours, theirs);
+            let dark = ours.iter().filter(|v| **v < 0.5).count();
+            let without = found.without_shadow as usize;
+            assert_eq!(dark, casters.len() + blobs.len() - without);
+            assert_eq!(found.without_shadow, fresh.statistics().without_shadow);
+        }
+        (found.changed, found.uploaded)
     };
-    assert_eq!(prepare(1023), Ok(()));
-    let expected = BlobShadowError::TooManyBlobs {
-        count: 1024,
-        limit: 1023,
-    };
-    assert_eq!(prepare(1024), Err(expected));
-}
-
-/// A depth texture of one layer.
-fn depth(
-    device: &wgpu::Device,
-    format: wgpu::TextureFormat,
-    usage: wgpu::TextureUsages,
-    [samples, layers]: [u32; 2],
-) -> wgpu::TextureView {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d {
-            width: 16,
-            height: 16,
-            depth_or_array_layers: layers,
-        },
-        mip_level_count: 1,
-        sample_count: samples,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: usage | wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
-    texture.create_view(&Default::default())
-}
-
-#[test]
-fn depth_that_cannot_be_read_is_refused() {
-    let (device, _) = noop();
-    let shadow = BlobShadow::new(&device, &with_decals()).unwrap();
-    use wgpu::{TextureFormat as F, TextureUsages as U};
-    let bind = U::TEXTURE_BINDING;
-    for format in [F::Depth32Float, F::Depth24PlusStencil8, F::Depth16Unorm] {
-        let view = depth(&device, format, bind, [1, 1]);
-        shadow.decal_bind_group(&device, &view).unwrap();
-    }
-    for (format, usage, sizes) in [
-        (F::R8Unorm, bind, [1, 1]),
-        (F::Depth32Float, U::empty(), [1, 1]),
-        (F::Depth32Float, bind, [4, 1]),
-        (F::Depth32Float, bind, [1, 2]),
-    ] {
-        let view = depth(&device, format, usage, sizes);
-        let error = shadow.decal_bind_group(&device, &view).unwrap_err();
-        let [samples, layers] = sizes;
-        let usage = usage | U::RENDER_ATTACHMENT;
-        let expected = BlobShadowError::Depth {
-            format,
-            usage,
-            samples,
-            layers,
-        };
-        assert_eq!(error, expected);
-    }
-    let plain = BlobShadow::new(&device, &Default::default()).unwrap();
-    let view = depth(&device, F::Depth32Float, bind, [1, 1]);
-    let error = plain.decal_bind_group(&device, &view).unwrap_err();
-    assert_eq!(error, BlobShadowError::NoDecals);
+    let mut casters = vec![at(0.0, 0.0), at(2.0, 0.0), at(4.0, 0.0)];
+    assert_eq!(step(&casters, &blobs, true), (5, 5 * 64 + 16 + 256));
+    assert_eq!(step(&casters, &blobs, true), (0, 0));
+    casters[1] = at(2.0, 2.0);
+    assert_eq!(step(&casters, &blobs, true), (1, 64));
+    // What does not change an ellipsoid.
+    casters[2].layers = 1;
+    mesh.bump_revision();
+    assert_eq!(step(&casters, &blobs, true), (0, 0));
+    // One goes: all behind it are in other places; one more comes, before the same blobs.
+    casters.remove(0);
+    assert_eq!(step(&casters, &blobs, true), (4, 4 * 64 + 16));
+    casters.push(at(6.0, 1.0));
+    assert_eq!(step(&casters, &blobs, true), (3, 3 * 64 + 16));
+    casters.swap(0, 2);
+    assert_eq!(step(&casters, &blobs, true).0, 2);
+    // More than there was room for, and none.
+    let many: Vec<_> = (0..70)
+        .map(|i| at((i % 11) as f32, (i / 11) as f32 - 2.0))
+        .collect();
+    assert_eq!(step(&many, &blobs, true), (72, 72 * 64 + 16));
+    assert_eq!(step(&[], &blobs, true).0, 2);
+    assert_eq!(step(&casters, &[flat, blobs[0]], true).0, 5);
+    // What changed in a frame that was not encoded is not lost in the next.
+    casters[0] = at(8.0, 3.0);
+    step(&casters, &blobs, false);
+    assert_eq!(step(&casters, &blobs, true), (0, 5 * 64 + 16 + 256));
+    assert_eq!(step(&casters[..1], &[], true).0, 0);
 }
 
 #[test]
@@ -427,6 +277,7 @@ fn nothing_is_drawn_before_it_is_encoded_nor_what_the_frame_has_not() {
         result
     };
     assert_eq!(render(&plain, 0, 0), Err(BlobRenderError::NoDecals));
+    assert_eq!(render(&shadow, 0, 0), Err(BlobRenderError::NotEncoded));
     let view = view_as(&floor(), [64, 64], Look::default()).unwrap();
     let blobs = row(3);
     let frame = BlobFrame {
@@ -453,4 +304,11 @@ fn nothing_is_drawn_before_it_is_encoded_nor_what_the_frame_has_not() {
         };
         assert_eq!(render(&shadow, light, view), Err(expected));
     }
+    // What the host declares lost is not drawn before it is prepared and encoded again.
+    shadow.invalidate();
+    gpu.run(|encoder| shadow.encode(encoder));
+    assert_eq!(render(&shadow, 0, 0), Err(BlobRenderError::NotEncoded));
+    shadow.prepare(device, &gpu.queue, &frame).unwrap();
+    gpu.run(|encoder| shadow.encode(encoder));
+    assert_eq!(render(&shadow, 0, 0), Ok(()));
 }

@@ -187,7 +187,14 @@ impl Trial {
 
     /// With a shader of the library changed.
     fn broken(&self, gpu: &Gpu, from: &'static str, to: &'static str) -> Both {
-        rewriting::set(Some(Box::new(move |text| text.replace(from, to))));
+        self.changed(gpu, [[from, to]])
+    }
+
+    fn changed<const N: usize>(&self, gpu: &Gpu, changes: [[&'static str; 2]; N]) -> Both {
+        rewriting::set(Some(Box::new(move |text| {
+            let all = changes.iter();
+            all.fold(text.to_owned(), |text, [from, to]| text.replace(from, to))
+        })));
         let both = self.both(gpu);
         rewriting::set(None);
         both
@@ -259,6 +266,20 @@ fn decals_show_what_the_function_says_in_every_view() {
                 ..lamp()
             },
         ),
+        (
+            "endless",
+            Trial {
+                reach: f32::MAX,
+                ..lamp()
+            },
+        ),
+        (
+            "endless sun",
+            Trial {
+                reach: f32::MAX,
+                ..Trial::under(SUN, 0.1)
+            },
+        ),
         ("small", lamp().scaled(1e-4)),
         ("large", lamp().scaled(1e5)),
     ] {
@@ -315,6 +336,37 @@ fn broken_decals_are_found() {
         // None of the sound ones does.
         assert!(both.differing() > 10, "{from}: {}", both.differing());
     }
+}
+
+#[test]
+fn what_casts_nothing_covers_no_pixel() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let without = |blobs: Vec<Blob>| {
+        let mut trial = Trial::under(LAMP, 0.4);
+        // The floor alone receives.
+        trial.scene.objects.truncate(1);
+        trial.scene.objects[0].casts = false;
+        Trial { blobs, ..trial }
+    };
+    // Every pixel that a hull covers is black, and what has no area has a hull as wide as the reach.
+    let black = [
+        [
+            "return vec4f(vec3f(visibility), 1.0);",
+            "return vec4f(0.0);",
+        ],
+        ["blob.radius / determinant(rows)", "1.0"],
+    ];
+    let covered = |blobs| {
+        let both = without(blobs).changed(&gpu, black);
+        both.decals.iter().filter(|v| **v == 0).count()
+    };
+    let ball = Blob::sphere(Vec3::Y, 0.5);
+    let clear = Blob {
+        opacity: 0.0,
+        ..ball
+    };
+    assert_eq!(covered(vec![clear, Blob::sphere(Vec3::Y, 0.0)]), 0);
+    assert!(covered(vec![ball]) > 100);
 }
 
 #[test]

@@ -1,10 +1,9 @@
-//! What comes through to given points, read by a compute shader through the crate's own WGSL: no camera and
-//! no rasteriser between the point that is asked for and the answer.
+//! What comes through to given points, by the crate's own WGSL.
 
+use shadows::ProjectedShadow;
 use shadows::glam::Vec3;
-use shadows::{ProjectedShadow, wgpu};
-use wgpu::util::DeviceExt as _;
 
+use crate::ask::answers_by;
 use host::gpu::Gpu;
 
 /// A point that may receive a shadow.
@@ -80,13 +79,7 @@ pub fn ask_changed(
     points: &[Point],
     change: impl FnOnce(String) -> String,
 ) -> Vec<[f32; 3]> {
-    let device = &gpu.device;
-    let module = change(shadow.wgsl_module(1));
     let shader = SHADER.replace("PROJECTOR", &format!("{projector}u"));
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl((module + &shader).into()),
-    });
     let data: Vec<[[f32; 4]; 4]> = points
         .iter()
         .map(|point| {
@@ -100,65 +93,8 @@ pub fn ask_changed(
             ]
         })
         .collect();
-    let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: None,
-        contents: bytemuck::cast_slice(&data),
-        usage: wgpu::BufferUsages::STORAGE,
-    });
-    let output = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: 16 * points.len() as u64,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    });
-    let entry = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries: &[entry(0, true), entry(1, false)],
-    });
-    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&layout), Some(shadow.bind_group_layout())],
-        immediate_size: 0,
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: Some(&pipeline_layout),
-        module: &module,
-        entry_point: Some("ask"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let resource = |binding, buffer: &wgpu::Buffer| (binding, buffer.clone());
-    let buffers = [resource(0, &input), resource(1, &output)];
-    let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
-        .iter()
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding: *binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &entries,
-    });
-    gpu.run(|encoder| {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.set_bind_group(1, shadow.bind_group(), &[]);
-        pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
-    });
-    let read: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&gpu.read_buffer(&output));
-    read.into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
+    let group = (shadow.bind_group_layout(), shadow.bind_group());
+    let module = change(shadow.wgsl_module(1)) + &shader;
+    let through: Vec<[f32; 4]> = answers_by(gpu, module, group, &data);
+    through.into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
 }

@@ -5,7 +5,10 @@ use super::{drawn, opaque};
 use crate::common::shapes::{cuboid, square};
 use host::gpu::Gpu;
 use shadows::glam::{Affine3A, Vec3};
-use shadows::{Caster, DirectionalLight, PointLight, Projector, ProjectorState};
+use shadows::{
+    Caster, DirectionalLight, Light, PointLight, ProjectedShadow, Projector, ProjectorState,
+    SpotLight,
+};
 
 #[test]
 fn a_caster_takes_its_own_shadow_from_the_nearest_point_of_its_bounds_on() {
@@ -46,6 +49,38 @@ fn a_receiver_between_caster_and_light_is_darkened_unless_its_projector_tells_th
     );
     let seen = [0, 1].map(|projector| ask(&gpu, &shadow, projector, &shelf)[0]);
     assert_eq!(seen, [[1.0; 3]; 2]);
+}
+
+#[test]
+fn what_is_beyond_a_lights_range_casts_nothing_within_it() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let square = |half: f32, place: Vec3| square(half).caster(&gpu.device, at(place));
+    fn at(place: Vec3) -> Affine3A {
+        Affine3A::from_translation(place)
+    }
+    // Two small ones within the range of 8, and far behind the receivers a wide one, seen between them.
+    let [left, right] = [-1.5, 1.5].map(|x| square(0.5, Vec3::new(x, 6.0, 0.0)));
+    let far = square(9.0, Vec3::Y * -6.0);
+    let casters = opaque(&[left, right, far]);
+    let lights: [fn(f32) -> Light; 2] = [
+        |range| PointLight::new(Vec3::Y * 10.0, range).into(),
+        |range| SpotLight::new(Vec3::Y * 10.0, Vec3::NEG_Y, 0.5, range).into(),
+    ];
+    // Under a small one, and between the two.
+    let points = [2.25, 0.0].map(|x| Point::at(Vec3::new(x, 4.0, 0.0)));
+    let seen = |shadow: &ProjectedShadow| ask(&gpu, shadow, 0, &points);
+    for light in lights {
+        let shadow = drawn(&gpu, &[Projector::new(light(8.0), &casters)]);
+        assert_eq!(seen(&shadow), [[0.0; 3], [1.0; 3]]);
+        assert_eq!(shadow.statistics().triangles, 4);
+        // The broken twin: a light that reaches both.
+        let shadow = drawn(&gpu, &[Projector::new(light(40.0), &casters)]);
+        assert_eq!(seen(&shadow), [[0.0; 3]; 2], "falsely");
+        assert_eq!(shadow.statistics().triangles, 6);
+        // With nothing in range there is no shadow.
+        let shadow = drawn(&gpu, &[Projector::new(light(8.0), &casters[2..])]);
+        assert_eq!(shadow.state(0), Some(ProjectorState::Empty));
+    }
 }
 
 #[test]

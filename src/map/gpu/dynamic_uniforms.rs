@@ -1,48 +1,26 @@
-//! The matrices of tiles, for the shader that draws casters.
+//! Uniforms of one buffer, picked by dynamic offset.
 
-use super::buffers::buffer;
+use super::buffers::{buffer, largest_buffer};
 use crate::uploads::Uploads;
 
 /// Bytes from one uniform to the next: the largest alignment a device may ask for.
-pub(crate) const UNIFORM_STRIDE: u64 = 256;
+const STRIDE: u64 = 256;
 
-/// `ShadowsCubeFaceUniform` in WGSL.
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-pub(crate) struct TileUniform {
-    clip_from_light: [f32; 16],
-    range: f32,
-    /// Of the map's side, where that is 2 wide.
-    texel: f32,
-    padding: [f32; 2],
-}
-
-impl TileUniform {
-    /// `size`: texels along a side of the map.
-    pub fn new(clip_from_light: &glam::Mat4, range: f32, size: u32) -> Self {
-        Self {
-            clip_from_light: clip_from_light.to_cols_array(),
-            range,
-            texel: 2.0 / size as f32,
-            padding: [0.0; 2],
-        }
-    }
-}
-
-/// The uniforms of all tiles of a map, picked by dynamic offset.
+/// Uniforms that draws are told apart by, and the bind group that has them at binding 0.
 #[derive(Debug)]
-pub(crate) struct TileUniforms {
+pub(crate) struct DynamicUniforms<T> {
     label: String,
     buffer: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
     /// What they hold once the uploads are recorded.
-    written: Vec<Option<TileUniform>>,
+    written: Vec<Option<T>>,
 }
 
-impl TileUniforms {
-    pub fn new(device: &wgpu::Device, label: &str, count: usize) -> Self {
-        let label = format!("{label} faces");
+impl<T: bytemuck::Pod + PartialEq> DynamicUniforms<T> {
+    /// Of at least one.
+    pub fn new(device: &wgpu::Device, label: String, count: usize) -> Self {
+        const { assert!(size_of::<T>() as u64 <= STRIDE) };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(&label),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -51,12 +29,13 @@ impl TileUniforms {
                 ty: wgpu::BindingType::Buffer {
                     ty: wgpu::BufferBindingType::Uniform,
                     has_dynamic_offset: true,
-                    min_binding_size: wgpu::BufferSize::new(size_of::<TileUniform>() as u64),
+                    min_binding_size: wgpu::BufferSize::new(size_of::<T>() as u64),
                 },
                 count: None,
             }],
         });
-        let (buffer, group) = make(device, &label, &layout, count);
+        let count = count.max(1);
+        let (buffer, group) = make::<T>(device, &label, &layout, count);
         Self {
             label,
             buffer,
@@ -66,11 +45,22 @@ impl TileUniforms {
         }
     }
 
-    /// Makes room for so many; those that were written are written again.
+    /// Bytes that so many take.
+    pub fn size(count: usize) -> u64 {
+        (count as u64).saturating_mul(STRIDE)
+    }
+
+    /// The most bytes that there can be: dynamic offsets have 32 bits.
+    pub fn most(device: &wgpu::Device) -> u64 {
+        largest_buffer(device).min(u64::from(u32::MAX))
+    }
+
+    /// Makes room for so many, which [`most`](Self::most) holds; those that were written are written again.
     pub fn reserve(&mut self, device: &wgpu::Device, count: usize) {
         if count > self.written.len() {
-            let count = count.next_power_of_two();
-            (self.buffer, self.group) = make(device, &self.label, &self.layout, count);
+            let most = (Self::most(device) / STRIDE) as usize;
+            let count = count.next_power_of_two().min(most.max(count));
+            (self.buffer, self.group) = make::<T>(device, &self.label, &self.layout, count);
             self.written = vec![None; count];
         }
     }
@@ -84,9 +74,9 @@ impl TileUniforms {
     }
 
     /// Uploads one, if it is not what it was.
-    pub fn write(&mut self, uploads: &mut Uploads, index: usize, uniform: TileUniform) {
+    pub fn write(&mut self, uploads: &mut Uploads, index: usize, uniform: T) {
         if self.written[index].replace(uniform) != Some(uniform) {
-            let offset = index as u64 * UNIFORM_STRIDE;
+            let offset = index as u64 * STRIDE;
             uploads.write(&self.buffer, offset, bytemuck::bytes_of(&uniform));
         }
     }
@@ -96,18 +86,19 @@ impl TileUniforms {
         self.written.fill(None);
     }
 
+    /// Binds one, in group 0.
     pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, index: usize) {
-        pass.set_bind_group(0, &self.group, &[index as u32 * UNIFORM_STRIDE as u32]);
+        pass.set_bind_group(0, &self.group, &[index as u32 * STRIDE as u32]);
     }
 }
 
-fn make(
+fn make<T>(
     device: &wgpu::Device,
     label: &str,
     layout: &wgpu::BindGroupLayout,
     count: usize,
 ) -> (wgpu::Buffer, wgpu::BindGroup) {
-    let size = count as u64 * UNIFORM_STRIDE;
+    let size = count as u64 * STRIDE;
     let buffer = buffer(device, label, size, wgpu::BufferUsages::UNIFORM);
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some(label),
@@ -117,7 +108,7 @@ fn make(
             resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &buffer,
                 offset: 0,
-                size: wgpu::BufferSize::new(size_of::<TileUniform>() as u64),
+                size: wgpu::BufferSize::new(size_of::<T>() as u64),
             }),
         }],
     });
