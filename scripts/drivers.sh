@@ -109,10 +109,11 @@ on() {
 # Where each module is a suite of its own.
 folders='tests/maps tests/receivers examples/compare/tests/measured'
 
-# The test binary that a suite is in. `volume::passes` is a part of `volume`.
+# The test binary that a suite is in. `volume::passes` is a part of `volume`; two binaries may have a part of one
+# name, which stands with the binary's then.
 home() {
     case $1 in
-    lib | gl | volume | volume::*)
+    lib | gl | survey | volume | *::*)
         echo "${1%%::*}"
         return
         ;;
@@ -122,17 +123,28 @@ home() {
     done
 }
 
+# Every part of those binaries that draws.
+drawing() {
+    for folder in $folders; do
+        for file in $(grep -l 'host::gpu' "$folder"/*.rs); do
+            name=$(basename "$file" .rs)
+            [ "$(home "$name" | wc -l)" -eq 1 ] || name=$(basename "$folder")::$name
+            echo "$name"
+        done
+    done
+}
+
 # The tests that draw, or those of them that are named: `SUITE BINARY FILTER` for each.
 suites() {
     if [ $# -eq 0 ]; then
-        # shellcheck disable=SC2046,SC2086
-        set -- lib gl volume $(grep -l 'host::gpu' $(printf '%s/*.rs ' $folders) | sed 's#.*/\(.*\)\.rs#\1#')
+        # shellcheck disable=SC2046
+        set -- lib gl survey volume $(drawing)
     fi
     targets=
     for suite in "$@"; do
         case $(home "$suite") in
-        '')
-            echo "no suite $suite" >&2
+        '' | *[[:space:]]*)
+            echo "$suite: no suite, or parts of two; see the head of scripts/drivers.sh" >&2
             return 1
             ;;
         lib) targets="$targets --lib" ;;
@@ -158,7 +170,7 @@ known() {
 
 # What a suite's output comes to, in a cell. $3: how it ended.
 cell() {
-    failed=$(sed -n -e "s/^test $2::/test /" -e 's/^test \(.*\) \.\.\. FAILED$/\1/p' "$out/$1/$2.txt" | sort)
+    failed=$(sed -n -e "s/^test ${2#*::}::/test /" -e 's/^test \(.*\) \.\.\. FAILED$/\1/p' "$out/$1/$2.txt" | sort)
     passed=$(grep -c '^test .* \.\.\. ok$' "$out/$1/$2.txt" || true)
     count=$(printf '%s' "$failed" | grep -c . || true)
     if [ "$3" -eq 124 ]; then
