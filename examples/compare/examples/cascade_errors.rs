@@ -17,11 +17,11 @@ use host::renderer::ShadowAccess;
 use host::terminal::say;
 use shadows::glam::camera::rh::{proj::directx, view as camera};
 use shadows::glam::{DVec3, DVec4, Mat4};
-use shadows::reference::{Class, Hit, Interior, ReferenceImage, ReferenceScene, Verdict};
+use shadows::reference::{Class, Hit, Interior, ReferenceScene, Verdict};
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DepthBounds,
-    DepthConvention, DirectionalLight, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
-    ShadowAtlas, ShadowAtlasDescriptor, TileSize, View,
+    AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DepthConvention,
+    DirectionalLight, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, ShadowAtlas,
+    ShadowAtlasDescriptor, TileSize, View,
 };
 
 /// One way to shadow the sun.
@@ -92,26 +92,7 @@ struct Seen {
     tiles: Vec<(Mat4, u32)>,
 }
 
-fn depth_bounds(stage: &Stage, truth: &ReferenceImage) -> DepthBounds {
-    let camera = &stage.scene.camera;
-    let eye = camera.eye.as_dvec3();
-    let axis = (camera.target - camera.eye).as_dvec3().normalize();
-    let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);
-    for y in 0..truth.height() {
-        for x in 0..truth.width() {
-            if let Some(hit) = truth.hit(x, y) {
-                let depth = axis.dot(hit.position - eye);
-                (nearest, farthest) = (nearest.min(depth), farthest.max(depth));
-            }
-        }
-    }
-    DepthBounds {
-        nearest: nearest as f32 * 0.99,
-        farthest: farthest as f32 * 1.01,
-    }
-}
-
-fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen> {
+fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
     let mut atlas = ShadowAtlas::new(
         &gpu.device,
         &ShadowAtlasDescriptor {
@@ -142,11 +123,11 @@ fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen
     let light = AtlasLight::directional(sun, of.cascades).with_size(TileSize::Fixed(of.size));
     let [width, height] = stage.renderer.size();
     let mut view = AtlasView::new(&stage.inputs.view, width, height);
-    view.depth_bounds = of.sampled.then_some(bounds);
+    view.depth_bounds = stage.inputs.depths.filter(|_| of.sampled);
     let views = [view];
     let frame = AtlasFrame {
         lights: &[light],
-        casters: &stage.inputs.casters,
+        casters: &stage.inputs.of_maps(),
         views: if of.whole { &[] } else { &views },
         receivers: Some(stage.inputs.receivers),
     };
@@ -154,7 +135,11 @@ fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen
     let group = sampler.bind_group(&gpu.device, &atlas)?;
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
-        atlas.encode(encoder);
+        atlas.encode_with(encoder, |pass, asked| {
+            if let Some(masked) = &stage.scene_gpu.masked {
+                masked.draw(&stage.scene_gpu, stage.inputs.casters.len(), pass, asked);
+            }
+        });
         stage
             .renderer
             .draw_lit_by(encoder, &stage.scene_gpu, 0, &lit, Some(&group));
@@ -265,7 +250,7 @@ fn main() -> Result<()> {
     let start = std::time::Instant::now();
     let truth = stage.reference(|_| ())?;
     say(&format!("reference {:.1} s", start.elapsed().as_secs_f64()))?;
-    let bounds = depth_bounds(&stage, &truth);
+    let bounds = stage.inputs.depths;
     let b = stage.scene.bounds();
     say(&format!(
         "{bounds:?} seen {} scene {:?}",
@@ -286,7 +271,7 @@ fn main() -> Result<()> {
         .collect();
     for (number, text) in tries.iter().enumerate() {
         let of = Try::parse(text, 1.5 * stage.inputs.seen)?;
-        let seen = shown(&gpu, &stage, bounds, &of)?;
+        let seen = shown(&gpu, &stage, &of)?;
         let kernel_radius = host::interior::radius_in_texels(of.kernel);
         let found = truth.compare(&seen.visibility, Interior::Screen)?;
         // Each cascade by its own texels.

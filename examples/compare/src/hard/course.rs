@@ -81,6 +81,7 @@ fn before_another(gpu: &Gpu, stage: &Stage, shadow: &mut Shadow) -> Result<Pictu
     let (renderer, look) = (&stage.renderer, stage.renderer.look());
     let mut other = stage.inputs.clone();
     other.view = View::new(matrix(&scene, renderer.size(), look), look.depth)?;
+    other.depths = None;
     other.light.0 += Vec3::new(0.4, 0.1, 0.2).extend(0.0);
     for caster in &mut other.casters {
         caster.world_from_object.translation.x += 0.3;
