@@ -118,7 +118,7 @@ fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
             ..Default::default()
         },
     );
-    let sun = DirectionalLight::new(stage.inputs.light.0.truncate());
+    let sun = DirectionalLight::new(stage.inputs.light.xyzw().truncate());
     let light = AtlasLight::directional(sun, of.cascades).with_size(TileSize::Fixed(of.size));
     let [width, height] = stage.renderer.size();
     let mut view = AtlasView::new(&stage.inputs.view, width, height);
@@ -413,7 +413,7 @@ fn main() -> Result<()> {
                 shown_up += 1;
                 let facing = hit
                     .normal
-                    .dot(stage.inputs.light.0.truncate().as_dvec3().normalize());
+                    .dot(stage.inputs.light.xyzw().truncate().as_dvec3().normalize());
                 say(&format!(
                     "{verdict:?} at {x},{y} {} N.L {facing:.4} cascade {at}",
                     groups[hit.object as usize]

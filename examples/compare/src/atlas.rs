@@ -6,8 +6,8 @@ use host::interior::radius_in_texels;
 use host::renderer::Renderer;
 use shadows::reference::Interior;
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, CascadeFit, Cascades, DirectionalLight,
-    HostDraw, PcfSampler, ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
+    AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, CascadeFit, Cascades,
+    DirectionalLight, HostDraw, PcfSampler, ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
 };
 
 use crate::shadow::ShadowInputs;
@@ -96,7 +96,13 @@ impl Atlas {
     /// widest decides, whichever a pixel reads.
     pub fn interior(&self, light: usize) -> Interior {
         let kernel_radius = radius_in_texels(self.sampler.kernel());
-        let tiles = self.atlas.tiles(light, 0);
+        let mut tiles = self.atlas.tiles(light, 0);
+        let texels = |tile: &AtlasTile| {
+            let per_unit = tile.clip_from_world.row(0).truncate().length();
+            per_unit * tile.size as f32
+        };
+        // The last may be narrower than one before it: fits end where nothing receives.
+        tiles.sort_by(|a, b| texels(b).total_cmp(&texels(a)));
         match (tiles.last(), self.points.get(light)) {
             (Some(tile), Some(true)) => Interior::Map {
                 face_size: tile.size,
@@ -133,7 +139,7 @@ impl Atlas {
                 },
                 ..Default::default()
             };
-            let sun = DirectionalLight::new(of.light.0.truncate());
+            let sun = DirectionalLight::new(of.light.xyzw().truncate());
             (AtlasLight::directional(sun, cascades), 256)
         };
         light.with_size(match count {

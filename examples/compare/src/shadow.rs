@@ -58,14 +58,14 @@ impl ShadowInputs {
     pub fn point_light(&self) -> PointLight {
         PointLight {
             near: self.near,
-            ..PointLight::new(self.light.0.truncate(), self.range)
+            ..PointLight::new(self.light.xyzw().truncate(), self.range)
         }
     }
 
     /// The spot, if it is one.
     pub fn spot_light(&self) -> Option<SpotLight> {
         self.cone.map(|cone| SpotLight {
-            position: self.light.0.truncate(),
+            position: self.light.xyzw().truncate(),
             direction: cone.direction,
             half_angle: cone.half_angle,
             near: self.near,
@@ -81,7 +81,7 @@ impl ShadowInputs {
     fn flat_light(&self) -> FlatLight {
         match self.spot_light() {
             Some(spot) => FlatLight::Spot(spot),
-            None => FlatLight::Directional(DirectionalLight::new(self.light.0.truncate())),
+            None => FlatLight::Directional(DirectionalLight::new(self.light.xyzw().truncate())),
         }
     }
 }
@@ -267,7 +267,7 @@ impl Shadow {
             Means::Peer(map) => map.prepare(
                 gpu,
                 &PeerInputs {
-                    light: inputs.light.0,
+                    light: inputs.light.xyzw(),
                     cone: inputs.cone,
                     range: inputs.range,
                     bounds: inputs.receivers,

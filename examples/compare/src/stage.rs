@@ -4,14 +4,14 @@ use anyhow::Result;
 use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
 use shadows::reference::{ReferenceImage, ReferenceScene};
-use shadows::{DepthBounds, HomogeneousLight, View};
+use shadows::{DepthBounds, View};
 
 use crate::shadow::{Shadow, ShadowInputs};
 use crate::survey;
 use host::exact;
 use host::gpu::Gpu;
 use host::renderer::{self, Look, Renderer};
-use host::scene::{Camera, LightKind, Scene};
+use host::scene::{Camera, LightKind, Scene, homogeneous};
 use host::scene_gpu::SceneGpu;
 
 /// A scene, the targets it is drawn to, and what every technique is told about it.
@@ -48,7 +48,7 @@ impl Stage {
         let renderer = Renderer::with_look(gpu, size, &scene, &scene_gpu, look)?;
         let inputs = ShadowInputs {
             view,
-            light: HomogeneousLight(scene.light().place),
+            light: homogeneous(scene.light().place),
             cone: scene.light().cone,
             near: scene.light().near,
             range: scene.light().range,
@@ -74,7 +74,7 @@ impl Stage {
     pub fn inputs_of(&self, light: usize) -> ShadowInputs {
         let light = &self.scene.lights[light];
         ShadowInputs {
-            light: HomogeneousLight(light.place),
+            light: homogeneous(light.place),
             cone: light.cone,
             near: light.near,
             range: light.range,
@@ -123,7 +123,7 @@ impl Stage {
         let shifted = Mat4::from_translation(Vec3::new(right, -down, 0.0));
         let matrix = shifted * renderer::matrix(&self.scene, size, look);
         self.inputs.view = View::new(matrix, look.depth)?;
-        self.inputs.light = HomogeneousLight(light);
+        self.inputs.light = homogeneous(light);
         self.inputs.seen = seen(&self.scene);
         // What is read from the last frame's buffer is no more than a guess where the camera moves.
         self.inputs.depths = None;

@@ -26,7 +26,7 @@ pub use city::city;
 pub use courtyard::courtyard;
 pub use file::file;
 pub use floor::floor;
-pub use light::{Cone, Light, LightKind, Sky};
+pub use light::{Cone, Light, LightKind, Sky, homogeneous, moved_light};
 pub use spheres::{spheres, spheres_moving};
 pub use teapot::teapot;
 pub use valley::valley;
