@@ -49,6 +49,7 @@ use std::time::Instant;
 use host::gpu::Gpu;
 use host::one_light::{OneLight, PrepareOne as _};
 use host::renderer::{self, Renderer};
+use host::scene::homogeneous;
 use host::scene_gpu::SceneGpu;
 use host::timer::Timer;
 use shadows::glam::{Affine3A, Vec3};
@@ -79,7 +80,7 @@ impl Studio {
     fn new(gpu: Gpu) -> anyhow::Result<Self> {
         let scene = host::scene::spheres();
         let scene_gpu = SceneGpu::new(&gpu, &scene)?;
-        let light = HomogeneousLight(scene.light().place);
+        let light = homogeneous(scene.light().place);
         let all = scene.bounds();
         let receivers = Bounds {
             min: all.min.as_vec3(),
@@ -182,7 +183,7 @@ fn extracted_on_the_walk(studio: &Studio) -> anyhow::Result<[u32; 2]> {
 fn skipped_and_drawn(studio: &Studio, rounds: usize) -> anyhow::Result<[Vec<f64>; 2]> {
     // Behind the camera, on the side away from the light: nothing of their shadows is in view.
     let [near, ..] = studio.view.near_corners();
-    let behind = (near.as_vec3() - studio.light.0.truncate()).normalize_or_zero() * 1e4;
+    let behind = (near.as_vec3() - studio.light.xyzw().truncate()).normalize_or_zero() * 1e4;
     let crowds = [studio.crowd(behind), studio.crowd(Vec3::ZERO)];
     let mut renderers = [
         studio.volumes(ShadowVolumeDescriptor {

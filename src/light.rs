@@ -75,7 +75,7 @@ impl PointLight {
 
     /// The light as `(position, 1)`.
     pub fn homogeneous(&self) -> HomogeneousLight {
-        HomogeneousLight(self.position.extend(1.0))
+        HomogeneousLight::point(self.position)
     }
 }
 
@@ -225,13 +225,15 @@ impl From<DirectionalLight> for Light {
 ///
 /// This is the form in which shadow volumes take their light, so that one code path serves both
 /// kinds (Everitt and Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002).
+///
+/// One is made from any kind of light, or by `try_from` from a vector, which refuses another `w`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HomogeneousLight(pub Vec4);
+pub struct HomogeneousLight(pub(crate) Vec4);
 
 impl HomogeneousLight {
     /// A light at a point of world space.
-    pub fn point(position: Vec3) -> Self {
-        Self(position.extend(1.0))
+    pub const fn point(position: Vec3) -> Self {
+        Self(Vec4::new(position.x, position.y, position.z, 1.0))
     }
 
     /// A light at a point of world space in f64, in a world whose coordinates are counted from
@@ -242,8 +244,18 @@ impl HomogeneousLight {
     }
 
     /// A light infinitely far away; `toward_light` points from the scene to the light.
-    pub fn directional(toward_light: Vec3) -> Self {
-        Self(toward_light.extend(0.0))
+    pub const fn directional(toward_light: Vec3) -> Self {
+        Self(Vec4::new(
+            toward_light.x,
+            toward_light.y,
+            toward_light.z,
+            0.0,
+        ))
+    }
+
+    /// The position and 1, or the direction to the light and 0.
+    pub fn xyzw(&self) -> Vec4 {
+        self.0
     }
 
     /// Whether the light is infinitely far away (`w = 0`).
@@ -251,7 +263,7 @@ impl HomogeneousLight {
         self.0.w == 0.0
     }
 
-    /// Checks that the numbers are finite, that `w` is 0 or 1 and that a direction is not zero.
+    /// Checks that the numbers are finite and that a direction is not zero.
     ///
     /// # Errors
     /// [`LightError`] names what is wrong.
@@ -260,13 +272,35 @@ impl HomogeneousLight {
         if !light.is_finite() {
             return Err(LightError::Position(light.truncate().to_array()));
         }
-        if light.w != 0.0 && light.w != 1.0 {
-            return Err(LightError::Homogeneous(light.w));
-        }
         if light.w == 0.0 && light.truncate() == Vec3::ZERO {
             return Err(LightError::Direction);
         }
         Ok(())
+    }
+}
+
+impl TryFrom<Vec4> for HomogeneousLight {
+    type Error = LightError;
+
+    /// # Errors
+    /// [`LightError`] if `w` is neither 0 nor 1, or as [`validate`](Self::validate) says.
+    fn try_from(light: Vec4) -> Result<Self, LightError> {
+        if light.w != 0.0 && light.w != 1.0 {
+            return Err(LightError::Homogeneous(light.w));
+        }
+        let light = Self(light);
+        light.validate()?;
+        Ok(light)
+    }
+}
+
+impl From<Light> for HomogeneousLight {
+    fn from(light: Light) -> Self {
+        match light {
+            Light::Point(light) => light.homogeneous(),
+            Light::Spot(light) => light.homogeneous(),
+            Light::Directional(light) => light.homogeneous(),
+        }
     }
 }
 
@@ -347,17 +381,25 @@ mod tests {
                 Err(LightError::Near { .. })
             ));
         }
-        assert_eq!(
-            HomogeneousLight(Vec4::new(1.0, 0.0, 0.0, 0.5)).validate(),
-            Err(LightError::Homogeneous(0.5))
-        );
-        assert_eq!(
-            HomogeneousLight(Vec4::ZERO).validate(),
-            Err(LightError::Direction)
-        );
+        let directionless = HomogeneousLight::directional(Vec3::ZERO);
+        assert_eq!(directionless.validate(), Err(LightError::Direction));
         assert!(matches!(
-            HomogeneousLight(Vec4::new(f32::INFINITY, 0.0, 0.0, 1.0)).validate(),
+            HomogeneousLight::point(Vec3::new(f32::INFINITY, 0.0, 0.0)).validate(),
             Err(LightError::Position(_))
         ));
+    }
+
+    #[test]
+    fn a_vector_is_a_light_if_its_w_is_0_or_1() {
+        let of = |w: f32| HomogeneousLight::try_from(Vec4::new(1.0, 2.0, 3.0, w));
+        let place = Vec3::new(1.0, 2.0, 3.0);
+        assert_eq!(of(1.0), Ok(HomogeneousLight::point(place)));
+        assert_eq!(of(0.0), Ok(HomogeneousLight::directional(place)));
+        for w in [0.5, -1.0, 2.0, 1e-3] {
+            assert_eq!(of(w), Err(LightError::Homogeneous(w)));
+        }
+        assert!(matches!(of(f32::NAN), Err(LightError::Homogeneous(_))));
+        let directionless = HomogeneousLight::try_from(Vec4::ZERO);
+        assert_eq!(directionless, Err(LightError::Direction));
     }
 }

@@ -10,7 +10,7 @@ use shadows::{
 
 use host::gpu::Gpu;
 use host::renderer::{self, Renderer};
-use host::scene::{self, Scene};
+use host::scene::{self, Scene, homogeneous};
 use host::scene_gpu::SceneGpu;
 
 pub const SIZE: [u32; 2] = [640, 360];
@@ -50,7 +50,7 @@ impl<'a> Stage<'a> {
     }
 
     pub fn light(&self) -> HomogeneousLight {
-        HomogeneousLight(self.scene.light().place)
+        homogeneous(self.scene.light().place)
     }
 
     pub fn point(&self) -> PointLight {

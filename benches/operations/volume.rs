@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use host::one_light::{OneLight, PrepareOne as _};
+use shadows::glam::Vec3;
 use shadows::{
     Caster, HomogeneousLight, Method, ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes,
     wgpu,
@@ -10,6 +11,7 @@ use shadows::{
 use crate::clock::Bench;
 use crate::stage::{SIZE, Stage};
 use host::renderer::DEPTH;
+use host::scene::moved_light;
 
 /// A renderer and its frame.
 pub struct Volumes<'a> {
@@ -61,7 +63,7 @@ impl<'a> Volumes<'a> {
 
     /// The light, so that all silhouettes are searched.
     pub fn move_light(&mut self) {
-        self.light.0.x += 1e-4;
+        self.light = moved_light(self.light, Vec3::X * 1e-4);
     }
 }
 

@@ -311,11 +311,14 @@ impl Light {
     }
 
     pub fn homogeneous(&self) -> HomogeneousLight {
-        let w = match self.w {
-            Weight::Point | Weight::PointAgain => 1.0,
-            Weight::Directional => 0.0,
-            Weight::Any(number) => number.0,
-        };
-        HomogeneousLight(vector(self.at).extend(w))
+        let at = vector(self.at);
+        match self.w {
+            Weight::Point | Weight::PointAgain => HomogeneousLight::point(at),
+            Weight::Directional => HomogeneousLight::directional(at),
+            Weight::Any(number) => {
+                let light = HomogeneousLight::try_from(at.extend(number.0));
+                light.unwrap_or(HomogeneousLight::point(at))
+            }
+        }
     }
 }

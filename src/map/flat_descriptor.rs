@@ -4,7 +4,7 @@ use super::encoding::quantum;
 use super::sides::CasterSides;
 use crate::error::ShadowMapError;
 use crate::mesh::{Bounds, Caster};
-use crate::{Bias, DirectionalLight, Radius, SpotLight, View};
+use crate::{Bias, DirectionalLight, Light, Radius, SpotLight, View};
 
 /// How to make a [`ShadowMap`](crate::ShadowMap).
 #[derive(Clone, Debug)]
@@ -28,7 +28,8 @@ pub struct ShadowMapDescriptor<'a> {
     /// Whether casters before the near plane are pulled onto it, on devices with
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On others a
     /// directional light's near plane lies before all casters, and a spot loses what is nearer
-    /// than its [`near`](SpotLight::near).
+    /// than its [`near`](SpotLight::near). False for trying what those see.
+    #[doc(hidden)]
     pub unclipped_depth: bool,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
     /// that reads the map; [`PcfSampler::bind_group`](crate::PcfSampler::bind_group) refuses wider ones.
@@ -75,7 +76,8 @@ impl Default for ShadowMapDescriptor<'_> {
     }
 }
 
-/// The light of a [`ShadowMap`](crate::ShadowMap).
+/// The light of a [`ShadowMap`](crate::ShadowMap): a [`Light`] but for point lights, which no single map can
+/// show, so that nobody can ask for one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FlatLight {
@@ -84,6 +86,15 @@ pub enum FlatLight {
     /// A directional light: the map is fitted to the casters, and to the view and the receivers
     /// where the frame has them.
     Directional(DirectionalLight),
+}
+
+impl From<FlatLight> for Light {
+    fn from(light: FlatLight) -> Self {
+        match light {
+            FlatLight::Spot(light) => light.into(),
+            FlatLight::Directional(light) => light.into(),
+        }
+    }
 }
 
 impl From<SpotLight> for FlatLight {
@@ -131,10 +142,7 @@ impl<'a> ShadowFrame<'a> {
     }
 
     pub(super) fn validate(&self) -> Result<(), ShadowMapError> {
-        match self.light {
-            FlatLight::Spot(light) => light.validate()?,
-            FlatLight::Directional(light) => light.validate()?,
-        }
+        Light::from(self.light).validate()?;
         if let Some((_, distance)) = self.view
             && !(distance.is_finite() && distance > 0.0)
         {

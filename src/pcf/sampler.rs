@@ -35,7 +35,9 @@ pub struct PcfDescriptor<'a> {
     pub flat_lights: FlatLights,
     /// Which kinds of light of an atlas its receivers are for. Default all. For atlases.
     pub light_kinds: LightKinds,
-    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on.
+    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on; other ways for
+    /// trying what devices without gathers see.
+    #[doc(hidden)]
     pub gather: Gather,
 }
 

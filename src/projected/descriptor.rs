@@ -21,6 +21,7 @@ pub struct ProjectedShadowDescriptor<'a> {
     pub memory: u64,
     /// Whether shadows whose light and casters have not changed are left alone. Default true; false draws
     /// all of them every frame, for measuring what that is worth.
+    #[doc(hidden)]
     pub cache: bool,
 }
 

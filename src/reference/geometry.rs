@@ -185,6 +185,26 @@ impl Geometry {
         )
     }
 
+    /// The casting triangles whose boxes come as near as `radius` to the line from a point to a homogeneous
+    /// light, and some others.
+    pub(super) fn casting_near(
+        &self,
+        position: DVec3,
+        light: DVec4,
+        radius: f64,
+    ) -> impl Iterator<Item = &Triangle> {
+        let to_light = light.xyz() - light.w * position;
+        let end = if light.w == 0.0 { f64::INFINITY } else { 1.0 };
+        let touches = move |node: &BvhNode| {
+            let [low, high] = [node.mins(), node.maxs()].map(|end| DVec3::from(end.to_array()));
+            let from = 0.5 * (low + high) - position;
+            let along = (from.dot(to_light) / to_light.length_squared()).clamp(0.0, end);
+            (from - along * to_light).length() <= radius + 0.5 * (high - low).length()
+        };
+        let leaves = self.shared.casting.leaves(touches);
+        leaves.map(|index| self.triangle(index))
+    }
+
     /// Whether a casting triangle lies between a surface and a homogeneous light.
     ///
     /// A triangle blocks if the line from surface to light passes through it and if the two lie

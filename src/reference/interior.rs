@@ -6,6 +6,7 @@ use std::sync::PoisonError;
 
 use glam::{DVec3, Mat4, Vec4Swizzles};
 
+use super::caster_edges::beside_edges;
 use super::geometry::SurfacePoint;
 use super::image::{Class, ReferenceImage, Seen};
 use super::map_rays::{MapRays, Rays};
@@ -164,22 +165,36 @@ impl ReferenceImage {
     }
 
     /// Whether the reference says `lit` for all light rays within the radius: on rings at most half
-    /// a texel apart, as are the rays on each, the outermost first since it most likely disagrees.
+    /// a texel apart, as are the rays on each, the outermost first since it most likely disagrees; then beside
+    /// the edges of casters, whose shadows may be thinner than that.
     fn light_agrees(&self, seen: &Seen, lit: bool, radius: Radius) -> bool {
         let light = self.lighting.light.xyz();
         let rays = Rays::new(&radius.map, light, seen.surface.position, seen.normal);
+        let agrees = |[u, v]: [f64; 2]| {
+            let position = rays.meet(u, v);
+            position.is_some_and(|position| self.lit_at(seen, position) == lit)
+        };
         let rings = (2.0 * radius.texels).ceil();
-        (1..=rings as u32).rev().all(|ring| {
+        let on_rings = (1..=rings as u32).rev().all(|ring| {
             let fraction = f64::from(ring) / rings;
             let count = (2.0 * TAU * radius.texels * fraction).ceil().max(8.0);
             (0..count as u32).all(|ray| {
                 let angle = TAU * f64::from(ray) / count;
                 let (v, u) = angle.sin_cos();
                 let length = radius.across * fraction;
-                let position = rays.meet(length * u, length * v);
-                position.is_some_and(|position| self.lit_at(seen, position) == lit)
+                agrees([length * u, length * v])
             })
-        })
+        });
+        let beside_edges = || {
+            beside_edges(
+                (&self.geometry, &self.lighting),
+                &rays,
+                (seen.surface.position, seen.normal),
+                (radius.across, radius.across / radius.texels),
+            )
+            .all(|place| agrees(place.to_array()))
+        };
+        on_rings && beside_edges()
     }
 
     /// Whether the light reaches a point of the pixel's tangent plane.

@@ -59,6 +59,24 @@ impl Rays {
         }
     }
 
+    /// The offsets `u` and `v` of the ray through a point, times a third number that is positive in front of the
+    /// light. A light map has no rays: 0.
+    pub fn place(&self, point: DVec3) -> DVec3 {
+        match self {
+            Self::Surface { .. } => DVec3::ZERO,
+            Self::Cube { light, toward, .. } => toward.place(point - light),
+            Self::Flat {
+                clip_from_world,
+                place,
+                ..
+            } => {
+                let clip = clip_from_world * point.extend(1.0);
+                let aside = [clip.x - place[0] * clip.w, clip.y - place[1] * clip.w];
+                DVec3::new(aside[0], aside[1], clip.w)
+            }
+        }
+    }
+
     /// Where the ray `u` and `v` beside meets the point's tangent plane, in units in which the
     /// map's edge is 2 long, of a light map in world units; `None` if it does not.
     pub fn meet(&self, u: f64, v: f64) -> Option<DVec3> {
@@ -127,6 +145,15 @@ impl FaceDirection {
 
     fn offset(&self, u: f64, v: f64) -> DVec3 {
         self.direction + u * self.u + v * self.v
+    }
+
+    /// What [`offset`](Self::offset) makes a direction from, times how long it is along the major axis.
+    fn place(&self, direction: DVec3) -> DVec3 {
+        // The third axis, on the side of the own direction.
+        let major = self.u.cross(self.v);
+        let along = direction.dot(major) / self.direction.dot(major);
+        let aside = direction - along * self.direction;
+        DVec3::new(aside.dot(self.u), aside.dot(self.v), along)
     }
 }
 

@@ -42,6 +42,7 @@
 mod area;
 pub mod bake;
 mod camera;
+mod caster_edges;
 mod compare;
 mod flips;
 mod geometry;

@@ -64,11 +64,14 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
     pub start_from: StartFrom,
     /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
-    /// and the draws clipped to what the range covers on screen. Default `true`.
+    /// and the draws clipped to what the range covers on screen. Default `true`; `false` for measuring
+    /// what that is worth.
+    #[doc(hidden)]
     pub culling: bool,
     /// Whether a caster's volume is kept for the next frame if neither the light nor the caster
     /// moves: its silhouette is then not searched again. Default `true`; `false` is of use only to
     /// measure what it saves.
+    #[doc(hidden)]
     pub keep_between_frames: bool,
     /// How silhouettes are found. Default [`Silhouettes::Auto`].
     pub silhouettes: Silhouettes,

@@ -202,18 +202,37 @@ fn a_tile_is_what_its_lights_own_map_holds() {
 #[test]
 fn nothing_that_came_before_is_seen_in_any_tile() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let mut casters = room(&gpu);
+    let [_, compared, copied, moved] = wander(&gpu, 120, |step| 1 + step % 3, 6);
+    assert!(compared > 1_000_000, "{compared}");
+    assert!(copied > 20 && moved > 10, "{copied} copied, {moved} moved");
+}
+
+#[test]
+fn after_10_000_lights_and_casters_came_went_moved_and_changed_their_size_all_are_right() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let [changes, compared, ..] = wander(&gpu, 200, |_| 50, 8);
+    assert!(
+        changes == 10_000 && compared > 500_000,
+        "{changes}, {compared}"
+    );
+}
+
+/// Adds, removes, replaces and resizes lights and moves casters, so many a step, and compares every so many
+/// steps every texel: how many changes, compared texels, copied tiles and moved lights there were.
+fn wander(gpu: &Gpu, steps: usize, changes: fn(usize) -> usize, every: usize) -> [usize; 4] {
+    let mut casters = room(gpu);
     let mut random = Random::new(11);
     let descriptor = ShadowAtlasDescriptor {
         static_layers: StaticLayers::AtLeast(1),
         ..descriptor(3)
     };
-    let mut atlas = atlas(&gpu, &descriptor);
+    let mut atlas = atlas(gpu, &descriptor);
     let size = |random: &mut Random| 64 << ((random.next().abs() * 1.99) as u32);
     let mut lights: Vec<AtlasLight> = Vec::new();
-    let (mut compared, mut copied, mut moved) = (0, 0, 0);
-    for step in 0..120 {
-        for _ in 0..1 + step % 3 {
+    let (mut all_changes, mut compared, mut copied, mut moved) = (0, 0, 0, 0);
+    for step in 0..steps {
+        for change in 0..changes(step) {
+            all_changes += 1;
             let pick = (random.next().abs() * 0.999 * lights.len() as f32) as usize;
             match (random.next().abs() * 6.0) as u32 {
                 0 if lights.len() > 1 => drop(lights.swap_remove(pick)),
@@ -227,7 +246,7 @@ fn nothing_that_came_before_is_seen_in_any_tile() {
                     lights.push(light(&mut random, size));
                 }
                 _ => {
-                    let caster = step % 5;
+                    let caster = (step + change) % 5;
                     casters[caster].world_from_object.translation.x += 0.1 * random.next();
                 }
             }
@@ -245,18 +264,17 @@ fn nothing_that_came_before_is_seen_in_any_tile() {
             atlas.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
             atlas.encode(&mut gpu.device.create_command_encoder(&Default::default()));
         }
-        draw(&gpu, &mut atlas, &frame);
+        draw(gpu, &mut atlas, &frame);
         let statistics = atlas.statistics();
-        copied += statistics.tiles_copied;
-        moved += statistics.lights_moved;
-        if step % 6 == 0 {
-            let (wrong, all) = wrong_texels(&gpu, &atlas, &lights, &casters);
+        copied += statistics.tiles_copied as usize;
+        moved += statistics.lights_moved as usize;
+        if step % every == 0 {
+            let (wrong, all) = wrong_texels(gpu, &atlas, &lights, &casters);
             assert_few((wrong, all), &format!("step {step}"));
             compared += all;
         }
     }
-    assert!(compared > 1_000_000, "{compared}");
-    assert!(copied > 20 && moved > 10, "{copied} copied, {moved} moved");
+    [all_changes, compared, copied, moved]
 }
 
 fn size_of_step(step: usize) -> u32 {

@@ -11,17 +11,17 @@ use shadows::{
     ShadowAtlasDescriptor, TileSize, View, glam,
 };
 
-const TOWARD: Vec3 = Vec3::new(1.0, 1.3, 0.4);
-const HALF: Vec3 = Vec3::new(0.5, 1.0, 0.4);
+pub const TOWARD: Vec3 = Vec3::new(1.0, 1.3, 0.4);
+pub const HALF: Vec3 = Vec3::new(0.5, 1.0, 0.4);
 
 /// Level ground at height 0 with posts all over it.
-struct Field {
-    casters: Vec<Caster>,
-    posts: Vec<Vec3>,
+pub struct Field {
+    pub casters: Vec<Caster>,
+    pub posts: Vec<Vec3>,
 }
 
 impl Field {
-    fn new(gpu: &Gpu) -> Self {
+    pub fn new(gpu: &Gpu) -> Self {
         let mut random = Random::new(3);
         let mut posts = Vec::new();
         for (x, z) in (-16..16).flat_map(|x| (-16..16).map(move |z| (x, z))) {
@@ -45,7 +45,7 @@ impl Field {
     }
 
     /// Points on the ground, evenly, and those of no post.
-    fn points(&self, count: usize, middle: Vec3, half: f32) -> Vec<(Vec3, Vec3)> {
+    pub fn points(&self, count: usize, middle: Vec3, half: f32) -> Vec<(Vec3, Vec3)> {
         let mut random = Random::new(7);
         let mut points = Vec::new();
         while points.len() < count {
@@ -60,26 +60,26 @@ impl Field {
 }
 
 /// From a height of 1.7, with shadows from `near` on.
-fn view(near: f32, eye: Vec3, along: Vec3) -> View {
+pub fn view(near: f32, eye: Vec3, along: Vec3) -> View {
     let projection = proj::perspective_infinite_reverse(1.0, 1.6, near);
     let camera = camera::look_to_mat4(eye, along, Vec3::Y);
     View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap()
 }
 
-fn sun(cascades: Cascades, size: u32) -> [AtlasLight; 1] {
+pub fn sun(cascades: Cascades, size: u32) -> [AtlasLight; 1] {
     let sun = DirectionalLight::new(TOWARD);
     [AtlasLight::directional(sun, cascades).with_size(TileSize::Fixed(size))]
 }
 
 /// An atlas with one sun, and what reads it.
-struct Sun {
-    atlas: ShadowAtlas,
+pub struct Sun {
+    pub atlas: ShadowAtlas,
     sampler: PcfSampler,
     descriptor: PcfDescriptor<'static>,
 }
 
 impl Sun {
-    fn new(gpu: &Gpu, kernel: Kernel) -> Self {
+    pub fn new(gpu: &Gpu, kernel: Kernel) -> Self {
         let descriptor = PcfDescriptor {
             kernel,
             map: MapKind::Atlas,
@@ -96,7 +96,7 @@ impl Sun {
         }
     }
 
-    fn draw(&mut self, gpu: &Gpu, lights: &[AtlasLight], view: &View, casters: &[Caster]) {
+    pub fn draw(&mut self, gpu: &Gpu, lights: &[AtlasLight], view: &View, casters: &[Caster]) {
         let frame = AtlasFrame {
             lights,
             casters,
@@ -108,18 +108,27 @@ impl Sun {
     }
 
     fn questions(&self, gpu: &Gpu, points: &[(Vec3, Vec3)]) -> Questions {
-        let same = |module| module;
-        Questions::new(gpu, &self.sampler, &self.descriptor, 0, points, same)
+        self.changed_questions(gpu, points, |module| module)
     }
 
-    fn ask(&self, gpu: &Gpu, questions: &Questions) -> Vec<f32> {
+    /// With the sampler's module changed, for what must fail.
+    pub fn changed_questions(
+        &self,
+        gpu: &Gpu,
+        points: &[(Vec3, Vec3)],
+        change: fn(String) -> String,
+    ) -> Questions {
+        Questions::new(gpu, &self.sampler, &self.descriptor, 0, points, change)
+    }
+
+    pub fn ask(&self, gpu: &Gpu, questions: &Questions) -> Vec<f32> {
         let group = self.sampler.bind_group(&gpu.device, &self.atlas).unwrap();
         questions.ask(gpu, &group)
     }
 }
 
 /// How many texels a point is inside a tile's border.
-fn inside(tile: &AtlasTile, point: Vec3) -> f64 {
+pub fn inside(tile: &AtlasTile, point: Vec3) -> f64 {
     let clip = tile.clip_from_world.as_dmat4() * DVec4::from((point.as_dvec3(), 1.0));
     0.5 * f64::from(tile.size) * (1.0 - clip.x.abs().max(clip.y.abs()))
 }
@@ -192,7 +201,7 @@ fn fitted(fit: CascadeFit, margin: f32) -> Cascades {
     }
 }
 
-const EYE: Vec3 = Vec3::new(-4.0, 1.7, 0.3);
+pub const EYE: Vec3 = Vec3::new(-4.0, 1.7, 0.3);
 
 fn around(step: u32) -> Vec3 {
     let angle = std::f32::consts::TAU * step as f32 / 64.0;

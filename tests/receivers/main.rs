@@ -2,6 +2,7 @@
 
 mod atlas;
 mod atlas_cascades;
+mod cascade_seams;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_receivers;

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use shadows::error::{LightError, ReferenceError};
-use shadows::glam::{DAffine3, DVec3, Mat4, Vec3, Vec4};
+use shadows::glam::{DAffine3, DVec3, Mat4, Vec3};
 use shadows::reference::{Interior, ReferenceScene};
 use shadows::{HomogeneousLight, SpotLight};
 
@@ -70,7 +70,7 @@ fn every_bad_input_is_named() {
         }
     );
     assert_eq!(
-        fail(4, 4, HomogeneousLight(Vec4::ZERO), None),
+        fail(4, 4, HomogeneousLight::directional(Vec3::ZERO), None),
         ReferenceError::Light(LightError::Direction)
     );
     assert_eq!(

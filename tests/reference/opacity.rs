@@ -39,7 +39,7 @@ fn of_a_square_with_a_mask_only_what_the_mask_leaves_is_seen_and_casts() {
             if on_disk(point + (eye - point) * (2.0 / eye.y)) {
                 return Some(Class::Lit);
             }
-            let light = light.0.as_dvec4();
+            let light = light.xyzw().as_dvec4();
             let to = light.truncate() - light.w * point;
             Some(lit_or(on_disk(point + to * (2.0 / to.y))))
         };
@@ -79,7 +79,7 @@ fn a_picture_under_another_light_is_as_if_it_were_made_anew() {
     ] {
         let relit = first.relit(light, range).unwrap();
         assert_eq!(classes(&relit), classes(&render(light, range)));
-        let moved = HomogeneousLight(light.0 + Vec4::new(0.1, 0.0, 0.0, 0.0));
+        let moved = HomogeneousLight::try_from(light.xyzw() + 0.1 * Vec4::X).unwrap();
         assert_ne!(classes(&relit), classes(&render(moved, range)));
     }
     let spot = SpotLight::new(Vec3::new(0.3, 3.0, -0.2), Vec3::NEG_Y, 0.6, 30.0);
@@ -87,7 +87,11 @@ fn a_picture_under_another_light_is_as_if_it_were_made_anew() {
     let anew = scene.render_spot(&view, SIDE, SIDE, &spot).unwrap();
     assert_eq!(classes(&relit), classes(&anew));
     assert_ne!(classes(&relit), classes(&first));
-    assert!(first.relit(HomogeneousLight(Vec4::ZERO), None).is_err());
+    assert!(
+        first
+            .relit(HomogeneousLight::directional(Vec3::ZERO), None)
+            .is_err()
+    );
     assert!(
         first
             .relit(HomogeneousLight::point(Vec3::ONE), Some(0.0))

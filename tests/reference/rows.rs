@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use shadows::HomogeneousLight;
 use shadows::error::ReferenceError;
-use shadows::glam::Vec4;
+use shadows::glam::Vec3;
 use shadows::reference::{Class, Hit, Interior, ReferenceImage, ReferenceObject, ReferenceScene};
 
 use crate::scene::{EYE, SIDE, downward, furnished};
 
 /// Homogeneous: a point.
-const LIGHT: HomogeneousLight = HomogeneousLight(Vec4::new(0.7, 6.0, -0.4, 1.0));
+const LIGHT: HomogeneousLight = HomogeneousLight::point(Vec3::new(0.7, 6.0, -0.4));
 
 fn scene() -> ReferenceScene {
     let meshes = furnished();

@@ -125,7 +125,7 @@ pub fn ground_under(x: u32, y: u32, eye: Vec3) -> DVec3 {
 
 /// Whether the open segment from `from` to the light passes through the box.
 pub fn crosses(from: DVec3, light: HomogeneousLight, low: DVec3, high: DVec3) -> bool {
-    let light = light.0.as_dvec4();
+    let light = light.xyzw().as_dvec4();
     let to = light.truncate() - light.w * from;
     let (mut near, mut far) = (0.0, if light.w == 1.0 { 1.0 } else { f64::INFINITY });
     for axis in 0..3 {

@@ -25,7 +25,7 @@ fn a_rectangle_casts_its_projection() {
         if at_roof.clamp(low, high) == at_roof.with_y(2.0) {
             return Some(Class::Lit);
         }
-        let light = light.0.as_dvec4();
+        let light = light.xyzw().as_dvec4();
         let to = light.truncate() - light.w * point;
         let crossing = (point + to * (2.0 / to.y)).with_y(2.0);
         Some(lit_or(crossing.clamp(low, high) == crossing))
@@ -40,7 +40,7 @@ fn a_rectangle_casts_its_projection() {
         let (wrong, said) = disagreements(&image, |x, y| expected(x, y, light));
         assert_eq!((wrong, said), (0, (SIDE * SIDE) as usize), "{light:?}");
         // The twin: a light a little aside.
-        let moved = HomogeneousLight(light.0 + Vec4::new(0.1, 0.0, 0.0, 0.0));
+        let moved = HomogeneousLight::try_from(light.xyzw() + 0.1 * Vec4::X).unwrap();
         assert!(disagreements(&image, |x, y| expected(x, y, moved)).0 > 0);
     }
 }

@@ -3,7 +3,7 @@
 use host::exact;
 use host::gpu::Gpu;
 use host::renderer::{self, Renderer, ShadowAccess};
-use host::scene::Scene;
+use host::scene::{Scene, homogeneous};
 use host::scene_gpu::SceneGpu;
 use host::shapes;
 use shadows::error::PlanarSoftShadowError as Error;
@@ -11,8 +11,8 @@ use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::reference::ReferenceImage;
 use shadows::{
-    Caster, CasterMesh, DirectionalLight, HomogeneousLight, Light, LightShape, PlanarRectangle,
-    PlanarSoftFrame, PlanarSoftShadow, PlanarSoftShadowDescriptor, PointLight, wgpu,
+    Caster, CasterMesh, DirectionalLight, Light, LightShape, PlanarRectangle, PlanarSoftFrame,
+    PlanarSoftShadow, PlanarSoftShadowDescriptor, PointLight, wgpu,
 };
 
 use crate::planar::uncut;
@@ -45,7 +45,7 @@ impl Studio {
         let scene_gpu = SceneGpu::new(&gpu, &scene).unwrap();
         let renderer = Renderer::new(&gpu, SIZE, &scene, &scene_gpu).unwrap();
         let view = renderer::view(&scene, SIZE).unwrap();
-        let light = HomogeneousLight(scene.light().place);
+        let light = homogeneous(scene.light().place);
         let range = Some(scene.light().range);
         let exact = exact::reference_scene(&scene).unwrap();
         let reference = exact.render(&view, SIZE[0], SIZE[1], light, range).unwrap();

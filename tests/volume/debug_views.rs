@@ -261,7 +261,7 @@ fn lines_lie_on_the_silhouette_and_cover_it() {
     let centre = Vec3::new(0.3, 1.7, 0.2);
     let light = HomogeneousLight::point(Vec3::new(-2.0, 6.0, 2.5));
     let body = Body::caster(shapes::cube(), Affine3A::from_translation(centre));
-    let edges = box_silhouette(centre, light.0.truncate());
+    let edges = box_silhouette(centre, light.xyzw().truncate());
     assert_eq!(edges.len(), 6);
     let elsewhere = box_silhouette(centre, Vec3::new(5.0, 1.2, 0.0));
     for silhouettes in WAYS {

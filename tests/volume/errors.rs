@@ -3,7 +3,7 @@
 use host::one_light::{OneLight, PrepareOne as _};
 use shadows::error::{CasterError, LightError, ShadowVolumeError as Error};
 use shadows::glam::camera::rh::proj::directx as proj;
-use shadows::glam::{Affine3A, Vec3, Vec4};
+use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
     Caster, CasterMesh, Counter, DepthConvention, HomogeneousLight, HostMesh, Method,
@@ -109,7 +109,7 @@ pub fn cubes(device: &wgpu::Device, count: usize) -> Vec<Caster> {
         .collect()
 }
 
-pub const LIGHT: HomogeneousLight = HomogeneousLight(Vec4::new(0.0, 9.0, 0.0, 1.0));
+pub const LIGHT: HomogeneousLight = HomogeneousLight::point(Vec3::new(0.0, 9.0, 0.0));
 
 #[test]
 fn a_descriptor_that_does_not_fit_is_refused() {
@@ -319,8 +319,7 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
         casters[0].clone(),
         Caster::new(for_maps(&device), Affine3A::IDENTITY),
     ];
-    let light = |x, y, z, w| HomogeneousLight(Vec4::new(x, y, z, w));
-    let (inf, dark) = (f32::INFINITY, light(0.0, 0.0, 0.0, 0.0));
+    let (inf, dark) = (f32::INFINITY, HomogeneousLight::directional(Vec3::ZERO));
     let bad = [
         (
             OneLight {
@@ -341,17 +340,10 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
         ),
         (
             OneLight {
-                light: light(0.0, inf, 0.0, 1.0),
+                light: HomogeneousLight::point(Vec3::new(0.0, inf, 0.0)),
                 ..good
             },
             LightError::Position([0.0, inf, 0.0]).into(),
-        ),
-        (
-            OneLight {
-                light: light(0.0, 1.0, 0.0, 0.5),
-                ..good
-            },
-            LightError::Homogeneous(0.5).into(),
         ),
         (
             OneLight {

@@ -37,7 +37,7 @@ impl Moved<'_> {
             body.transform = Caster::placed(mesh.clone(), place, origin).world_from_object;
         }
         if !stage.light.is_directional() {
-            let position = stage.light.0.truncate().as_dvec3() + self.offset;
+            let position = stage.light.xyzw().truncate().as_dvec3() + self.offset;
             stage.light = HomogeneousLight::placed(position, origin);
         }
         stage

@@ -186,7 +186,7 @@ fn scale_does_not_matter() {
     let Some(gpu) = Gpu::for_test() else { return };
     for scale in [1e-4f32, 1e5] {
         let mut stage = mixed(lamp());
-        stage.light.0 = (stage.light.0.truncate() * scale).extend(1.0);
+        stage.light = HomogeneousLight::point(stage.light.xyzw().truncate() * scale);
         stage.eye *= scale;
         stage.target *= scale;
         stage.near *= scale;
@@ -336,7 +336,7 @@ fn orthographic_views_see_whole_volumes_wherever_their_near_plane_is() {
                 let found = truth.errors(&stage.draw(&gpu));
                 assert!(found.interior > 10_000 && found.shadowed > 30, "{found:?}");
                 if found.wrong > 0 {
-                    let what = (light.0, depth, format, stage.savings, found.wrong);
+                    let what = (light.xyzw(), depth, format, stage.savings, found.wrong);
                     wrong.push(format!("{what:?}"));
                 }
             }

@@ -7,6 +7,7 @@ use crate::passes::Arithmetic;
 use crate::shapes::{self, Shape};
 use crate::stage::{Body, Lens, Stage};
 use host::gpu::Gpu;
+use host::scene::moved_light;
 
 pub fn lamp() -> HomogeneousLight {
     HomogeneousLight::point(Vec3::new(-2.0, 6.0, 2.5))
@@ -246,7 +247,7 @@ fn moved(mut stage: Stage, by: f32) -> Stage {
     for body in &mut stage.bodies {
         body.transform.translation += Vec3A::from(offset);
     }
-    stage.light.0 += offset.extend(0.0);
+    stage.light = moved_light(stage.light, offset);
     stage.eye += offset;
     stage.target += offset;
     stage
@@ -363,8 +364,8 @@ fn the_eye_may_be_inside_a_volume() {
             // A ray from the light through the caster and on to the eye.
             let caster = Vec3::new(0.0, 2.6, 0.0);
             let away = match light.is_directional() {
-                true => -light.0.truncate().normalize(),
-                false => (caster - light.0.truncate()).normalize(),
+                true => -light.xyzw().truncate().normalize(),
+                false => (caster - light.xyzw().truncate()).normalize(),
             };
             let stage = Stage {
                 eye: caster + 1.9 * away,
@@ -390,7 +391,7 @@ fn a_picture_that_is_wrong_is_found_wrong() {
 
     assert!(wrong(&stage.draw_without_volumes(&gpu)) > 500, "no volumes");
     let mut moved = stage.clone();
-    moved.light.0.x += 0.5;
+    moved.light = moved_light(moved.light, 0.5 * Vec3::X);
     assert!(wrong(&moved.draw(&gpu)) > 100, "a light moved by 0.5");
     let mut holed = stage.clone();
     holed.bodies[1].shape.indices.drain(..30);

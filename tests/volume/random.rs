@@ -114,8 +114,8 @@ fn place_camera(stage: &mut Stage, random: &mut Random) {
     let outside = Vec3::new(8.0 * away.sin(), random.within(1.0, 7.0), 8.0 * away.cos());
     let body = Vec3::from(stage.bodies[1].transform.translation);
     let from_light = match stage.light.is_directional() {
-        true => -stage.light.0.truncate(),
-        false => body - stage.light.0.truncate(),
+        true => -stage.light.xyzw().truncate(),
+        false => body - stage.light.xyzw().truncate(),
     };
     let behind = body + from_light.normalize_or(Vec3::NEG_Y) * random.within(0.2, 1.5);
     stage.eye = if random.below(3) == 0 {

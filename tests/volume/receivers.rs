@@ -87,7 +87,7 @@ fn scenes_of_any_size_have_room_for_the_end() {
                 body.transform = Affine3A::from_scale(Vec3::splat(scale)) * body.transform;
             }
             if !light.is_directional() {
-                stage.light = HomogeneousLight::point(light.0.truncate() * scale);
+                stage.light = HomogeneousLight::point(light.xyzw().truncate() * scale);
             }
             stage.eye *= scale;
             stage.target *= scale;

@@ -14,6 +14,7 @@ use crate::pictures::{at, lamp, mixed, sun};
 use crate::shapes;
 use crate::stage::{Body, Stage, WAYS};
 use host::gpu::Gpu;
+use host::scene::moved_light;
 
 fn renderer(gpu: &Gpu, stage: &Stage, silhouettes: Silhouettes) -> ShadowVolumeRenderer {
     let descriptor = ShadowVolumeDescriptor {
@@ -126,7 +127,7 @@ fn what_stands_still_is_not_searched_again() {
         assert_eq!(drawn(&stage, &casters), 0, "{way:?}: nothing moves");
         stage.eye = Vec3::new(-4.0, 6.0, 5.0);
         assert_eq!(drawn(&stage, &casters), 0, "{way:?}: the camera moves");
-        stage.light.0.x += 0.5;
+        stage.light = moved_light(stage.light, 0.5 * Vec3::X);
         assert_eq!(drawn(&stage, &casters), count, "{way:?}: the light moves");
         let last = stage.bodies.len() - 1;
         stage.bodies[last].transform.translation.x += 0.5;

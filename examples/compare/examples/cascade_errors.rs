@@ -15,13 +15,12 @@ use host::image::rgb_png;
 use host::pipelines::visibility_module;
 use host::renderer::ShadowAccess;
 use host::terminal::say;
-use shadows::glam::camera::rh::{proj::directx, view as camera};
 use shadows::glam::{DVec3, DVec4, Mat4};
-use shadows::reference::{Class, Hit, Interior, ReferenceImage, ReferenceScene, Verdict};
+use shadows::reference::{Hit, Interior, Verdict};
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DepthBounds,
-    DepthConvention, DirectionalLight, Kernel, MapKind, PcfDescriptor, PcfSampler, Radius,
-    ShadowAtlas, ShadowAtlasDescriptor, TileSize, View,
+    AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DirectionalLight,
+    Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, ShadowAtlas, ShadowAtlasDescriptor,
+    TileSize,
 };
 
 /// One way to shadow the sun.
@@ -92,26 +91,7 @@ struct Seen {
     tiles: Vec<(Mat4, u32)>,
 }
 
-fn depth_bounds(stage: &Stage, truth: &ReferenceImage) -> DepthBounds {
-    let camera = &stage.scene.camera;
-    let eye = camera.eye.as_dvec3();
-    let axis = (camera.target - camera.eye).as_dvec3().normalize();
-    let (mut nearest, mut farthest) = (f64::INFINITY, 0.0_f64);
-    for y in 0..truth.height() {
-        for x in 0..truth.width() {
-            if let Some(hit) = truth.hit(x, y) {
-                let depth = axis.dot(hit.position - eye);
-                (nearest, farthest) = (nearest.min(depth), farthest.max(depth));
-            }
-        }
-    }
-    DepthBounds {
-        nearest: nearest as f32 * 0.99,
-        farthest: farthest as f32 * 1.01,
-    }
-}
-
-fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen> {
+fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
     let mut atlas = ShadowAtlas::new(
         &gpu.device,
         &ShadowAtlasDescriptor {
@@ -138,15 +118,15 @@ fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen
             ..Default::default()
         },
     );
-    let sun = DirectionalLight::new(stage.inputs.light.0.truncate());
+    let sun = DirectionalLight::new(stage.inputs.light.xyzw().truncate());
     let light = AtlasLight::directional(sun, of.cascades).with_size(TileSize::Fixed(of.size));
     let [width, height] = stage.renderer.size();
     let mut view = AtlasView::new(&stage.inputs.view, width, height);
-    view.depth_bounds = of.sampled.then_some(bounds);
+    view.depth_bounds = stage.inputs.depths.filter(|_| of.sampled);
     let views = [view];
     let frame = AtlasFrame {
         lights: &[light],
-        casters: &stage.inputs.casters,
+        casters: &stage.inputs.of_maps(),
         views: if of.whole { &[] } else { &views },
         receivers: Some(stage.inputs.receivers),
     };
@@ -154,7 +134,11 @@ fn shown(gpu: &Gpu, stage: &Stage, bounds: DepthBounds, of: &Try) -> Result<Seen
     let group = sampler.bind_group(&gpu.device, &atlas)?;
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
-        atlas.encode(encoder);
+        atlas.encode_with(encoder, |pass, asked| {
+            if let Some(masked) = &stage.scene_gpu.masked {
+                masked.draw(&stage.scene_gpu, stage.inputs.casters.len(), pass, asked);
+            }
+        });
         stage
             .renderer
             .draw_lit_by(encoder, &stage.scene_gpu, 0, &lit, Some(&group));
@@ -180,24 +164,109 @@ fn cascade(seen: &Seen, reads: f64, position: DVec3) -> usize {
     seen.tiles.iter().position(holds).unwrap_or(last)
 }
 
-/// The surface around a point, four texels to each side: `#` in shadow, `.` lit.
-fn close_up(exact: &ReferenceScene, stage: &Stage, hit: &Hit, texel: f64) -> Result<String> {
-    let (half, normal) = (4.0 * texel as f32, hit.normal.as_vec3());
-    let up = normal.any_orthonormal_vector();
-    let camera = camera::look_to_mat4(hit.position.as_vec3() + 0.2 * normal, -normal, up);
-    let projection = directx::orthographic(-half, half, -half, half, 0.0, 0.4);
-    let view = View::new(projection * camera, DepthConvention::Standard)?;
-    let image = exact.render(&view, 96, 48, stage.inputs.light, None)?;
-    let letters: Vec<char> = image
-        .classes()
-        .map(|class| match class {
-            Class::Lit => '.',
-            Class::Shadowed => '#',
-            _ => ' ',
-        })
-        .collect();
-    let rows = letters.chunks(96).map(|row| row.iter().collect::<String>());
-    Ok(rows.collect::<Vec<_>>().join("\n"))
+/// What the light's rays meet around a point, as the map has them: six texels along a side, with its texels'
+/// borders; `#` where a ray is blocked on its way to the point's tangent plane, `o` at the centres of texels
+/// where it is not, `@` where it is, `+` at the point. Masks count as opaque.
+fn close_up(stage: &Stage, hit: &Hit, matrix: Mat4, size: u32) -> String {
+    const PER_TEXEL: i32 = 8;
+    let matrix = matrix.as_dmat4();
+    let half = 0.5 * f64::from(size);
+    let clip = |point: DVec3| matrix * DVec4::from((point, 1.0));
+    // In texels, y downwards.
+    let place = |clip: DVec4| [half * (1.0 + clip.x), half * (1.0 - clip.y)];
+    let own = place(clip(hit.position));
+    let corner = own.map(|at| at.floor() - 2.0);
+    // Depth of the tangent plane: linear over the map.
+    let sides = hit.normal.any_orthonormal_pair();
+    let [a, b] = [sides.0, sides.1].map(|side| clip(hit.position + side) - clip(hit.position));
+    let across = DVec3::new(a.x, a.y, a.z).cross(DVec3::new(b.x, b.y, b.z));
+    let plane = |[x, y]: [f64; 2]| {
+        let [dx, dy] = [(x - own[0]) / half, -(y - own[1]) / half];
+        clip(hit.position).z - (across.x * dx + across.y * dy) / across.z
+    };
+    let mut near = Vec::new();
+    for (number, object) in stage
+        .scene
+        .objects
+        .iter()
+        .enumerate()
+        .filter(|(_, o)| o.casts)
+    {
+        let mesh = &stage.scene.meshes[object.mesh];
+        for triangle in mesh.triangles() {
+            let corners = triangle.map(|i| clip(object.world_point(mesh.positions[i as usize])));
+            let places = corners.map(place);
+            let beside = |axis: usize| {
+                let all = places.map(|at| at[axis] - corner[axis]);
+                all.iter().all(|at| *at < 0.0) || all.iter().all(|at| *at > 6.0)
+            };
+            if !beside(0) && !beside(1) {
+                near.push((number, places, corners.map(|corner| corner.z)));
+            }
+        }
+    }
+    let mut blockers = BTreeMap::new();
+    let mut rows = Vec::new();
+    for row in 0..6 * PER_TEXEL {
+        let mut line = String::new();
+        for column in 0..6 * PER_TEXEL {
+            let at = [column, row].map(|n| (f64::from(n) + 0.5) / f64::from(PER_TEXEL));
+            let at = [corner[0] + at[0], corner[1] + at[1]];
+            let is_middle = |n: i32| n % PER_TEXEL == PER_TEXEL / 2;
+            let middle = is_middle(row) && is_middle(column);
+            let at = match middle {
+                true => at.map(|at| at.floor() + 0.5),
+                false => at,
+            };
+            let depth = plane(at);
+            let mut nearest = depth + 1e-9;
+            for (number, places, depths) in &near {
+                if let Some(met) = depth_at(places, depths, at).filter(|met| *met > nearest) {
+                    nearest = met;
+                    *blockers.entry(*number).or_insert(0.0_f64) =
+                        (met - depth).max(blockers.get(number).copied().unwrap_or(0.0));
+                }
+            }
+            let blocked = nearest > depth + 1e-9;
+            let is_own = [0, 1]
+                .iter()
+                .all(|&axis| (at[axis] - own[axis]).abs() <= 0.5 / f64::from(PER_TEXEL));
+            line.push(match (middle, blocked) {
+                (true, true) => '@',
+                (true, false) => 'o',
+                _ if is_own => '+',
+                (_, true) => '#',
+                _ if column % PER_TEXEL == 0 || row % PER_TEXEL == 0 => ':',
+                _ => '.',
+            });
+        }
+        rows.push(line);
+    }
+    let range = 1.0 / matrix.row(2).truncate().length();
+    for (number, above) in blockers {
+        let object = &stage.scene.objects[number];
+        rows.push(format!(
+            "  {} ({}): up to {:.4} above, texel {:.4}",
+            stage.scene.meshes[object.mesh].name,
+            object.name,
+            above * range,
+            2.0 / matrix.row(0).truncate().length() / f64::from(size),
+        ));
+    }
+    rows.join("\n")
+}
+
+/// The depth of a triangle at a place of the map.
+fn depth_at(places: &[[f64; 2]; 3], depths: &[f64; 3], at: [f64; 2]) -> Option<f64> {
+    let twice = |a: [f64; 2], b: [f64; 2]| {
+        (a[0] - at[0]) * (b[1] - at[1]) - (a[1] - at[1]) * (b[0] - at[0])
+    };
+    let [a, b, c] = *places;
+    let weights = [twice(b, c), twice(c, a), twice(a, b)];
+    let inside = weights.iter().all(|w| *w >= 0.0) || weights.iter().all(|w| *w <= 0.0);
+    let area: f64 = weights.iter().sum();
+    let sum: f64 = weights.iter().zip(depths).map(|(w, d)| w * d).sum();
+    (inside && area != 0.0).then(|| sum / area)
 }
 
 #[derive(Default, Clone)]
@@ -265,7 +334,7 @@ fn main() -> Result<()> {
     let start = std::time::Instant::now();
     let truth = stage.reference(|_| ())?;
     say(&format!("reference {:.1} s", start.elapsed().as_secs_f64()))?;
-    let bounds = depth_bounds(&stage, &truth);
+    let bounds = stage.inputs.depths;
     let b = stage.scene.bounds();
     say(&format!(
         "{bounds:?} seen {} scene {:?}",
@@ -276,7 +345,6 @@ fn main() -> Result<()> {
     let axis = (camera.target - camera.eye).as_dvec3().normalize();
     let per_pixel = 2.0 * f64::from(camera.fovy * 0.5).tan() / f64::from(size[1]);
     std::fs::create_dir_all(&out)?;
-    let exact = stage.reference_scene()?;
     let all = truth.lit_facing();
     let groups: Vec<String> = stage
         .scene
@@ -286,7 +354,7 @@ fn main() -> Result<()> {
         .collect();
     for (number, text) in tries.iter().enumerate() {
         let of = Try::parse(text, 1.5 * stage.inputs.seen)?;
-        let seen = shown(&gpu, &stage, bounds, &of)?;
+        let seen = shown(&gpu, &stage, &of)?;
         let kernel_radius = host::interior::radius_in_texels(of.kernel);
         let found = truth.compare(&seen.visibility, Interior::Screen)?;
         // Each cascade by its own texels.
@@ -343,11 +411,14 @@ fn main() -> Result<()> {
             picture.push(color);
             if interior && shown_up < 6 {
                 shown_up += 1;
+                let facing = hit
+                    .normal
+                    .dot(stage.inputs.light.xyzw().truncate().as_dvec3().normalize());
                 say(&format!(
-                    "{verdict:?} at {x},{y} {} texel {texel}",
+                    "{verdict:?} at {x},{y} {} N.L {facing:.4} cascade {at}",
                     groups[hit.object as usize]
                 ))?;
-                say(&close_up(&exact, &stage, &hit, texel)?)?;
+                say(&close_up(&stage, &hit, matrix, tile))?;
             }
             if *verdict != Verdict::NotCounted {
                 total.add(*verdict, interior, ratio);

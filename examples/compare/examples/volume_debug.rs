@@ -17,13 +17,13 @@ use host::gpu::Gpu;
 use host::image::rgb_png;
 use host::one_light::{OneLight, PrepareOne as _};
 use host::renderer::{DEPTH, Renderer, SHADED, ShadowAccess, view};
-use host::scene::{self, Mesh, Scene};
+use host::scene::{self, Mesh, Scene, homogeneous};
 use host::scene_gpu::SceneGpu;
 use host::terminal::say;
 use shadows::glam::{Affine3A, Vec3, Vec4};
 use shadows::{
-    HomogeneousLight, ShadowVolumeDescriptor, ShadowVolumeRenderer, StartFrom, VolumeDebug,
-    VolumeDebugDescriptor, wgpu,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, StartFrom, VolumeDebug, VolumeDebugDescriptor,
+    wgpu,
 };
 
 const SIZE: [u32; 2] = [400, 260];
@@ -164,11 +164,7 @@ impl<'a> Panels<'a> {
         let frame = OneLight {
             range: Some(scene.light().range),
             target_size: Some(SIZE),
-            ..OneLight::new(
-                &view,
-                HomogeneousLight(scene.light().place),
-                &scene_gpu.casters,
-            )
+            ..OneLight::new(&view, homogeneous(scene.light().place), &scene_gpu.casters)
         };
         volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
         frame.with(|frame| debug.prepare(&gpu.device, frame, &volumes, 0, 0))?;

@@ -6,8 +6,8 @@ use host::interior::radius_in_texels;
 use host::renderer::Renderer;
 use shadows::reference::Interior;
 use shadows::{
-    AtlasFrame, AtlasLight, AtlasStatistics, AtlasView, Cascades, DirectionalLight, PcfSampler,
-    ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
+    AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile, AtlasView, CascadeFit, Cascades,
+    DirectionalLight, HostDraw, PcfSampler, ShadowAtlas, ShadowAtlasDescriptor, TileSize, wgpu,
 };
 
 use crate::shadow::ShadowInputs;
@@ -59,8 +59,11 @@ impl Atlas {
         let [width, height] = self.target;
         let frame = AtlasFrame {
             lights: &lights,
-            casters: &first.casters,
-            views: &[AtlasView::new(&first.view, width, height)],
+            casters: &first.of_maps(),
+            views: &[AtlasView {
+                depth_bounds: first.depths,
+                ..AtlasView::new(&first.view, width, height)
+            }],
             receivers: Some(first.receivers),
         };
         self.atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
@@ -72,8 +75,13 @@ impl Atlas {
         Ok(())
     }
 
-    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        self.atlas.encode(encoder);
+    /// Draws the tiles; what only the host can draw, by `draw`.
+    pub fn encode_with(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        draw: impl FnMut(&mut wgpu::RenderPass<'_>, &HostDraw<'_>),
+    ) {
+        self.atlas.encode_with(encoder, draw);
     }
 
     pub fn group(&self) -> &wgpu::BindGroup {
@@ -88,7 +96,13 @@ impl Atlas {
     /// widest decides, whichever a pixel reads.
     pub fn interior(&self, light: usize) -> Interior {
         let kernel_radius = radius_in_texels(self.sampler.kernel());
-        let tiles = self.atlas.tiles(light, 0);
+        let mut tiles = self.atlas.tiles(light, 0);
+        let texels = |tile: &AtlasTile| {
+            let per_unit = tile.clip_from_world.row(0).truncate().length();
+            per_unit * tile.size as f32
+        };
+        // The last may be narrower than one before it: fits end where nothing receives.
+        tiles.sort_by(|a, b| texels(b).total_cmp(&texels(a)));
         match (tiles.last(), self.points.get(light)) {
             (Some(tile), Some(true)) => Interior::Map {
                 face_size: tile.size,
@@ -118,9 +132,14 @@ impl Atlas {
             // Depths count along the camera's axis, cascades' distances from its eye.
             let cascades = Cascades {
                 distance: 1.5 * of.seen,
+                // Who has read the depths of the very picture has a camera that stands still.
+                fit: match of.depths {
+                    Some(_) => CascadeFit::Tight,
+                    None => CascadeFit::Stable,
+                },
                 ..Default::default()
             };
-            let sun = DirectionalLight::new(of.light.0.truncate());
+            let sun = DirectionalLight::new(of.light.xyzw().truncate());
             (AtlasLight::directional(sun, cascades), 256)
         };
         light.with_size(match count {

@@ -222,12 +222,18 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
             .map(|row| row.at(args.face))
             .collect(),
     };
-    let (techniques, others): (Vec<_>, Vec<_>) = asked
-        .into_iter()
-        .partition(|technique| lights.iter().any(|kind| technique.config.applies_to(*kind)));
-    if techniques.is_empty() {
-        let reasons: Vec<&str> = others.iter().map(|other| other.config.limit()).collect();
-        bail!("no technique is left: {}", reasons[0]);
+    let masks = scene.casts_through_masks();
+    let draws = |technique: &Technique| !masks || technique.config.draws_masks();
+    let limit = |technique: &Technique| match draws(technique) {
+        true => technique.config.limit(),
+        false => "only the host can draw this scene's leaves, and it does so into maps alone",
+    };
+    let (techniques, others): (Vec<_>, Vec<_>) = asked.into_iter().partition(|technique| {
+        let mut kinds = lights.iter();
+        draws(technique) && kinds.any(|kind| technique.config.applies_to(*kind))
+    });
+    if let ([], [other, ..]) = (techniques.as_slice(), others.as_slice()) {
+        bail!("no technique is left: {}", limit(other));
     }
     // The usual flat maps are for lights that are no points; where nobody asked for them, that is
     // nothing to tell.
@@ -236,8 +242,8 @@ fn job(args: &Args, name: &str, dir: PathBuf) -> Result<Job> {
         .into_iter()
         .filter(|other| !(unasked && matches!(other.config, Config::Flat { .. })))
         .map(|other| LeftOut {
+            reason: limit(&other),
             name: other.name.into_owned(),
-            reason: other.config.limit(),
         })
         .collect();
     for left in &left_out {

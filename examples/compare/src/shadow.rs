@@ -7,10 +7,10 @@ use shadows::glam::Vec3;
 use shadows::mesh::Bounds;
 use shadows::reference::Interior;
 use shadows::{
-    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
-    ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, Kernel, PcfDescriptor,
-    PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowVolumeDescriptor,
-    ShadowVolumeRenderer, SpotLight, View, wgpu,
+    Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthBounds,
+    DirectionalLight, ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, HostDraw,
+    Kernel, PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, SpotLight, View, wgpu,
 };
 
 use crate::atlas::Atlas;
@@ -36,10 +36,14 @@ pub struct ShadowInputs {
     pub near: Option<f32>,
     pub range: f32,
     pub casters: Vec<Caster>,
+    /// What stands for the casters that the host alone can draw, which it does into maps.
+    pub masked: Vec<Caster>,
     /// Everything that receives, world space.
     pub receivers: Bounds,
     /// Up to where along the camera's axis there is something to see.
     pub seen: f32,
+    /// Between which depths the view's picture shows anything, where the host has read that.
+    pub depths: Option<DepthBounds>,
     /// The corners of a horizontal rectangle that receives and does not cast, if there is one.
     pub ground: Option<[Vec3; 4]>,
 }
@@ -54,14 +58,14 @@ impl ShadowInputs {
     pub fn point_light(&self) -> PointLight {
         PointLight {
             near: self.near,
-            ..PointLight::new(self.light.0.truncate(), self.range)
+            ..PointLight::new(self.light.xyzw().truncate(), self.range)
         }
     }
 
     /// The spot, if it is one.
     pub fn spot_light(&self) -> Option<SpotLight> {
         self.cone.map(|cone| SpotLight {
-            position: self.light.0.truncate(),
+            position: self.light.xyzw().truncate(),
             direction: cone.direction,
             half_angle: cone.half_angle,
             near: self.near,
@@ -69,10 +73,15 @@ impl ShadowInputs {
         })
     }
 
+    /// All that casts into maps: the library's casters, then the host's.
+    pub fn of_maps(&self) -> Vec<Caster> {
+        self.casters.iter().chain(&self.masked).cloned().collect()
+    }
+
     fn flat_light(&self) -> FlatLight {
         match self.spot_light() {
             Some(spot) => FlatLight::Spot(spot),
-            None => FlatLight::Directional(DirectionalLight::new(self.light.0.truncate())),
+            None => FlatLight::Directional(DirectionalLight::new(self.light.xyzw().truncate())),
         }
     }
 }
@@ -91,6 +100,8 @@ pub struct Shadow {
     technique: Technique,
     lit: LitPipeline,
     means: Means,
+    /// The place of the first caster that the host draws, in the last prepared frame.
+    first_masked: usize,
 }
 
 enum Means {
@@ -212,6 +223,7 @@ impl Shadow {
             technique,
             lit,
             means,
+            first_masked: 0,
         })
     }
 
@@ -226,17 +238,20 @@ impl Shadow {
     /// If the technique refuses the inputs.
     pub fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()> {
         let casters = &inputs.casters;
+        self.first_masked = casters.len();
         match &mut self.means {
             Means::Atlas(atlas) => atlas.prepare(gpu, std::slice::from_ref(inputs))?,
             Means::Cube { map, .. } => {
-                let frame = CubeFrame::new(inputs.point_light(), casters);
+                let casters = inputs.of_maps();
+                let frame = CubeFrame::new(inputs.point_light(), &casters);
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
             Means::Flat { map, .. } => {
+                let casters = inputs.of_maps();
                 let frame = ShadowFrame {
                     view: Some((&inputs.view, inputs.seen)),
                     receivers: Some(inputs.receivers),
-                    ..ShadowFrame::new(inputs.flat_light(), casters)
+                    ..ShadowFrame::new(inputs.flat_light(), &casters)
                 };
                 map.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
@@ -252,7 +267,7 @@ impl Shadow {
             Means::Peer(map) => map.prepare(
                 gpu,
                 &PeerInputs {
-                    light: inputs.light.0,
+                    light: inputs.light.xyzw(),
                     cone: inputs.cone,
                     range: inputs.range,
                     bounds: inputs.receivers,
@@ -267,6 +282,7 @@ impl Shadow {
     /// # Errors
     /// As [`prepare`](Self::prepare); and if it is no atlas.
     pub fn prepare_all(&mut self, gpu: &Gpu, lights: &[ShadowInputs]) -> Result<()> {
+        self.first_masked = lights.first().map_or(0, |first| first.casters.len());
         match &mut self.means {
             Means::Atlas(atlas) => atlas.prepare(gpu, lights),
             _ => anyhow::bail!("only an atlas shadows several lights at once"),
@@ -280,10 +296,16 @@ impl Shadow {
         scene: &SceneGpu,
         encoder: &mut wgpu::CommandEncoder,
     ) {
+        let first = self.first_masked;
+        let masked = |pass: &mut wgpu::RenderPass<'_>, asked: &HostDraw<'_>| {
+            if let Some(masked) = &scene.masked {
+                masked.draw(scene, first, pass, asked);
+            }
+        };
         match &mut self.means {
-            Means::Cube { map, .. } => map.encode(encoder),
-            Means::Flat { map, .. } => map.encode(encoder),
-            Means::Atlas(atlas) => atlas.encode(encoder),
+            Means::Cube { map, .. } => map.encode_with(encoder, masked),
+            Means::Flat { map, .. } => map.encode_with(encoder, masked),
+            Means::Atlas(atlas) => atlas.encode_with(encoder, masked),
             Means::Volume { volumes, counts } => {
                 volumes.encode(encoder);
                 let Some(counts) = counts else {

@@ -4,14 +4,14 @@ use anyhow::Result;
 use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
 use shadows::reference::{ReferenceImage, ReferenceScene};
-use shadows::{HomogeneousLight, View};
+use shadows::{DepthBounds, View};
 
 use crate::shadow::{Shadow, ShadowInputs};
 use crate::survey;
 use host::exact;
 use host::gpu::Gpu;
 use host::renderer::{self, Look, Renderer};
-use host::scene::{Camera, Scene};
+use host::scene::{Camera, LightKind, Scene, homogeneous};
 use host::scene_gpu::SceneGpu;
 
 /// A scene, the targets it is drawn to, and what every technique is told about it.
@@ -48,13 +48,18 @@ impl Stage {
         let renderer = Renderer::with_look(gpu, size, &scene, &scene_gpu, look)?;
         let inputs = ShadowInputs {
             view,
-            light: HomogeneousLight(scene.light().place),
+            light: homogeneous(scene.light().place),
             cone: scene.light().cone,
             near: scene.light().near,
             range: scene.light().range,
             casters: scene_gpu.casters.clone(),
+            masked: match &scene_gpu.masked {
+                Some(masked) => masked.casters.clone(),
+                None => Vec::new(),
+            },
             receivers: receivers(&scene),
             seen: seen(&scene),
+            depths: depths(gpu, &renderer, &scene_gpu, &scene, &view),
             ground: survey::planar::ground(&scene),
         };
         Ok(Self {
@@ -69,7 +74,7 @@ impl Stage {
     pub fn inputs_of(&self, light: usize) -> ShadowInputs {
         let light = &self.scene.lights[light];
         ShadowInputs {
-            light: HomogeneousLight(light.place),
+            light: homogeneous(light.place),
             cone: light.cone,
             near: light.near,
             range: light.range,
@@ -118,8 +123,10 @@ impl Stage {
         let shifted = Mat4::from_translation(Vec3::new(right, -down, 0.0));
         let matrix = shifted * renderer::matrix(&self.scene, size, look);
         self.inputs.view = View::new(matrix, look.depth)?;
-        self.inputs.light = HomogeneousLight(light);
+        self.inputs.light = homogeneous(light);
         self.inputs.seen = seen(&self.scene);
+        // What is read from the last frame's buffer is no more than a guess where the camera moves.
+        self.inputs.depths = None;
         self.renderer.show(gpu, &self.scene, matrix);
         Ok(())
     }
@@ -168,6 +175,21 @@ impl Stage {
             Some(spot) => other.relit_by_spot(&spot)?,
             None => other.relit(inputs.light, inputs.light_range())?,
         })
+    }
+}
+
+/// Between which depths the picture shows anything, for lights that can make use of it.
+fn depths(
+    gpu: &Gpu,
+    renderer: &Renderer,
+    scene_gpu: &SceneGpu,
+    scene: &Scene,
+    view: &View,
+) -> Option<DepthBounds> {
+    let mut lights = scene.lights.iter();
+    match lights.any(|light| light.kind() == LightKind::Directional) {
+        true => renderer.depth_bounds(gpu, scene_gpu, view),
+        false => None,
     }
 }
 

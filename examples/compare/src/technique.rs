@@ -65,6 +65,14 @@ impl Config {
         }
     }
 
+    /// Whether casters with a mask, which the host alone can draw, cast: it draws them into these maps.
+    pub fn draws_masks(&self) -> bool {
+        matches!(
+            self,
+            Self::Cube { .. } | Self::Flat { .. } | Self::Atlas { .. }
+        )
+    }
+
     /// Why it cannot shadow the lights that it does not apply to.
     pub fn limit(&self) -> &'static str {
         match self {

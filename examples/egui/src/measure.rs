@@ -5,13 +5,12 @@ use std::thread;
 
 use anyhow::{Context as _, Result};
 use eframe::egui::{Color32, ColorImage, Context};
-use shadows::HomogeneousLight;
 use shadows::glam::Vec4;
 use shadows::reference::{Comparison, Interior, ReferenceImage, ReferenceScene, Verdict};
 
 use host::exact::reference_scene;
 use host::renderer;
-use host::scene::Scene;
+use host::scene::{Scene, homogeneous};
 
 /// The reference looks at every third pixel of every third row: at the very same points of the
 /// picture, with a ninth of the rays.
@@ -102,7 +101,7 @@ impl Judge {
         let known = match known.filter(|(light, other, _)| (*light, *other) == (job.light, size)) {
             Some(known) => known,
             None => {
-                let light = HomogeneousLight(job.light);
+                let light = homogeneous(job.light);
                 let range = (!light.is_directional()).then_some(self.scene.light().range);
                 // The view of the whole picture: the same rays, fewer of them.
                 let view = renderer::view(&self.scene, job.size)?;

@@ -246,7 +246,7 @@ impl Shadows {
     /// If the frame is refused; what was prepared before stands.
     pub fn prepare(&mut self, gpu: &Gpu, frame: &Frame<'_>) -> Result<()> {
         let (device, queue) = (&gpu.device, &gpu.queue);
-        let position = frame.light.0.truncate();
+        let position = frame.light.xyzw().truncate();
         let casters = frame.casters;
         match &mut self.means {
             Means::Cube(cube) => {
@@ -365,7 +365,7 @@ impl Shadows {
 
 impl Atlas {
     fn prepare(&mut self, gpu: &Gpu, frame: &Frame<'_>) -> Result<()> {
-        let position = frame.light.0.truncate();
+        let position = frame.light.xyzw().truncate();
         let light = match frame.light.is_directional() {
             false => AtlasLight::new(PointLight::new(position, frame.range)),
             true => AtlasLight::directional(DirectionalLight::new(position), Cascades::default()),

@@ -8,7 +8,7 @@ use eframe::egui::PaintCallbackInfo;
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, ScreenDescriptor};
 use shadows::glam::Vec4;
 use shadows::reference::Interior;
-use shadows::{HomogeneousLight, Support, wgpu};
+use shadows::{Support, wgpu};
 
 use crate::blit::Blit;
 use crate::measure::Shot;
@@ -16,7 +16,7 @@ use crate::shadow::{DebugView, Frame, Settings, Shadows};
 use crate::statistics::Rows;
 use host::gpu::Gpu;
 use host::renderer::{self, Renderer};
-use host::scene::Scene;
+use host::scene::{Scene, homogeneous};
 use host::scene_gpu::SceneGpu;
 
 /// What the window shows.
@@ -188,7 +188,7 @@ impl Viewport {
         }
         let frame = Frame {
             view: renderer::view(&self.scene, paint.size)?,
-            light: HomogeneousLight(paint.light),
+            light: homogeneous(paint.light),
             range: self.scene.light().range,
             casters: &self.scene_gpu.casters,
             size: paint.size,

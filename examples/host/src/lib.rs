@@ -1,5 +1,6 @@
 //! A small host: what the examples, the tests and the benches share. Not part of the library.
 
+pub mod depth_bounds;
 pub mod exact;
 // The library's own unit tests use these two as well, and are in its package, which holds no other package.
 #[path = "../../../tests/common/unit/gpu.rs"]

@@ -2,40 +2,55 @@
 
 use shadows::glam::{Affine3A, Mat4};
 use shadows::mesh::Bounds;
-use shadows::{Caster, CasterMesh, HostDraw, wgpu};
+use shadows::{Cascades, Caster, CasterMesh, HostDraw, wgpu};
 
 use super::gpu::Gpu;
 use super::pipelines::VERTEX_BUFFERS;
 use super::scene::{self, Scene, leaf_mask};
 use super::scene_gpu::SceneGpu;
 
+/// Of the maps that they are drawn into.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// The most tiles of a light: six faces, or its cascades.
+const TILES: u32 = Cascades::MOST;
+
 /// Draws those of a scene's casters that have a mask into shadow maps, where
 /// [`encode_with`](shadows::ShadowAtlas::encode_with) asks for them.
 pub struct MaskedCasters {
-    /// What stands for all of them among a frame's casters.
-    pub caster: Caster,
+    /// What stands for them among a frame's casters, one for each.
+    pub casters: Vec<Caster>,
+    /// Their places among the scene's objects.
+    objects: Vec<usize>,
     group: wgpu::BindGroup,
+    /// One for each tile of each light of one map.
     matrices: wgpu::Buffer,
     matrix_stride: u32,
-    tiles: u32,
     pipeline: wgpu::RenderPipeline,
+    queue: wgpu::Queue,
 }
 
 impl MaskedCasters {
-    /// For maps of a format in which what is nearer is greater, with so many tiles (a flat map has one,
-    /// a cube six): each has a matrix of its own.
+    /// For a scene whose objects are on the GPU; `None` if none of them casts through a mask.
     ///
     /// # Errors
-    /// If the scene has no such caster.
-    pub fn new(
+    /// If one's bounds are not finite.
+    pub(super) fn new(
         gpu: &Gpu,
-        (scene, scene_gpu): (&Scene, &SceneGpu),
-        format: wgpu::TextureFormat,
-        tiles: u32,
-    ) -> anyhow::Result<Self> {
+        scene: &Scene,
+        object_uniforms: &wgpu::Buffer,
+    ) -> anyhow::Result<Option<Self>> {
+        let objects = scene.objects.iter().enumerate();
+        let objects: Vec<usize> = objects
+            .filter(|(_, object)| object.casts && !scene.meshes[object.mesh].mask.is_empty())
+            .map(|(place, _)| place)
+            .collect();
+        if objects.is_empty() {
+            return Ok(None);
+        }
         let device = &gpu.device;
         let alignment = device.limits().min_uniform_buffer_offset_alignment;
         let matrix_stride = (size_of::<Mat4>() as u32).next_multiple_of(alignment);
+        let tiles = TILES * scene.lights.len() as u32;
         let matrices = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("tiles' matrices"),
             size: u64::from(matrix_stride * tiles),
@@ -57,44 +72,47 @@ impl MaskedCasters {
             entries: &[
                 one_of(0, &matrices, size_of::<Mat4>()),
                 // An object's matrix is the first of what the host tells its shaders of it.
-                one_of(1, &scene_gpu.object_uniforms, size_of::<Mat4>()),
+                one_of(1, object_uniforms, size_of::<Mat4>()),
             ],
         });
-        Ok(Self {
-            caster: caster(gpu, scene)?,
+        let casters = objects.iter().map(|&place| caster(gpu, scene, place));
+        Ok(Some(Self {
+            casters: casters.collect::<anyhow::Result<_>>()?,
+            objects,
             group,
             matrices,
             matrix_stride,
-            tiles,
-            pipeline: pipeline(gpu, &layout, format),
-        })
+            pipeline: pipeline(gpu, &layout),
+            queue: gpu.queue.clone(),
+        }))
     }
 
-    /// Draws what is asked for into its tile's pass.
+    /// Draws what is asked for into its tile's pass, for a frame in whose casters [`casters`](Self::casters)
+    /// begin at the place `first`.
     pub fn draw(
         &self,
-        gpu: &Gpu,
         scene: &SceneGpu,
+        first: usize,
         pass: &mut wgpu::RenderPass<'_>,
         asked: &HostDraw<'_>,
     ) {
-        assert!((asked.tile as u32) < self.tiles, "made for fewer tiles");
-        // Written before anything that is submitted after it.
-        let matrix_at = asked.tile as u32 * self.matrix_stride;
+        // Written before anything that is submitted after it, so that every tile needs its own.
+        let matrix_at = (asked.light as u32 * TILES + asked.tile as u32) * self.matrix_stride;
         let matrix = asked.clip_from_world.to_cols_array();
-        gpu.queue.write_buffer(
+        self.queue.write_buffer(
             &self.matrices,
             matrix_at.into(),
             bytemuck::cast_slice(&matrix),
         );
         pass.set_pipeline(&self.pipeline);
-        for casting in &scene.casting {
-            let mesh = &scene.meshes[scene.objects[casting.place].mesh];
+        for place in asked.casters {
+            let object = self.objects[place - first];
+            let mesh = &scene.meshes[scene.objects[object].mesh];
             let Some(mask) = mesh.mask.as_ref().filter(|_| mesh.index_count > 0) else {
                 continue;
             };
-            let object = casting.place as u32 * scene.object_stride;
-            pass.set_bind_group(0, &self.group, &[matrix_at, object]);
+            let object_at = object as u32 * scene.object_stride;
+            pass.set_bind_group(0, &self.group, &[matrix_at, object_at]);
             pass.set_vertex_buffer(0, mesh.positions.slice(..));
             pass.set_vertex_buffer(1, mask.slice(..));
             pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -103,20 +121,16 @@ impl MaskedCasters {
     }
 }
 
-/// What stands for all casters with a mask: their bounds.
-fn caster(gpu: &Gpu, scene: &Scene) -> anyhow::Result<Caster> {
-    let is_masked =
-        |object: &&scene::Object| object.casts && !scene.meshes[object.mesh].mask.is_empty();
-    let masked = || scene.objects.iter().filter(is_masked);
-    let bounds = scene::Bounds::of(masked().flat_map(|object| scene.world_points(object)));
-    let triangles: usize = masked()
-        .map(|object| scene.meshes[object.mesh].triangle_count())
-        .sum();
+/// What stands for one object: its bounds.
+fn caster(gpu: &Gpu, scene: &Scene, place: usize) -> anyhow::Result<Caster> {
+    let object = &scene.objects[place];
+    let bounds = scene::Bounds::of(scene.world_points(object));
     let bounds = Bounds {
         min: bounds.min.as_vec3(),
         max: bounds.max.as_vec3(),
     };
-    let mesh = CasterMesh::host_drawn(&gpu.device, bounds, triangles as u32)?;
+    let triangles = scene.meshes[object.mesh].triangle_count() as u32;
+    let mesh = CasterMesh::host_drawn(&gpu.device, bounds, triangles)?;
     Ok(Caster::new(mesh, Affine3A::IDENTITY))
 }
 
@@ -137,11 +151,7 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    format: wgpu::TextureFormat,
-) -> wgpu::RenderPipeline {
+fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
     let device = &gpu.device;
     let source = leaf_mask::wgsl() + include_str!("shaders/caster.wgsl");
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -174,7 +184,7 @@ fn pipeline(
             ..Default::default()
         },
         depth_stencil: Some(wgpu::DepthStencilState {
-            format,
+            format: FORMAT,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: wgpu::StencilState::default(),

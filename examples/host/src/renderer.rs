@@ -4,8 +4,9 @@
 use anyhow::Result;
 use shadows::glam::Mat4;
 use shadows::glam::camera::rh::proj::directx;
-use shadows::{DepthConvention, View, wgpu};
+use shadows::{DepthBounds, DepthConvention, View, wgpu};
 
+use super::depth_bounds::depth_bounds;
 use super::gpu::Gpu;
 use super::image;
 use super::pipelines::{self, Drawing, Shared};
@@ -138,6 +139,13 @@ impl Renderer {
     /// The depth-stencil buffer.
     pub fn depth_stencil(&self) -> &wgpu::TextureView {
         &self.targets.depth_stencil
+    }
+
+    /// Draws the scene's depth, and tells between which depths its picture shows anything. The view is that of
+    /// the camera that was last shown.
+    pub fn depth_bounds(&self, gpu: &Gpu, scene: &SceneGpu, view: &View) -> Option<DepthBounds> {
+        gpu.run(|encoder| self.draw_ambient(encoder, scene));
+        depth_bounds(gpu, &self.targets.depth_texture, view)
     }
 
     /// The lit pass's pipeline for one way to find shadows.

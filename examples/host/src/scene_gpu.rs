@@ -7,6 +7,7 @@ use shadows::wgpu::{self, util::DeviceExt as _};
 use shadows::{Caster, CasterMesh};
 
 use super::gpu::Gpu;
+use super::masked_casters::MaskedCasters;
 use super::scene::{Bounds, Light, Mesh, Object, Scene};
 
 /// A mesh as the host draws it.
@@ -32,6 +33,8 @@ pub struct SceneGpu {
     pub casters: Vec<Caster>,
     /// The objects that cast, for a host that draws them itself.
     pub casting: Vec<Casting>,
+    /// What draws those that have a mask into the library's maps.
+    pub masked: Option<MaskedCasters>,
 }
 
 /// An object as it is drawn.
@@ -85,6 +88,7 @@ impl SceneGpu {
         });
         let casting = casting.collect();
         let (object_uniforms, object_stride) = upload_objects(gpu, &scene.objects)?;
+        let masked = MaskedCasters::new(gpu, scene, &object_uniforms)?;
         Ok(Self {
             meshes,
             objects: scene
@@ -96,6 +100,7 @@ impl SceneGpu {
             object_stride,
             casters,
             casting,
+            masked,
         })
     }
 }

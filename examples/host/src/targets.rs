@@ -8,6 +8,7 @@ use super::pipelines::{SHADED, VISIBILITY};
 
 /// What is drawn into.
 pub(super) struct Targets {
+    pub depth_texture: wgpu::Texture,
     pub depth_stencil: wgpu::TextureView,
     pub shaded: Target,
     pub visibility: Target,
@@ -30,6 +31,7 @@ impl Targets {
         let depth_stencil = gpu.target(size, depth_stencil, samples);
         Ok(Self {
             depth_stencil: depth_stencil.create_view(&Default::default()),
+            depth_texture: depth_stencil,
             shaded: Target::new(gpu, size, SHADED, samples),
             visibility: Target::new(gpu, size, VISIBILITY, samples),
         })

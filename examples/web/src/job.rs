@@ -175,7 +175,7 @@ impl Judge {
             Some(spot) => scene.render_spot(&view, width, height, &spot)?,
             None => {
                 let range = (light.kind() == LightKind::Point).then_some(light.range);
-                let light = shadows::HomogeneousLight(light.place);
+                let light = host::scene::homogeneous(light.place);
                 scene.render(&view, width, height, light, range)?
             }
         };

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use host::gpu::Gpu;
 use host::renderer;
-use host::scene::{Light, LightKind, Scene};
+use host::scene::{self, Light, LightKind, Scene};
 use host::scene_gpu::SceneGpu;
 use shadows::glam::{Vec2, Vec3};
 use shadows::mesh::Bounds;
@@ -124,7 +124,7 @@ impl World {
 impl Inputs<'_> {
     /// The light as shadow volumes take it.
     pub fn homogeneous(&self) -> HomogeneousLight {
-        HomogeneousLight(self.light.place)
+        scene::homogeneous(self.light.place)
     }
 
     /// The light's end; a sun has none.

@@ -262,61 +262,78 @@ mod tests {
         Free(prop::sample::Index),
     }
 
-    fn steps() -> impl Strategy<Value = Vec<Step>> {
-        let step = prop_oneof![
+    fn step() -> impl Strategy<Value = Step> {
+        prop_oneof![
             3 => (0..4_u32).prop_map(Step::Allocate),
             2 => any::<prop::sample::Index>().prop_map(Step::Free),
-        ];
-        prop::collection::vec(step, 1..120)
+        ]
+    }
+
+    fn steps() -> impl Strategy<Value = Vec<Step>> {
+        prop::collection::vec(step(), 1..120)
     }
 
     const SIDE: u32 = 16;
     const LAYERS: u32 = 3;
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2))]
+
         #[test]
-        fn tiles_never_overlap_and_fail_only_without_room(steps in steps()) {
-            let mut tiles = TileAllocator::new(SIDE, LAYERS, 2);
-            let mut bitmap = Bitmap::new(SIDE, LAYERS);
-            let mut live: Vec<(usize, Place)> = Vec::new();
-            for (tile, step) in steps.into_iter().enumerate() {
-                match step {
-                    Step::Allocate(level) => {
-                        let size = SIDE >> level;
-                        let room = bitmap.has_room(size);
-                        let place = tiles.allocate(size);
-                        prop_assert_eq!(place.is_some(), room);
-                        let Some(place) = place else { continue };
-                        prop_assert_eq!((place.size, place.x % size, place.y % size), (size, 0, 0));
-                        prop_assert!(place.x + size <= SIDE && place.y + size <= SIDE);
-                        prop_assert!(place.layer < tiles.layers_in_use());
-                        for texel in bitmap.of(place) {
-                            prop_assert_eq!(texel.replace(tile), None);
-                        }
-                        live.push((tile, place));
+        fn ten_thousand_tiles_may_come_and_go(steps in prop::collection::vec(step(), 10_000)) {
+            overlap_never_and_fail_only_without_room(steps)?;
+        }
+    }
+
+    fn overlap_never_and_fail_only_without_room(steps: Vec<Step>) -> Result<(), TestCaseError> {
+        let mut tiles = TileAllocator::new(SIDE, LAYERS, 2);
+        let mut bitmap = Bitmap::new(SIDE, LAYERS);
+        let mut live: Vec<(usize, Place)> = Vec::new();
+        for (tile, step) in steps.into_iter().enumerate() {
+            match step {
+                Step::Allocate(level) => {
+                    let size = SIDE >> level;
+                    let room = bitmap.has_room(size);
+                    let place = tiles.allocate(size);
+                    prop_assert_eq!(place.is_some(), room);
+                    let Some(place) = place else { continue };
+                    prop_assert_eq!((place.size, place.x % size, place.y % size), (size, 0, 0));
+                    prop_assert!(place.x + size <= SIDE && place.y + size <= SIDE);
+                    prop_assert!(place.layer < tiles.layers_in_use());
+                    for texel in bitmap.of(place) {
+                        prop_assert_eq!(texel.replace(tile), None);
                     }
-                    Step::Free(which) => {
-                        if live.is_empty() {
-                            continue;
-                        }
-                        let (tile, place) = live.swap_remove(which.index(live.len()));
-                        tiles.free(place);
-                        for texel in bitmap.of(place) {
-                            prop_assert_eq!(texel.take(), Some(tile));
-                        }
+                    live.push((tile, place));
+                }
+                Step::Free(which) => {
+                    if live.is_empty() {
+                        continue;
+                    }
+                    let (tile, place) = live.swap_remove(which.index(live.len()));
+                    tiles.free(place);
+                    for texel in bitmap.of(place) {
+                        prop_assert_eq!(texel.take(), Some(tile));
                     }
                 }
-                let used: u64 = live.iter().map(|(_, place)| place.texels()).sum();
-                prop_assert_eq!(tiles.texels_in_use(), used);
-                let last = live.iter().map(|(_, place)| place.layer + 1).max();
-                prop_assert_eq!(tiles.layers_in_use(), last.unwrap_or(0));
             }
-            live.into_iter().for_each(|(_, place)| tiles.free(place));
-            prop_assert_eq!((tiles.layers_in_use(), tiles.texels_in_use()), (0, 0));
-            // Nothing is left over: each layer is one free square again.
-            for layer in 0..LAYERS {
-                prop_assert_eq!(tiles.allocate(SIDE).map(|place| place.layer), Some(layer));
-            }
+            let used: u64 = live.iter().map(|(_, place)| place.texels()).sum();
+            prop_assert_eq!(tiles.texels_in_use(), used);
+            let last = live.iter().map(|(_, place)| place.layer + 1).max();
+            prop_assert_eq!(tiles.layers_in_use(), last.unwrap_or(0));
+        }
+        live.into_iter().for_each(|(_, place)| tiles.free(place));
+        prop_assert_eq!((tiles.layers_in_use(), tiles.texels_in_use()), (0, 0));
+        // Nothing is left over: each layer is one free square again.
+        for layer in 0..LAYERS {
+            prop_assert_eq!(tiles.allocate(SIDE).map(|place| place.layer), Some(layer));
+        }
+        Ok(())
+    }
+
+    proptest! {
+        #[test]
+        fn tiles_never_overlap_and_fail_only_without_room(steps in steps()) {
+            overlap_never_and_fail_only_without_room(steps)?;
         }
 
         #[test]

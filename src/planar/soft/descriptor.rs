@@ -21,6 +21,7 @@ pub struct PlanarSoftShadowDescriptor<'a> {
     pub jitter: bool,
     /// Whether a texture whose content has not changed is left alone. Default `true`; `false` draws every frame, for
     /// measuring what that is worth.
+    #[doc(hidden)]
     pub cache: bool,
 }
 

@@ -79,7 +79,7 @@ fn apart(trials: &[Trial], scale: f32) -> (Vec<Blob>, Vec<BlobLight>, Vec<Questi
         let mut light = trial.light;
         let reach = 40.0 * scale;
         if !light.light.is_directional() {
-            let at = scale * light.light.0.truncate() + moved(place);
+            let at = scale * light.light.xyzw().truncate() + moved(place);
             light = BlobLight::new(HomogeneousLight::point(at), light.radius * scale, reach);
         }
         BlobLight { reach, ..light }

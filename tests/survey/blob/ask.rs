@@ -87,7 +87,7 @@ pub fn truth(blob: &Blob, light: &BlobLight, at: Vec3, samples: u32) -> f64 {
     let [x, y, z] = blob.axes.map(|axis| axis.as_dvec3());
     let unit = DMat3::from_cols(x, y, z).inverse();
     let q = unit * (at.as_dvec3() - blob.centre.as_dvec3());
-    let place = light.light.0.as_dvec4();
+    let place = light.light.xyzw().as_dvec4();
     let toward = place.xyz() - place.w * at.as_dvec3();
     let (across, along) = toward.normalize().any_orthonormal_pair();
     let radius = match place.w {

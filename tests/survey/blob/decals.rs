@@ -8,7 +8,7 @@ use shadows::{
 
 use host::gpu::Gpu;
 use host::renderer::{self, Look, Orthographic, Renderer, ShadowAccess};
-use host::scene::{Light, Scene, floor};
+use host::scene::{Light, Scene, floor, homogeneous};
 use host::scene_gpu::SceneGpu;
 
 const SIZE: [u32; 2] = [160, 90];
@@ -109,7 +109,7 @@ impl Trial {
             ..Default::default()
         };
         let mut shadow = BlobShadow::new(device, &descriptor).unwrap();
-        let light = HomogeneousLight(self.scene.light().place);
+        let light = homogeneous(self.scene.light().place);
         let light = BlobLight::new(light, self.radius, self.reach);
         // The second of two, so that the right ones are read.
         let other = BlobLight::new(HomogeneousLight::point(Vec3::X), 1.0, 1.0);

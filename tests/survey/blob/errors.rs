@@ -1,7 +1,7 @@
 //! What is refused.
 
 use shadows::error::{BlobShadowError, CasterError, LightError};
-use shadows::glam::{Affine3A, Vec3, Vec4};
+use shadows::glam::{Affine3A, Vec3};
 use shadows::{
     Blob, BlobDecalDescriptor, BlobFrame, BlobLight, BlobShadow, BlobShadowDescriptor,
     HomogeneousLight, wgpu,
@@ -137,7 +137,7 @@ fn frames_out_of_range_are_refused_and_leave_what_was() {
     let of_lights = |lights| BlobFrame { lights, ..good };
     let of_blobs = |blobs| BlobFrame { blobs, ..good };
     let bad = BlobLight {
-        light: HomogeneousLight(Vec4::ZERO),
+        light: HomogeneousLight::directional(Vec3::ZERO),
         ..sun()
     };
     use BlobShadowError as E;

@@ -8,6 +8,7 @@ use crate::shadow::{Shadow, ShadowInputs};
 use crate::stage::{Picture, Stage};
 use host::gpu::Gpu;
 use host::renderer::matrix;
+use host::scene::moved_light;
 
 /// Added at once, so that buffers grow.
 const MANY: usize = 300;
@@ -81,7 +82,8 @@ fn before_another(gpu: &Gpu, stage: &Stage, shadow: &mut Shadow) -> Result<Pictu
     let (renderer, look) = (&stage.renderer, stage.renderer.look());
     let mut other = stage.inputs.clone();
     other.view = View::new(matrix(&scene, renderer.size(), look), look.depth)?;
-    other.light.0 += Vec3::new(0.4, 0.1, 0.2).extend(0.0);
+    other.depths = None;
+    other.light = moved_light(other.light, Vec3::new(0.4, 0.1, 0.2));
     for caster in &mut other.casters {
         caster.world_from_object.translation.x += 0.3;
     }

@@ -6,7 +6,7 @@ use anyhow::Result;
 use shadows::glam::{Affine3A, Mat4, Vec3, Vec4};
 use shadows::mesh::{Adjacency, Topology};
 use shadows::{
-    Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, HomogeneousLight, ShadowMap,
+    Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, ShadowMap,
     ShadowMapDescriptor, View,
 };
 
@@ -19,7 +19,7 @@ use crate::stage::Stage;
 use crate::technique::Technique;
 use host::gpu::Gpu;
 use host::random::Random;
-use host::scene::Scene;
+use host::scene::{Scene, homogeneous};
 use host::shapes::{self, Shape};
 
 /// Tries all of it.
@@ -160,7 +160,7 @@ fn frames(gpu: &Gpu, technique: &Technique) -> Result<Vec<Refusal>> {
         spoilt.push((what, inputs));
     };
     spoil("a light at NaN", &|inputs| {
-        inputs.light = HomogeneousLight(Vec4::new(f32::NAN, 1.0, 0.0, inputs.light.0.w));
+        inputs.light = homogeneous(Vec4::new(f32::NAN, 1.0, 0.0, inputs.light.xyzw().w));
     });
     spoil("a caster at infinity", &|inputs| {
         let far = Affine3A::from_translation(Vec3::new(0.0, f32::INFINITY, 0.0));

@@ -230,7 +230,7 @@ fn placed(situation: &Situation, stage: &Stage) -> Scene {
     }
     if scene.light().place.w != 0.0 {
         let position = scene.light().place.truncate().as_dvec3() + situation.offset;
-        scene.light_mut().place = HomogeneousLight::placed(position, origin).0;
+        scene.light_mut().place = HomogeneousLight::placed(position, origin).xyzw();
     }
     scene.camera.eye = moved(scene.camera.eye);
     scene.camera.target = moved(scene.camera.target);

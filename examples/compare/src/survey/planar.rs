@@ -97,7 +97,7 @@ pub fn light(inputs: &ShadowInputs) -> Light {
     match inputs.spot_light() {
         Some(spot) => spot.into(),
         None if inputs.light.is_directional() => {
-            DirectionalLight::new(inputs.light.0.truncate()).into()
+            DirectionalLight::new(inputs.light.xyzw().truncate()).into()
         }
         None => inputs.point_light().into(),
     }

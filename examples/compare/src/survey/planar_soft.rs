@@ -115,7 +115,7 @@ impl SurveyShadow for PlanarSoft {
 /// As far from edges as the widest penumbra and a texel: the texture seen as a map of the light's middle. Where things
 /// are as high as the light there is no widest one, and the screen alone decides.
 fn interior(inputs: &ShadowInputs, receiver: &PlanarRectangle, size: u32) -> Interior {
-    let light = inputs.light.0.as_dvec4();
+    let light = inputs.light.xyzw().as_dvec4();
     let ground = f64::from(receiver.corner.y);
     let plane = DVec4::new(0.0, 1.0, 0.0, -ground);
     let height = plane.dot(light);

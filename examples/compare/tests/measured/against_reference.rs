@@ -2,14 +2,14 @@
 //! them something broken that must not keep it.
 
 use shadows::Bias;
-use shadows::glam::Vec4;
+use shadows::glam::{Vec3, Vec4};
 use shadows::reference::{Comparison, ReferenceImage};
 
 use compare::shadow::{Shadow, ShadowInputs};
 use compare::stage::Stage;
 use compare::technique::{Config, Technique};
 use host::gpu::Gpu;
-use host::scene::{LightKind, Scene};
+use host::scene::{LightKind, Scene, moved_light};
 
 const SIZE: [u32; 2] = [1280, 720];
 const FACE: u32 = 1024;
@@ -95,7 +95,7 @@ fn wrong_percent(error: &Comparison) -> f64 {
 
 /// The technique believes the light to be 5 cm from where it is.
 fn move_light(inputs: &mut ShadowInputs) {
-    inputs.light.0 += Vec4::new(0.03, 0.0, 0.04, 0.0);
+    inputs.light = moved_light(inputs.light, Vec3::new(0.03, 0.0, 0.04));
 }
 
 /// Every second caster is forgotten, the first of them included.
@@ -208,7 +208,7 @@ fn a_bilinear_cube_map_is_wrong_only_at_edges_on_the_spheres() {
 
 /// The same for a light far away, or seen by texels that are larger.
 fn move_light_far(inputs: &mut ShadowInputs) {
-    inputs.light.0 += Vec4::new(0.09, 0.0, 0.12, 0.0);
+    inputs.light = moved_light(inputs.light, Vec3::new(0.09, 0.0, 0.12));
 }
 
 /// A 2x2 flat map on the spheres, lit by another kind of light; and each broken twin.

@@ -5,15 +5,14 @@ use compare::stage::Stage;
 use host::exact;
 use host::gpu::Gpu;
 use host::interior;
-use host::masked_casters::MaskedCasters;
 use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, ShadowAccess};
 use host::scene::{Light, Mesh, Object, Scene, square};
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::reference::{Comparison, Interior, ReferenceImage};
 use shadows::{
-    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, Kernel, MapKind, PcfDescriptor,
-    PcfSampler, ShadowFrame, ShadowMap, ShadowMapDescriptor, wgpu,
+    Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, HostDraw, Kernel, MapKind,
+    PcfDescriptor, PcfSampler, ShadowFrame, ShadowMap, ShadowMapDescriptor, wgpu,
 };
 use shadows::{FlatLight, SpotLight};
 
@@ -74,15 +73,17 @@ fn lit(gpu: &Gpu, stage: &Stage, sampler: &PcfSampler) -> LitPipeline {
     stage.renderer.lit_pipeline(gpu, &access)
 }
 
-fn masked(gpu: &Gpu, stage: &Stage, format: wgpu::TextureFormat, tiles: u32) -> MaskedCasters {
-    MaskedCasters::new(gpu, (&stage.scene, &stage.scene_gpu), format, tiles).unwrap()
-}
-
 /// The library's casters, and the host's.
-fn casters(stage: &Stage, masked: &MaskedCasters) -> Vec<Caster> {
+fn casters(stage: &Stage) -> Vec<Caster> {
     let ours = &stage.inputs.casters;
     assert_eq!(ours.len(), 1, "the library draws no masks");
-    ours.iter().chain([&masked.caster]).cloned().collect()
+    assert_eq!(stage.inputs.masked.len(), 3);
+    stage.inputs.of_maps()
+}
+
+fn draw_masked(stage: &Stage, pass: &mut wgpu::RenderPass<'_>, asked: &HostDraw<'_>) {
+    let masked = stage.scene_gpu.masked.as_ref().unwrap();
+    masked.draw(&stage.scene_gpu, 1, pass, asked);
 }
 
 /// What a spot's map shows, with the host's casters drawn into it or without.
@@ -90,8 +91,7 @@ fn flat(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     let mut map = ShadowMap::new(&gpu.device, &ShadowMapDescriptor::default()).unwrap();
     let sampler = sampler(gpu, MapKind::Flat);
     let spot = SpotLight::new(LAMP, -LAMP, 0.9, 30.0);
-    let masked = masked(gpu, stage, map.texture().format(), 1);
-    let casters = casters(stage, &masked);
+    let casters = casters(stage);
     let frame = ShadowFrame::new(FlatLight::Spot(spot), &casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     let group = sampler.bind_group(&gpu.device, &map).unwrap();
@@ -99,9 +99,7 @@ fn flat(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
         match own {
-            true => map.encode_with(encoder, |pass, asked| {
-                masked.draw(gpu, &stage.scene_gpu, pass, asked);
-            }),
+            true => map.encode_with(encoder, |pass, asked| draw_masked(stage, pass, asked)),
             false => map.encode(encoder),
         }
         stage
@@ -117,8 +115,7 @@ fn cube(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     let descriptor = CubeShadowMapDescriptor::default();
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
     let sampler = sampler(gpu, MapKind::Cube);
-    let masked = masked(gpu, stage, descriptor.format, 6);
-    let casters = casters(stage, &masked);
+    let casters = casters(stage);
     let frame = CubeFrame::new(stage.inputs.point_light(), &casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
     let group = sampler.bind_group(&gpu.device, &map).unwrap();
@@ -126,9 +123,7 @@ fn cube(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
         match own {
-            true => map.encode_with(encoder, |pass, asked| {
-                masked.draw(gpu, &stage.scene_gpu, pass, asked);
-            }),
+            true => map.encode_with(encoder, |pass, asked| draw_masked(stage, pass, asked)),
             false => map.encode(encoder),
         }
         stage

@@ -6,8 +6,8 @@ use compare::stage::Stage;
 use compare::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::peers::PEERS;
-use host::scene::{LightKind, spheres};
-use shadows::glam::Vec4;
+use host::scene::{LightKind, moved_light, spheres};
+use shadows::glam::Vec3;
 use shadows::reference::ReferenceImage;
 
 /// Wrong pixels away from every edge.
@@ -37,7 +37,7 @@ fn on_spheres_each_is_right_away_from_edges_and_not_where_its_light_is_elsewhere
         let stage = Stage::new(&gpu, scene, [320, 180]).unwrap();
         let reference = stage.reference(|_| ()).unwrap();
         let mut elsewhere = stage.inputs.clone();
-        elsewhere.light.0 += Vec4::new(0.5, 0.0, 0.4, 0.0);
+        elsewhere.light = moved_light(elsewhere.light, Vec3::new(0.5, 0.0, 0.4));
         for peer in &PEERS {
             let technique = Technique {
                 name: peer.name.into(),

@@ -5,9 +5,8 @@ use compare::stage::Stage;
 use compare::technique::Technique;
 use compare::temporal::Path;
 use host::gpu::Gpu;
-use host::scene::{LightKind, Scene, spheres};
-use shadows::HomogeneousLight;
-use shadows::glam::{Vec2, Vec4};
+use host::scene::{LightKind, Scene, moved_light, spheres};
+use shadows::glam::{Vec2, Vec3};
 use shadows::reference::{Class, Flips, ReferenceImage};
 
 const SIZE: [u32; 2] = [160, 90];
@@ -170,8 +169,8 @@ fn flat(gpu: &Gpu, jitter: f32) -> [usize; 3] {
         place += 1;
         let flips = compare::temporal::watch_with(gpu, &mut stage, path, truth, |stage, step| {
             let mut inputs = stage.inputs.clone();
-            let aside = jitter * inputs.light.0.truncate().length() * (step % 2) as f32;
-            inputs.light = HomogeneousLight(inputs.light.0 + Vec4::new(aside, 0.0, 0.0, 0.0));
+            let aside = jitter * inputs.light.xyzw().truncate().length() * (step % 2) as f32;
+            inputs.light = moved_light(inputs.light, aside * Vec3::X);
             Ok(stage.picture(gpu, &mut shadow, &inputs)?.visibility)
         });
         excess(&flips.unwrap())

@@ -1,5 +1,6 @@
 //! The lights of a scene, and its sky.
 
+use shadows::HomogeneousLight;
 use shadows::glam::{Vec3, Vec4};
 
 /// The kinds of light.
@@ -72,6 +73,19 @@ impl Light {
             (false, None) => LightKind::Point,
         }
     }
+}
+
+/// A place as the library takes it: a point in the world, or with w = 0 a direction to the light.
+pub fn homogeneous(place: Vec4) -> HomogeneousLight {
+    match place.w == 0.0 {
+        true => HomogeneousLight::directional(place.truncate()),
+        false => HomogeneousLight::point(place.truncate()),
+    }
+}
+
+/// The same light from elsewhere, or from another direction.
+pub fn moved_light(light: HomogeneousLight, by: Vec3) -> HomogeneousLight {
+    homogeneous(light.xyzw() + by.extend(0.0))
 }
 
 /// What is where no surface is, and the light that comes from all sides.

@@ -26,13 +26,21 @@ pub use city::city;
 pub use courtyard::courtyard;
 pub use file::file;
 pub use floor::floor;
-pub use light::{Cone, Light, LightKind, Sky};
+pub use light::{Cone, Light, LightKind, Sky, homogeneous, moved_light};
 pub use spheres::{spheres, spheres_moving};
 pub use teapot::teapot;
 pub use valley::valley;
 
 /// Names of the built-in scenes, as [`load`] takes them.
-pub const NAMES: [&str; 6] = ["spheres", "courtyard", "teapot", "city", "valley", "floor"];
+pub const NAMES: [&str; 7] = [
+    "spheres",
+    "courtyard",
+    "teapot",
+    "city",
+    "valley",
+    "valley-leaves",
+    "floor",
+];
 
 /// Indexed triangles in the mesh's own space.
 #[derive(Clone, Debug, PartialEq)]
@@ -220,6 +228,12 @@ impl Scene {
         self.count(|o| o.casts)
     }
 
+    /// Whether a caster has a mask, so that the host alone can draw it.
+    pub fn casts_through_masks(&self) -> bool {
+        let mut casters = self.objects.iter().filter(|o| o.casts);
+        casters.any(|o| !self.meshes[o.mesh].mask.is_empty())
+    }
+
     fn count(&self, wanted: impl Fn(&Object) -> bool) -> usize {
         let objects = self.objects.iter().filter(|o| wanted(o));
         objects.map(|o| self.meshes[o.mesh].triangle_count()).sum()
@@ -321,7 +335,7 @@ pub enum Time {
 pub fn times(name: &str) -> &'static [Time] {
     match name {
         "city" => &[Time::Day, Time::Night],
-        "valley" => &[Time::Day],
+        "valley" | "valley-leaves" => &[Time::Day],
         _ => &[],
     }
 }
@@ -344,6 +358,7 @@ pub fn load(spec: &str, ground: bool, time: Option<Time>) -> anyhow::Result<Scen
         "spheres" => Ok(spheres()),
         "city" => Ok(city(time.unwrap_or(times[0]))),
         "valley" => Ok(valley()),
+        "valley-leaves" => Ok(valley::valley_with(plants::Leaves::Masked)),
         "courtyard" => Ok(courtyard()),
         "teapot" => Ok(teapot()),
         "floor" => Ok(floor()),

@@ -10,14 +10,13 @@ use host::scene::plants::Leaves;
 use host::scene::valley::valley_with;
 use host::scene::{self, LightKind, Mesh, Scene, Time};
 
-/// All built-in ones, the city by night as well, the valley with cards for leaves as well.
+/// All built-in ones, the city by night as well.
 fn all() -> Vec<Scene> {
     let mut all: Vec<Scene> = scene::NAMES
         .iter()
         .map(|name| scene::load(name, true, None).unwrap())
         .collect();
     all.push(scene::city(Time::Night));
-    all.push(valley_with(Leaves::Masked));
     all
 }
 

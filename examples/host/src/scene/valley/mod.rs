@@ -77,7 +77,10 @@ type Tree = [usize; 2];
 
 impl Valley {
     fn new(leaves: Leaves) -> Self {
-        let mut scene = Scene::empty("valley");
+        let mut scene = Scene::empty(match leaves {
+            Leaves::Solid => "valley",
+            Leaves::Masked => "valley-leaves",
+        });
         let eye = ground(EYE[0], EYE[1]).as_vec3() + vec3(0.0, 2.3, 0.0);
         scene.camera = Camera {
             eye,
