@@ -3,13 +3,15 @@
 use crate::uploads::Uploads;
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::merged::{BLOCK_BYTES, DRAW_BYTES, Member, MergedDraws};
 use crate::volume::plan::meshes::{ITEM_BYTES, LISTS, MeshPool};
 use crate::volume::plan::params::{
     Arguments, BatchParams, CasterParams, InstanceParams, LightParams, ViewParams,
 };
 use crate::volume::plan::ranges::NAMES;
+use crate::volume::plan::seats::SEATS_OF_CASTER;
 use crate::volume::plan::windows::Windows;
-use crate::volume::plan::work::{Share, Work};
+use crate::volume::plan::work::{Merge, Share, Work};
 use crate::volume::silhouette::{Way, Ways};
 
 /// A buffer that grows.
@@ -106,12 +108,15 @@ pub(crate) struct Buffers {
     instances: Grown,
     arguments: Grown,
     shares: Grown,
+    merges: Grown,
     casters: Grown,
     views: Grown,
     lights: Grown,
     chunks: Vec<[Grown; 3]>,
     /// Positions, triangles, edges and uses of edges of meshes.
     pools: Vec<[Grown; LISTS]>,
+    /// Casters, blocks and arguments of draws.
+    merged: Vec<[Grown; 3]>,
     /// Grows by one whenever a buffer was made anew: bind groups of before are then stale.
     generation: u64,
 }
@@ -124,6 +129,7 @@ pub(crate) struct Needs<'a> {
     pub work: &'a Work,
     pub cache: &'a VolumeCache,
     pub meshes: &'a MeshPool,
+    pub merged: &'a MergedDraws,
 }
 
 /// The buffers that compute shaders read and write, besides a chunk's.
@@ -132,11 +138,18 @@ pub(crate) struct Bound<'a> {
     pub instances: &'a wgpu::Buffer,
     pub arguments: &'a wgpu::Buffer,
     pub shares: &'a wgpu::Buffer,
+    pub merges: &'a wgpu::Buffer,
 }
 
 impl Buffers {
-    pub fn new(label: &str) -> Self {
+    /// `ways`: in which silhouettes may be found.
+    pub fn new(label: &str, ways: &Ways) -> Self {
         use wgpu::BufferUsages as U;
+        // The vertex way needs no storage buffers, and other ways no caster by itself.
+        let casters = match ways.contain(Way::Vertex) {
+            true => U::UNIFORM,
+            false => U::STORAGE,
+        };
         let name = |what: &str| format!("{label} {what}");
         Self {
             label: label.to_owned(),
@@ -144,11 +157,13 @@ impl Buffers {
             instances: Grown::new(name("instances"), U::STORAGE | U::COPY_DST),
             arguments: Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
             shares: Grown::new(name("shares"), U::STORAGE | U::COPY_DST),
-            casters: Grown::keeping(name("casters"), U::UNIFORM),
+            merges: Grown::new(name("merges"), U::STORAGE | U::COPY_DST),
+            casters: Grown::keeping(name("casters"), casters),
             views: Grown::keeping(name("views"), U::UNIFORM),
             lights: Grown::keeping(name("lights"), U::UNIFORM),
             chunks: Vec::new(),
             pools: Vec::new(),
+            merged: Vec::new(),
             generation: 0,
         }
     }
@@ -172,7 +187,8 @@ impl Buffers {
             grower.grow(grown, count as u64 * each, most);
         };
         let windows = limits.caster_window.into();
-        grow(&mut self.casters, needs.windows.len(), windows, most);
+        let of_casters = limits.caster_bytes;
+        grow(&mut self.casters, needs.windows.len(), windows, of_casters);
         let [views, lights] = [needs.views.len(), needs.lights.len()];
         grow(&mut self.views, views, limits.view_window.into(), most);
         grow(&mut self.lights, lights, limits.light_window.into(), most);
@@ -184,6 +200,8 @@ impl Buffers {
             grow(&mut self.instances, work.instances.len(), instance, storage);
             let share = size_of::<Share>() as u64;
             grow(&mut self.shares, work.shares.len(), share, storage);
+            let merge = size_of::<Merge>() as u64;
+            grow(&mut self.merges, work.merges.len(), merge, storage);
             let arguments = size_of::<Arguments>() as u64;
             grow(
                 &mut self.arguments,
@@ -206,6 +224,16 @@ impl Buffers {
             }
             for (list, grown) in self.pools[place].iter_mut().enumerate() {
                 grower.grow(grown, items[list] * ITEM_BYTES[list], storage);
+            }
+        }
+        for (place, items) in needs.merged.ends().enumerate() {
+            if place == self.merged.len() {
+                self.merged.push(merged(&self.label, place));
+            }
+            let each = [size_of::<Member>() as u64, BLOCK_BYTES, DRAW_BYTES];
+            let lists = self.merged[place].iter_mut().zip(items).zip(each);
+            for ((grown, items), each) in lists.filter(|((_, items), _)| *items > 0) {
+                grower.grow(grown, items * each, storage);
             }
         }
         self.generation += u64::from(grower.made);
@@ -245,7 +273,7 @@ impl Buffers {
             return;
         };
         let params = work.dispatches().map(|dispatch| BatchParams {
-            first_share: dispatch.first_share,
+            first_item: dispatch.first_item,
             zero: 0,
             padding: [0; 2],
         });
@@ -253,6 +281,7 @@ impl Buffers {
         uploads.write(bound.batches, 0, &spread(&params, limits.batch_window));
         uploads.write(bound.instances, 0, bytemuck::cast_slice(&work.instances));
         uploads.write(bound.shares, 0, bytemuck::cast_slice(&work.shares));
+        uploads.write(bound.merges, 0, bytemuck::cast_slice(&work.merges));
         let mut rest = &work.arguments[..];
         while let Some(&(first, _)) = rest.first() {
             let follows = |(at, (number, _)): (u32, &(u32, Arguments))| *number == first + at;
@@ -277,16 +306,23 @@ impl Buffers {
             instances: self.instances.buffer.as_ref()?,
             arguments: self.arguments.buffer.as_ref()?,
             shares: self.shares.buffer.as_ref()?,
+            merges: self.merges.buffer.as_ref()?,
         })
     }
 
-    /// The parameters of casters, views and lights, once there are any.
+    /// The parameters of views, lights and casters, once there are any.
     pub fn uniforms(&self) -> Option<[&wgpu::Buffer; 3]> {
         Some([
-            self.casters.buffer.as_ref()?,
             self.views.buffer.as_ref()?,
             self.lights.buffer.as_ref()?,
+            self.casters.buffer.as_ref()?,
         ])
+    }
+
+    /// Casters, blocks and arguments of a chunk of draws, as far as any draw has them.
+    pub fn merged(&self, chunk: usize) -> Option<[Option<&wgpu::Buffer>; 3]> {
+        let lists = self.merged.get(chunk)?;
+        Some(lists.each_ref().map(|grown| grown.buffer.as_ref()))
     }
 
     /// Facings, caps and sides of a chunk.
@@ -317,6 +353,7 @@ impl Buffers {
             &self.instances,
             &self.arguments,
             &self.shares,
+            &self.merges,
             &self.casters,
             &self.views,
             &self.lights,
@@ -324,6 +361,7 @@ impl Buffers {
         .into_iter()
         .chain(self.chunks.iter().flatten())
         .chain(self.pools.iter().flatten())
+        .chain(self.merged.iter().flatten())
         .map(Grown::size)
         .sum()
     }
@@ -337,6 +375,16 @@ fn chunk(label: &str, place: usize) -> [Grown; 3] {
         Grown::new(name(0), U::STORAGE),
         Grown::keeping(name(1), U::STORAGE | U::INDEX),
         Grown::keeping(name(2), U::STORAGE),
+    ]
+}
+
+fn merged(label: &str, place: usize) -> [Grown; 3] {
+    use wgpu::BufferUsages as U;
+    let name = |what: &str| format!("{label} draws {what} {place}");
+    [
+        Grown::keeping(name("members"), U::STORAGE),
+        Grown::keeping(name("blocks"), U::STORAGE | U::VERTEX),
+        Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
     ]
 }
 
@@ -375,18 +423,26 @@ impl PlanLimits {
             storage_bytes / size_of::<Arguments>() as u64,
             // One of each pass at least.
             storage_bytes / (2 * size_of::<Share>() as u64),
+            // If none of its faces shares a draw.
+            storage_bytes / (SEATS_OF_CASTER * size_of::<Merge>() as u64),
         ];
         let of_compute = of_compute
             .into_iter()
             .filter(|_| ways.contain(Way::Compute));
-        let windows = uniform_bytes / u64::from(window::<CasterParams>(limits));
+        let (caster_window, caster_bytes) = match ways.contain(Way::Vertex) {
+            true => (window::<CasterParams>(limits), limits.max_buffer_size),
+            false => (size_of::<CasterParams>() as u32, storage_bytes),
+        };
+        // Dynamic offsets are 32 bits wide.
+        let windows = caster_bytes.min(u64::from(u32::MAX)) / u64::from(caster_window);
         let casters = of_compute.fold(windows, u64::min);
         Self {
             buffer_bytes: limits.max_buffer_size,
             storage_bytes,
+            caster_bytes,
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,
-            caster_window: window::<CasterParams>(limits),
+            caster_window,
             view_window: window::<ViewParams>(limits),
             light_window: window::<LightParams>(limits),
             batch_window: window::<BatchParams>(limits),

@@ -9,4 +9,5 @@ pub(crate) mod layout;
 pub(crate) mod pipelines;
 pub(crate) mod reset;
 pub(crate) mod staged;
+pub(crate) mod staged_draws;
 pub(crate) mod staged_meshes;
