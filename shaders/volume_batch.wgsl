@@ -1,21 +1,10 @@
 // What the two extraction passes know: who finds what of which volume.
 
-const WORKGROUP: u32 = 256u;
-
 // Words of indirect arguments an instance owns, and where in them the counts lie.
-const ARGS_STRIDE: u32 = 18u;
+const ARGS_STRIDE: u32 = 11u;
 const ARGS_FRONT: u32 = 0u; // indexed draw of the caps that count +1
 const ARGS_BACK: u32 = 5u; // indexed draw of the caps that count -1
-const ARGS_QUADS: u32 = 10u; // draw of the sides, six vertices each
-const ARGS_TRIANGLES: u32 = 14u; // draw of the sides, three vertices each
-
-struct Batch {
-    // The first workgroup's share.
-    first_share: u32,
-    // See `settled` in volume_light_side.wgsl.
-    zero: u32,
-    padding: vec2u,
-}
+const ARGS_SIDES: u32 = 10u; // number of sides
 
 // A volume to be found.
 struct Instance {
@@ -45,13 +34,11 @@ struct Instance {
     position_offset: u32,
 }
 
-@group(0) @binding(0) var<uniform> batch: Batch;
 @group(0) @binding(1) var<storage, read> instances: array<Instance>;
 @group(0) @binding(2) var<storage, read_write> args: array<atomic<u32>>;
 // For each workgroup its instance, and the first of its elements: triangles or edges.
 @group(0) @binding(3) var<storage, read> shares: array<vec2u>;
 
-// Long lists are folded into rows.
 fn share_of(group: vec3u, groups: vec3u) -> vec2u {
-    return shares[batch.first_share + group.y * groups.x + group.x];
+    return shares[item_of(group, groups)];
 }

@@ -1,20 +1,26 @@
 // What the debug views draw beside a volume's faces, from the lists that an extraction left.
 
-// Six vertices a side, as the side's own draw has them: the first two are its silhouette edge, the
-// others lie off the screen.
+// As many vertices as the sides' own draw has, two of them a line for each side; the others lie off the
+// screen.
 @vertex
-fn shadows_volume_debug_edge(@builtin(vertex_index) vertex: u32) -> Drawn {
-    let corner = vertex % 6u;
-    if corner > 1u {
-        return drawn(vec4f(2.0, 2.0, 0.0, 1.0));
+fn shadows_volume_debug_edge(
+    @builtin(vertex_index) vertex: u32,
+    block: Block,
+) -> Drawn {
+    let place = vertex / 2u;
+    if is_beyond(place, block) {
+        return nowhere();
     }
-    let edge = directed_edge(vertex / 6u);
-    return drawn(near_point(position(select(edge.x, edge.y, corner == 1u))));
+    begin(block);
+    let edge = directed_edge(place, block);
+    return drawn(near_point(position(select(edge.x, edge.y, vertex % 2u == 1u))));
 }
 
 @vertex
 fn shadows_volume_debug_caster(
     @builtin(vertex_index) vertex: u32,
+    block: Block,
 ) -> Drawn {
+    begin(block);
     return drawn(near_point(position(vertex)));
 }

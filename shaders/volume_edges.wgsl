@@ -48,11 +48,8 @@ fn shadows_volume_edges(
     if local == 0u {
         let total = atomicLoad(&side_count);
         if total > 0u {
-            // Which of the two is drawn depends on the camera; the list does not.
             let word = instance.arguments * ARGS_STRIDE;
-            let before = atomicAdd(&args[word + ARGS_QUADS], total * 6u);
-            atomicAdd(&args[word + ARGS_TRIANGLES], total * 3u);
-            side_first = instance.side_base + before / 6u;
+            side_first = instance.side_base + atomicAdd(&args[word + ARGS_SIDES], total);
         }
     }
     workgroupBarrier();

@@ -11,7 +11,8 @@ struct Caster {
     // In words of 4 bytes.
     position_stride: u32,
     position_offset: u32,
-    side_base: u32,
+    // The first of the mesh's edges.
+    edge_base: u32,
     side_vertices: u32,
     // As `Instance` in volume_batch.wgsl has them.
     object_light: vec4f,
@@ -23,8 +24,6 @@ struct Caster {
     // See `settled` in volume_light_side.wgsl.
     zero: u32,
     anchor_from_light: vec3f,
-    // The first of the mesh's edges.
-    edge_base: u32,
 }
 
 struct Camera {
@@ -38,9 +37,8 @@ struct Light {
     homogeneous: vec4f,
 }
 
-@group(0) @binding(0) var<uniform> caster: Caster;
-@group(0) @binding(1) var<uniform> camera: Camera;
-@group(0) @binding(2) var<uniform> light: Light;
+@group(0) @binding(0) var<uniform> camera: Camera;
+@group(0) @binding(1) var<uniform> light: Light;
 
 fn near_point(position: vec3f) -> vec4f {
     let clip = shadows_clip_position(camera.clip_from_world, caster.world_from_object, position);

@@ -4,6 +4,9 @@
 // come to the same sign from the same numbers. (McGuire, "Efficient shadow volume rendering",
 // 2004, carries the neighbours' normals, which round on their own.)
 
+// A draw is one caster's.
+@group(0) @binding(2) var<uniform> caster: Caster;
+
 fn cap_count(a: vec3f, b: vec3f, c: vec3f) -> i32 {
     let light = caster.object_light;
     let count = light_side(a, b, c, light, caster.object_light_rest, caster.zero);

@@ -107,6 +107,10 @@ fn vertex_inputs(
         let format = match module.types[ty].inner {
             TypeInner::Scalar(s) if s.kind == ScalarKind::Uint => vk::Format::R32_UINT,
             TypeInner::Scalar(_) => vk::Format::R32_SFLOAT,
+            TypeInner::Vector {
+                size: VectorSize::Tri,
+                scalar,
+            } if scalar.kind == ScalarKind::Uint => vk::Format::R32G32B32_UINT,
             TypeInner::Vector { size, .. } => match size {
                 VectorSize::Bi => vk::Format::R32G32_SFLOAT,
                 VectorSize::Tri => vk::Format::R32G32B32_SFLOAT,

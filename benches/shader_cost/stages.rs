@@ -1,6 +1,6 @@
 //! The shaders that are not receivers: what casters, volumes and their silhouettes run.
 
-use crate::modules::{EDGES, FACE, FACING, PULLED, PULLED_STEPS, RECORDS, joined};
+use crate::modules::{EDGES, FACE, FACING, MERGE, PULLED, PULLED_STEPS, RECORDS, joined};
 use crate::pipeline::Case;
 
 /// A depth-only vertex shader with a transform an instance, for comparison.
@@ -72,20 +72,28 @@ pub fn all() -> Vec<Case> {
             none,
             vec![1, 0, 1],
         ),
+        // Then the doublings of the sum, and the blocks of an invocation; the search in it is unrolled.
+        case(
+            "volume/merge".to_owned(),
+            &joined(MERGE),
+            &["shadows_volume_merge"],
+            none,
+            vec![1, 8, 1],
+        ),
     ];
     for (name, entry) in VOLUME {
         cases.push(case(
             format!("volume-pulled-steps/{name}"),
             &joined(PULLED_STEPS),
             &[entry],
-            none,
+            0,
             vec![],
         ));
         cases.push(case(
             format!("volume-pulled/{name}"),
             &joined(PULLED),
             &[entry],
-            none,
+            0,
             vec![],
         ));
         cases.push(case(

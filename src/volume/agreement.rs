@@ -15,7 +15,9 @@ use super::*;
 use crate::mesh::{Adjacency, EdgeRecord, MeshKind, edge_records};
 use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::gpu::draw_pipelines::Feed;
-use crate::volume::plan::params::Arguments;
+use crate::volume::plan::cache::Slot;
+use crate::volume::plan::params::{Arguments, CasterParams};
+use crate::volume::silhouette::Way;
 use crate::{Caster, DepthConvention, HomogeneousLight, Silhouettes, StartFrom, View};
 use gpu::Gpu;
 use shapes::Shape;
@@ -109,9 +111,7 @@ fn extracted(
             _ => {
                 let own = &arguments.as_ref().unwrap()[slot.instance.arguments as usize];
                 let [front, back] = [own.front, own.back].map(|a| a[2]..a[2] + a[0]);
-                let [quads, triangles] = [own.quads[0], own.triangles[0]];
-                assert_eq!((quads % 6, triangles), (0, quads / 2));
-                (front, back, quads / 6)
+                (front, back, own.sides)
             }
         };
         let list = |range: std::ops::Range<u32>| {
@@ -133,8 +133,8 @@ fn extracted(
 }
 
 const COUNT: &str = "
-@group(0) @binding(1) var<storage, read> records: array<array<u32, 19>>;
-@group(0) @binding(2) var<storage, read_write> counts: array<i32>;
+@group(0) @binding(3) var<storage, read> records: array<array<u32, 19>>;
+@group(0) @binding(4) var<storage, read_write> counts: array<i32>;
 fn corner(record: u32, n: u32) -> vec3f {
     return vec3f(
         bitcast<f32>(records[record][3u * n]),
@@ -215,7 +215,7 @@ fn counted(gpu: &Gpu, params: &[u8], records: &[EdgeRecord]) -> Vec<i32> {
         compilation_options: Default::default(),
         cache: None,
     });
-    let entries: Vec<_> = (0..)
+    let entries: Vec<_> = (2..)
         .zip(&buffers)
         .map(|(binding, buffer)| wgpu::BindGroupEntry {
             binding,

@@ -1,7 +1,10 @@
 //! The renderer: prepare, encode, render.
 
+mod drawn;
 mod inspect;
 mod upload;
+
+pub(crate) use drawn::Drawn;
 
 use crate::DepthConvention;
 use crate::error::{ShadowVolumeError, VolumeRenderError};
@@ -10,19 +13,16 @@ use crate::uploads::Uploads;
 use crate::volume::decide::method::Options;
 use crate::volume::gpu::bind_groups::Groups;
 use crate::volume::gpu::buffers::Buffers;
-use crate::volume::gpu::draw_calls::record;
-use crate::volume::gpu::draw_pipelines;
+use crate::volume::gpu::draw_pipelines::{self, Feed};
 use crate::volume::gpu::pipelines::{OwnPipelines, VolumePipelines};
-use crate::volume::plan::cache::{Slot, VolumeCache};
-use crate::volume::plan::faces::Draw;
+use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
 use crate::volume::plan::meshes::MeshPool;
-use crate::volume::plan::pair::Pair;
-use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
+use crate::volume::plan::params::{LightParams, ViewParams};
 use crate::volume::plan::scene::Requirements;
 use crate::volume::plan::volumes::{Volumes, check_counts, light_params, view_params};
 use crate::volume::plan::work::{Dispatch, Work};
-use crate::volume::silhouette::{CpuVolume, Way, Ways};
+use crate::volume::silhouette::{CpuVolume, Ways};
 use crate::volume::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 
 /// Stencil shadow volumes of all lights of a frame, in all its views, for any number of casters.
@@ -95,24 +95,6 @@ pub struct ShadowVolumeRenderer {
     renewed: bool,
 }
 
-/// What the last frame draws under one light in one view, and where it lies.
-pub(crate) struct Drawn<'a> {
-    pub pair: &'a Pair,
-    pub volumes: &'a Volumes,
-    pub cache: &'a VolumeCache,
-    pub buffers: &'a Buffers,
-    pub view: &'a ViewParams,
-    pub light: &'a LightParams,
-}
-
-impl Drawn<'_> {
-    /// A draw's volume, and what its draws read.
-    pub fn of(&self, draw: &Draw) -> Option<(&Slot, &CasterParams)> {
-        let window = self.volumes.windows.get(draw.window)?;
-        Some((self.cache.get(window.slot)?, &window.params))
-    }
-}
-
 impl ShadowVolumeRenderer {
     /// Compiles the pipelines: for one renderer. Several share theirs:
     /// [`with_pipelines`](Self::with_pipelines).
@@ -152,11 +134,11 @@ impl ShadowVolumeRenderer {
             uploads: Uploads::new(device),
             submissions: Submissions::default(),
             pipelines: pipelines.take(descriptor, &ways),
-            ways,
             on_cpu: CpuVolume::default(),
-            buffers: Buffers::new(&label),
+            buffers: Buffers::new(&label, &ways),
             groups: Groups::default(),
-            volumes: Volumes::default(),
+            volumes: Volumes::new(limits.storage_bytes),
+            ways,
             meshes: MeshPool::new(limits.storage_bytes),
             work: Work::default(),
             views: Vec::new(),
@@ -186,7 +168,9 @@ impl ShadowVolumeRenderer {
     ///
     /// GPU memory, kept between frames and grown as needed, what it held being copied: where compute
     /// shaders find the silhouettes about 28 bytes a triangle and volume, where the CPU does what
-    /// they come to, about 6 bytes a triangle; 170 a volume; and 256 a caster, light and view. What
+    /// they come to, about 6 bytes a triangle; 140 a volume; and about 230 a caster, light and view,
+    /// and for its share in draws another 12 for every eight sides and cap triangles that it may have (256
+    /// and none where vertex shaders find the silhouettes). What
     /// shaders read of a mesh lies in buffers that all meshes share, from the time that a volume of it is
     /// first looked for until no caster has it: 12 bytes a position (none where positions are the
     /// host's) and 16 an edge, and for compute shaders 12 a triangle and 4 for each use of an edge of a
@@ -225,8 +209,12 @@ impl ShadowVolumeRenderer {
         left.into_iter().for_each(|mesh| self.meshes.release(mesh));
         (self.views, self.lights) = (view_params(frame), light_params(frame));
         let staged = self.find();
-        self.volumes.fill(&mut self.cache);
-        self.upload(device, staged);
+        self.volumes.fill(&mut self.cache, self.renewed);
+        let touched = self.volumes.merged.settle();
+        let most = self.limits.workgroups;
+        self.work.merge(&self.volumes.merged, &touched, most);
+        self.upload(device, staged, &touched);
+        self.volumes.merged.finish(&touched);
         self.statistics = VolumeStatistics {
             not_encoded,
             encoder_dropped,
@@ -238,7 +226,7 @@ impl ShadowVolumeRenderer {
 
     /// Records the uploads of the last [`prepare`](Self::prepare), and the compute passes that find
     /// the volumes which were not kept from the frame before: none where neither the lights nor a
-    /// caster has moved, else two dispatches for all lights and meshes (see
+    /// caster has moved, else three dispatches for all lights and meshes (see
     /// [`VolumeStatistics::dispatches`]). Once: a second call before the next `prepare` records nothing.
     ///
     /// What is recorded must be submitted, for the next frame counts on it; if the encoder is dropped
@@ -261,12 +249,20 @@ impl ShadowVolumeRenderer {
             label: Some(&self.label),
             timestamp_writes: None,
         });
-        let Work { facing, edges, .. } = &self.work;
+        let Work {
+            facing,
+            edges,
+            merging,
+            ..
+        } = &self.work;
         pass.set_pipeline(&extraction.facing.pipeline);
         self.dispatch(&mut pass, (0, facing), |one| self.groups.of_facing(one));
         pass.set_pipeline(&extraction.edges.pipeline);
         let first = facing.len() as u32;
         self.dispatch(&mut pass, (first, edges), |one| self.groups.of_edges(one));
+        pass.set_pipeline(&extraction.merge.pipeline);
+        let first = first + edges.len() as u32;
+        self.dispatch(&mut pass, (first, merging), |one| self.groups.of_merge(one));
     }
 
     /// Has the next [`prepare`](Self::prepare) find every volume anew: for a host that has lost what
@@ -333,27 +329,26 @@ impl ShadowVolumeRenderer {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, drawn: &Drawn<'_>, place: [usize; 2]) {
+        let recorder = drawn.recorder();
         let mut current = None;
-        for draw in &drawn.pair.draws {
-            let Some((slot, params)) = drawn.of(draw) else {
+        for draw in drawn.draws() {
+            let feed = Feed::of(draw.key.way);
+            let pipelines = match feed {
+                Feed::Records => self.pipelines.fed.as_ref(),
+                Feed::Pulled => self.pipelines.pulled.as_ref(),
+            };
+            let Some(pipelines) = pipelines.filter(|_| self.bind_draw(pass, draw, place)) else {
                 continue;
             };
-            let pipelines = match slot.way {
-                Way::Vertex => self.pipelines.fed.as_ref(),
-                Way::Compute | Way::Cpu => self.pipelines.pulled.as_ref(),
-            };
-            let Some(pipelines) = pipelines.filter(|_| self.bind_volume(pass, draw, place)) else {
-                continue;
-            };
-            let state = (draw.style, slot.way == Way::Vertex);
+            let state = (draw.key.style, feed);
             if current != Some(state) {
-                let Some(pipeline) = pipelines.get(draw.style) else {
+                let Some(pipeline) = pipelines.get(draw.key.style) else {
                     continue;
                 };
                 pass.set_pipeline(pipeline);
                 current = Some(state);
             }
-            record(pass, draw, (slot, params), drawn.buffers);
+            recorder.record(pass, draw);
         }
     }
 

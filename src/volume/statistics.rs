@@ -73,14 +73,19 @@ pub struct VolumeStatistics {
     pub skipped_out_of_range: u32,
     /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,
-    /// Draw calls that `render` records.
+    /// Draw calls that `render` records. Up to 256 casters under one light in one view share one for each
+    /// kind of faces that they have: sides and caps, counted before or behind what is visible. By
+    /// themselves are drawn caps of meshes of 1,024 triangles or more, casters over different buffers of
+    /// the host's ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and where
+    /// vertex shaders find the silhouettes ([`Silhouettes::Vertex`](crate::Silhouettes::Vertex)) all of
+    /// them.
     pub draws: u32,
     /// Silhouettes that were searched for this frame; those of the other casters drawn were kept from
     /// the frame before, or found for another caster: casters of one mesh that the light meets alike
     /// (the sun, all that are turned alike) share theirs.
     pub casters_extracted: u32,
-    /// Dispatches that `encode` records: two where compute shaders look for silhouettes, however many
-    /// lights and meshes there are. One more for each buffer that positions of the host lie in
+    /// Dispatches that `encode` records: two where compute shaders look for silhouettes and one that makes
+    /// the draws which casters share, however many lights and meshes there are. One more for each buffer that positions of the host lie in
     /// ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and more where
     /// volumes or meshes are too large for one buffer.
     pub dispatches: u32,

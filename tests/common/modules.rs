@@ -66,6 +66,7 @@ pub const JOINED: &[&[&str]] = &[
     ],
     FACING,
     EDGES,
+    MERGE,
     &["caster_places", "planar_caster", "planar_shade"],
     &["planar_outline"],
     &["caster_places", "planar_caster", "planar_soft_count"],
@@ -124,9 +125,16 @@ pub const RECORDS: &[&str] = &[
     "volume_vertex",
 ];
 
-pub const FACING: &[&str] = &["volume_batch", "volume_light_side", "volume_facing"];
+pub const FACING: &[&str] = &[
+    "volume_dispatch",
+    "volume_batch",
+    "volume_light_side",
+    "volume_facing",
+];
 
-pub const EDGES: &[&str] = &["volume_batch", "volume_edges"];
+pub const EDGES: &[&str] = &["volume_dispatch", "volume_batch", "volume_edges"];
+
+pub const MERGE: &[&str] = &["volume_dispatch", "volume_merge"];
 
 pub fn joined(names: &[&str]) -> String {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/");

@@ -142,11 +142,16 @@ fn a_change_in_the_list_costs_what_changed() {
             let (counts, statistics) = theatre.draw(&mut renderer, &frame);
             assert!(is_shown(&counts), "{way:?}, {what}");
             assert_eq!(statistics.casters_extracted, searched, "{way:?}, {what}");
-            assert_eq!(
-                statistics.dispatches > 0,
-                searched > 0 && way == Silhouettes::Compute
-            );
+            let most = match way {
+                // Those who go are taken from their draws.
+                Silhouettes::Compute if searched == 0 => 1,
+                Silhouettes::Compute => 3,
+                _ => 0,
+            };
+            assert!(statistics.dispatches <= most, "{way:?}, {what}");
+            assert!(statistics.dispatches >= most.min(searched));
             assert!(counts == theatre.fresh(way, &frame), "{way:?}, {what}");
+            statistics.dispatches
         };
         let mut casters = theatre.casters(0..40);
         draw("the first frame", &casters, 40);
@@ -159,7 +164,7 @@ fn a_change_in_the_list_costs_what_changed() {
         casters.insert(0, first);
         draw("one comes in front of all others", &casters, 1);
         casters.reverse();
-        draw("another order", &casters, 0);
+        assert_eq!(draw("another order", &casters, 0), 0);
         let there = casters[5].world_from_object;
         casters[5].world_from_object.translation.y += 100.0;
         draw("one leaves the range", &casters, 0);
@@ -167,7 +172,7 @@ fn a_change_in_the_list_costs_what_changed() {
         draw("it comes back", &casters, 1);
         casters.extend(theatre.casters(100..400));
         draw("so many come that buffers grow", &casters, 300);
-        draw("and nothing changes", &casters, 0);
+        assert_eq!(draw("and nothing changes", &casters, 0), 0);
         casters.truncate(10);
         draw("and they go", &casters, 0);
         casters[3].world_from_object.translation.x += 0.1;

@@ -15,6 +15,7 @@ mod hard;
 mod kept;
 mod light_pass;
 mod many;
+mod merged;
 mod meshes;
 mod near_light;
 mod near_plane;

@@ -351,7 +351,7 @@ fn on_webgl2(silhouettes: Silhouettes) -> Result<Option<String>, ShadowVolumeErr
 fn webgl2_has_shadow_volumes_too() {
     assert_eq!(on_webgl2(Silhouettes::Auto), Ok(None));
     assert_eq!(on_webgl2(Silhouettes::Vertex), Ok(None));
-    for (way, needed) in [(Silhouettes::Compute, 7), (Silhouettes::Cpu, 3)] {
+    for (way, needed) in [(Silhouettes::Compute, 7), (Silhouettes::Cpu, 4)] {
         let error = ShadowVolumeError::Limit {
             name: "max_storage_buffers_per_shader_stage",
             needed,

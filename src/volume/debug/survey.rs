@@ -83,11 +83,9 @@ impl ShadowVolumeRenderer {
             counts: Counts::default(),
             survey: VolumeSurvey::default(),
         };
-        // Draws are sorted by pipeline; a volume's own are needed together.
-        let mut draws: Vec<&Draw> = drawn.pair.draws.iter().filter(|d| !d.is_repeat()).collect();
-        draws.sort_by_key(|draw| draw.window);
-        for draws in draws.chunk_by(|a, b| a.window == b.window) {
-            surveyor.add(&drawn, draws);
+        for mut draws in drawn.pair.faces() {
+            draws.retain(|draw| !draw.style.is_repeat());
+            surveyor.add(&drawn, &draws);
         }
         Ok(surveyor.survey)
     }
@@ -102,9 +100,9 @@ struct Surveyor {
 
 impl Surveyor {
     /// Adds all that is drawn of one volume.
-    fn add(&mut self, drawn: &Drawn<'_>, draws: &[&Draw]) {
+    fn add(&mut self, drawn: &Drawn<'_>, draws: &[Draw]) {
         let Some(first) = draws.first() else { return };
-        let Some((slot, params)) = drawn.of(first) else {
+        let Some((slot, params)) = drawn.of(first.window) else {
             return;
         };
         let boxed;

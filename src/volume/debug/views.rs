@@ -11,20 +11,18 @@ use crate::volume::debug::pipelines::{
 };
 use crate::volume::decide::method::Count;
 use crate::volume::descriptor::check_depth;
-use crate::volume::gpu::buffers::{spread, window};
-use crate::volume::gpu::draw_calls::record;
-use crate::volume::gpu::draw_pipelines::{Feed, UNIFORM_SIZES};
+use crate::volume::gpu::buffers::window;
+use crate::volume::gpu::draw_pipelines::{Feed, Style};
+use crate::volume::gpu::grown::spread;
 use crate::volume::gpu::layout::bind;
 use crate::volume::light_pass::join::check_color;
 use crate::volume::light_pass::mask::check_target;
 use crate::volume::light_pass::targets::DEPTH_STENCIL;
-use crate::volume::plan::cache::Slot;
 use crate::volume::plan::cache::position_words;
-use crate::volume::plan::faces::{Draw, Faces};
+use crate::volume::plan::faces::Faces;
 use crate::volume::plan::limits;
-use crate::volume::plan::params::{Arguments, CasterParams, LightParams, ViewParams};
-use crate::volume::renderer::Drawn;
-use crate::volume::silhouette::Way;
+use crate::volume::plan::merged::{BLOCK_BYTES, MergedDraw};
+use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
 use crate::volume::{ShadowVolumeFrame, ShadowVolumeRenderer};
 use crate::{Caster, DepthConvention, View};
 
@@ -89,8 +87,10 @@ struct ShownCaster {
     mesh: CasterMesh,
     feed: Feed,
     group: wgpu::BindGroup,
-    /// Bytes from the buffer's start to its parameters.
-    offset: u32,
+    /// Its parameters: bytes from the start of a uniform buffer, or the number in a storage buffer.
+    place: u32,
+    /// In which blocks say that number, one for each caster.
+    blocks: Option<wgpu::Buffer>,
     swatch: Swatch,
 }
 
@@ -192,46 +192,59 @@ impl VolumeDebug {
         if params.is_empty() {
             return Vec::new();
         }
-        let limits = device.limits();
-        let step = window::<CasterParams>(&limits);
-        let buffer = |contents: &[u8]| {
+        use wgpu::BufferUsages as U;
+        let buffer = |contents: &[u8], usage| {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(&self.label),
                 contents,
-                usage: wgpu::BufferUsages::UNIFORM,
+                usage,
             })
+        };
+        let (feed, step, usage) = match self.pulled {
+            Some(_) => (Feed::Pulled, size_of::<CasterParams>() as u32, U::STORAGE),
+            None => (
+                Feed::Records,
+                window::<CasterParams>(&device.limits()),
+                U::UNIFORM,
+            ),
         };
         let view = ViewParams::new(view);
         let no_light: LightParams = bytemuck::Zeroable::zeroed();
-        let buffers = [
-            buffer(&spread(&params, step)),
-            buffer(bytemuck::bytes_of(&view)),
-            buffer(bytemuck::bytes_of(&no_light)),
+        let [view, no_light, params] = [
+            buffer(bytemuck::bytes_of(&view), U::UNIFORM),
+            buffer(bytemuck::bytes_of(&no_light), U::UNIFORM),
+            buffer(&spread(&params, step), usage),
         ];
-        let uniforms: Vec<_> = buffers.iter().zip(UNIFORM_SIZES).collect();
-        let show = |(&(caster, swatch), place): (&(&Caster, Swatch), u32)| {
+        let uniforms = [&view, &no_light, &params].into_iter();
+        let uniforms: Vec<_> = uniforms.zip(feed.uniforms().iter().copied()).collect();
+        let blocks = self.pulled.as_ref().map(|_| {
+            let blocks: Vec<[u32; 3]> = (0..shown.len() as u32).map(|n| [n, 0, 0]).collect();
+            buffer(bytemuck::cast_slice(&blocks), U::VERTEX)
+        });
+        let show = |(&(caster, swatch), number): (&(&Caster, Swatch), u32)| {
             let mesh = &caster.mesh;
-            let (feed, group) = match &self.pulled {
+            let group = match &self.pulled {
                 Some(pulled) => {
                     // No edge and no side is read; any buffer will do.
-                    let buffers = [mesh.positions(); 3];
-                    let group = bind(device, &self.label, &pulled.layout, &uniforms, &buffers);
-                    (Feed::Pulled, group)
+                    let any = mesh.positions();
+                    let buffers = [&params, any, any, any];
+                    bind(device, &self.label, &pulled.layout, &uniforms, &buffers)
                 }
-                None => {
-                    let group = bind(device, &self.label, &self.fed.layout, &uniforms, &[]);
-                    (Feed::Records, group)
-                }
+                None => bind(device, &self.label, &self.fed.layout, &uniforms, &[]),
             };
-            Some(ShownCaster {
+            ShownCaster {
                 mesh: mesh.clone(),
                 feed,
                 group,
-                offset: place * step,
+                place: match feed {
+                    Feed::Pulled => number,
+                    Feed::Records => number * step,
+                },
+                blocks: blocks.clone(),
                 swatch,
-            })
+            }
         };
-        shown.iter().zip(0..).filter_map(show).collect()
+        shown.iter().zip(0..).map(show).collect()
     }
 
     /// Draws the faces of all volumes that the renderer counts, transparent, where they are before
@@ -251,8 +264,9 @@ impl VolumeDebug {
         view: usize,
     ) -> Result<(), VolumeRenderError> {
         let drawn = renderer.drawn(light, view)?;
-        for draw in drawn.pair.draws.iter().filter(|draw| !draw.is_repeat()) {
-            let style = draw.style;
+        let recorder = drawn.recorder();
+        for draw in drawn.draws().filter(|draw| !draw.key.style.is_repeat()) {
+            let style = draw.key.style;
             let swatch = match (style.faces, style.count) {
                 (Faces::LightCap, _) => Swatch::LightCaps,
                 (Faces::DarkCap | Faces::Fan, _) => Swatch::DarkCaps,
@@ -261,10 +275,8 @@ impl VolumeDebug {
             };
             let pipeline = |feed: &FeedPipelines| feed.faces(style.faces).cloned();
             let bound = (renderer, [light, view]);
-            if self.bind(pass, bound, draw, (pipeline, swatch))
-                && let Some(volume) = drawn.of(draw)
-            {
-                record(pass, draw, volume, drawn.buffers);
+            if self.bind(pass, bound, draw, (pipeline, swatch)) {
+                recorder.record(pass, draw);
             }
         }
         Ok(())
@@ -283,14 +295,13 @@ impl VolumeDebug {
         view: usize,
     ) -> Result<(), VolumeRenderError> {
         let drawn = renderer.drawn(light, view)?;
-        let sides = |draw: &&Draw| draw.style.faces == Faces::Sides && !draw.is_repeat();
-        for draw in drawn.pair.draws.iter().filter(sides) {
+        let recorder = drawn.recorder();
+        let are_sides = |style: Style| style.faces == Faces::Sides && !style.is_repeat();
+        for draw in drawn.draws().filter(|draw| are_sides(draw.key.style)) {
             let pipeline = |feed: &FeedPipelines| Some(feed.edges.clone());
             let pipeline = (pipeline, Swatch::Edges);
-            if self.bind(pass, (renderer, [light, view]), draw, pipeline)
-                && let Some((slot, _)) = drawn.of(draw)
-            {
-                record_edges(pass, slot, &drawn);
+            if self.bind(pass, (renderer, [light, view]), draw, pipeline) {
+                recorder.record_edges(pass, draw);
             }
         }
         Ok(())
@@ -325,11 +336,18 @@ impl VolumeDebug {
                 continue;
             };
             pass.set_pipeline(&feed.casters);
-            pass.set_bind_group(0, &caster.group, &[caster.offset, 0, 0]);
+            let offsets = [0, 0, caster.place];
+            let uniforms = caster.feed.uniforms().len();
+            pass.set_bind_group(0, &caster.group, &offsets[..uniforms]);
             self.set_color(pass, caster.swatch);
             let mesh = &caster.mesh;
             match caster.feed {
                 Feed::Pulled => {
+                    let Some(blocks) = &caster.blocks else {
+                        continue;
+                    };
+                    let first = u64::from(caster.place) * BLOCK_BYTES;
+                    pass.set_vertex_buffer(0, blocks.slice(first..first + BLOCK_BYTES));
                     let triangles = mesh.triangles().slice(..);
                     pass.set_index_buffer(triangles, wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(0..3 * mesh.triangle_count(), 0, 0..1);
@@ -361,45 +379,19 @@ impl VolumeDebug {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         (renderer, place): (&ShadowVolumeRenderer, [usize; 2]),
-        draw: &Draw,
+        draw: &MergedDraw,
         (pipeline, swatch): (
             impl Fn(&FeedPipelines) -> Option<wgpu::RenderPipeline>,
             Swatch,
         ),
     ) -> bool {
-        let [light, view] = place;
-        let drawn = renderer.drawn(light, view).ok();
-        let way = drawn.and_then(|drawn| Some(drawn.of(draw)?.0.way));
-        let feed = match way {
-            Some(Way::Vertex) => self.feed(Feed::Records),
-            Some(Way::Compute | Way::Cpu) => self.feed(Feed::Pulled),
-            None => None,
-        };
+        let feed = self.feed(Feed::of(draw.key.way));
         let Some(pipeline) = feed.and_then(pipeline) else {
             return false;
         };
         pass.set_pipeline(&pipeline);
         self.set_color(pass, swatch);
-        renderer.bind_volume(pass, draw, place)
-    }
-}
-
-/// Records the lines of one volume, pipeline and bind groups being set.
-fn record_edges(pass: &mut wgpu::RenderPass<'_>, slot: &Slot, drawn: &Drawn<'_>) {
-    match slot.way {
-        Way::Cpu => pass.draw(0..6 * slot.counts.sides, 0..1),
-        Way::Compute => {
-            if let Some(bound) = drawn.buffers.bound() {
-                let own = u64::from(slot.instance.arguments) * size_of::<Arguments>() as u64;
-                pass.draw_indirect(bound.arguments, own + Arguments::QUADS);
-            }
-        }
-        Way::Vertex => {
-            if let Some(records) = slot.mesh.records() {
-                pass.set_vertex_buffer(0, records.edges.slice(..));
-                pass.draw(0..2, 0..records.edge_count);
-            }
-        }
+        renderer.bind_draw(pass, draw, place)
     }
 }
 

@@ -3,24 +3,41 @@
 use std::collections::HashMap;
 
 use crate::volume::gpu::buffers::Buffers;
-use crate::volume::gpu::draw_pipelines::UNIFORM_SIZES;
+use crate::volume::gpu::draw_pipelines::Feed;
 use crate::volume::gpu::layout::bind;
 use crate::volume::gpu::pipelines::OwnPipelines;
-use crate::volume::plan::cache::{Slot, Sources, VolumeCache};
+use crate::volume::plan::cache::{Sources, VolumeCache};
+use crate::volume::plan::draw_lists::DrawKey;
 use crate::volume::plan::params::BatchParams;
-use crate::volume::plan::windows::Windows;
 use crate::volume::plan::work::{Dispatch, Work};
-use crate::volume::silhouette::Way;
 
 /// Bind groups by the buffers in them.
 #[derive(Debug, Default)]
 pub(crate) struct Groups {
     generation: u64,
-    draw: HashMap<Sources, wgpu::BindGroup>,
+    draw: HashMap<DrawSources, wgpu::BindGroup>,
     facing: HashMap<Sources, wgpu::BindGroup>,
     edges: HashMap<Sources, wgpu::BindGroup>,
-    /// For each window, what its draws read.
-    of_window: Vec<Option<wgpu::BindGroup>>,
+    merge: HashMap<Sources, wgpu::BindGroup>,
+}
+
+/// The buffers that draws read.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct DrawSources {
+    feed: Feed,
+    caps: bool,
+    sources: Sources,
+}
+
+impl DrawSources {
+    fn of(key: &DrawKey) -> Self {
+        let feed = Feed::of(key.way);
+        Self {
+            feed,
+            caps: feed == Feed::Pulled && key.style.faces.are_caps(),
+            sources: key.sources.clone(),
+        }
+    }
 }
 
 /// What bind groups are made of.
@@ -33,9 +50,9 @@ pub(crate) struct Parts<'a> {
 }
 
 impl Groups {
-    /// What the draws of a window read.
-    pub fn of_window(&self, number: u32) -> Option<&wgpu::BindGroup> {
-        self.of_window.get(number as usize)?.as_ref()
+    /// What draws read.
+    pub fn of_draws(&self, key: &DrawKey) -> Option<&wgpu::BindGroup> {
+        self.draw.get(&DrawSources::of(key))
     }
 
     /// What a dispatch of the facing pass reads and writes.
@@ -48,11 +65,15 @@ impl Groups {
         self.edges.get(&dispatch.sources)
     }
 
-    /// Brings the bind groups up to date: those of windows that changed, and all if buffers were made
-    /// anew.
-    pub fn update(
+    /// The same of the merge pass.
+    pub fn of_merge(&self, dispatch: &Dispatch) -> Option<&wgpu::BindGroup> {
+        self.merge.get(&dispatch.sources)
+    }
+
+    /// Brings the bind groups up to date, for draws of these keys.
+    pub fn update<'a>(
         &mut self,
-        (windows, changed): (&Windows, &[u32]),
+        keys: impl Iterator<Item = &'a DrawKey>,
         work: &Work,
         cache: &VolumeCache,
         parts: &Parts<'_>,
@@ -63,20 +84,19 @@ impl Groups {
             self.draw.clear();
             self.facing.clear();
             self.edges.clear();
-            self.of_window.clear();
-            self.of_window.resize(windows.len(), None);
-            for (number, window) in windows.iter() {
-                self.set(number, cache.get(window.slot), parts);
-            }
-        } else if !changed.is_empty() {
-            self.of_window.resize(windows.len(), None);
-            for &number in changed {
-                let slot = windows.get(number).and_then(|w| cache.get(w.slot));
-                self.set(number, slot, parts);
-            }
+            self.merge.clear();
+        } else {
             // Buffers of the host that nobody draws from any more are let go.
-            self.draw.retain(|sources, _| cache.has(sources));
+            self.draw.retain(|draw, _| cache.has(&draw.sources));
             self.facing.retain(|sources, _| cache.has(sources));
+        }
+        for key in keys {
+            let sources = DrawSources::of(key);
+            if !self.draw.contains_key(&sources)
+                && let Some(group) = parts.draw(&sources)
+            {
+                self.draw.insert(sources, group);
+            }
         }
         for Dispatch { sources, .. } in &work.facing {
             if !self.facing.contains_key(sources)
@@ -92,38 +112,51 @@ impl Groups {
                 self.edges.insert(sources.clone(), group);
             }
         }
-    }
-
-    fn set(&mut self, number: u32, slot: Option<&Slot>, parts: &Parts<'_>) {
-        let group = slot.and_then(|slot| {
-            let sources = slot.sources();
-            if let Some(group) = self.draw.get(&sources) {
-                return Some(group.clone());
+        for Dispatch { sources, .. } in &work.merging {
+            if !self.merge.contains_key(sources)
+                && let Some(group) = parts.merge(sources.chunk)
+            {
+                self.merge.insert(sources.clone(), group);
             }
-            let group = parts.draw(slot.way, &sources)?;
-            self.draw.insert(sources, group.clone());
-            Some(group)
-        });
-        self.of_window[number as usize] = group;
+        }
     }
 }
 
 impl Parts<'_> {
-    fn draw(&self, way: Way, sources: &Sources) -> Option<wgpu::BindGroup> {
-        let [casters, views, lights] = self.buffers.uniforms()?;
-        let [caster, view, light] = UNIFORM_SIZES;
-        let windows = [(casters, caster), (views, view), (lights, light)];
-        let bind = |layout, buffers: &[_]| bind(self.device, self.label, layout, &windows, buffers);
-        match way {
-            Way::Vertex => Some(bind(&self.pipelines.fed.as_ref()?.layout, &[])),
-            Way::Compute | Way::Cpu => {
-                let [_, _, sides] = self.buffers.chunk(sources.chunk)?;
+    fn draw(&self, draw: &DrawSources) -> Option<wgpu::BindGroup> {
+        let DrawSources {
+            feed,
+            caps,
+            sources,
+        } = draw;
+        let buffers = self.buffers.uniforms()?;
+        let uniforms: Vec<_> = buffers
+            .into_iter()
+            .zip(feed.uniforms().iter().copied())
+            .collect();
+        let bind =
+            |layout, storage: &[_]| bind(self.device, self.label, layout, &uniforms, storage);
+        match feed {
+            Feed::Records => Some(bind(&self.pipelines.fed.as_ref()?.layout, &[])),
+            Feed::Pulled => {
+                let [_, all_caps, sides] = self.buffers.chunk(sources.chunk)?;
+                let elements = if *caps { all_caps } else { sides };
                 let [positions, _, edges, _] = self.buffers.pool(sources.pool)?;
                 let positions = sources.host_positions.as_ref().unwrap_or(positions);
                 let layout = &self.pipelines.pulled.as_ref()?.layout;
-                Some(bind(layout, &[positions, edges, sides]))
+                let [_, _, casters] = buffers;
+                Some(bind(layout, &[casters, positions, edges, elements]))
             }
         }
+    }
+
+    fn merge(&self, chunk: usize) -> Option<wgpu::BindGroup> {
+        let bound = self.buffers.bound()?;
+        let [members, blocks, draws] = self.buffers.merged(chunk)?;
+        let layout = &self.pipelines.extraction.as_ref()?.merge.layout;
+        let params = [(bound.batches, size_of::<BatchParams>())];
+        let buffers = [bound.merges, members?, bound.arguments, blocks?, draws?];
+        Some(bind(self.device, self.label, layout, &params, &buffers))
     }
 
     fn facing(&self, sources: &Sources) -> Option<wgpu::BindGroup> {

@@ -1,102 +1,19 @@
 //! The GPU memory of the renderer: grown when a frame needs more, kept between frames.
 
 use crate::uploads::Uploads;
+use crate::volume::gpu::grown::{Grower, Grown, spread};
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::merged::{BLOCK_BYTES, DRAW_BYTES, Member, MergedDraws};
 use crate::volume::plan::meshes::{self, ITEM_BYTES, LISTS, MeshPool};
 use crate::volume::plan::params::{
     Arguments, BatchParams, CasterParams, InstanceParams, LightParams, ViewParams,
 };
 use crate::volume::plan::ranges;
+use crate::volume::plan::seats::SEATS_OF_CASTER;
 use crate::volume::plan::windows::Windows;
-use crate::volume::plan::work::{Share, Work};
+use crate::volume::plan::work::{Merge, Share, Work};
 use crate::volume::silhouette::{Way, Ways};
-
-/// A buffer that grows.
-#[derive(Debug)]
-struct Grown {
-    label: String,
-    usage: wgpu::BufferUsages,
-    buffer: Option<wgpu::Buffer>,
-    /// Whether later frames read what this one writes.
-    keeps: bool,
-    /// What [`write_changed`](Self::write_changed) has written.
-    written: Vec<u8>,
-}
-
-impl Grown {
-    fn new(label: String, usage: wgpu::BufferUsages) -> Self {
-        Self {
-            label,
-            usage,
-            buffer: None,
-            keeps: false,
-            written: Vec::new(),
-        }
-    }
-
-    /// One that takes along what it holds when it grows.
-    fn keeping(label: String, usage: wgpu::BufferUsages) -> Self {
-        use wgpu::BufferUsages as U;
-        Self {
-            keeps: true,
-            ..Self::new(label, usage | U::COPY_SRC | U::COPY_DST)
-        }
-    }
-
-    /// Has the items written that are not there yet, so many bytes apart.
-    fn write_changed<T: bytemuck::NoUninit>(
-        &mut self,
-        uploads: &mut Uploads,
-        items: &[T],
-        window: u32,
-    ) {
-        let Some(buffer) = &self.buffer else { return };
-        let bytes = spread(items, window);
-        let windows = bytes.chunks(window as usize);
-        for (offset, new) in (0..).step_by(window as usize).zip(windows) {
-            let old = self.written.get(offset..offset + new.len());
-            if old != Some(new) {
-                uploads.write(buffer, offset as u64, new);
-            }
-        }
-        self.written = bytes;
-    }
-
-    fn size(&self) -> u64 {
-        self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
-    }
-}
-
-/// Makes buffers large enough.
-struct Grower<'a> {
-    device: &'a wgpu::Device,
-    uploads: &'a mut Uploads,
-    /// Whether one was made.
-    made: bool,
-}
-
-impl Grower<'_> {
-    /// Room for at least `size` bytes, `most` being the largest buffer that there can be.
-    fn grow(&mut self, grown: &mut Grown, size: u64, most: u64) {
-        if grown.buffer.is_some() && grown.size() >= size {
-            return;
-        }
-        // A frame that needs a little more than the last should not allocate again.
-        let room = size.max(256).next_power_of_two().min(most).max(size);
-        let new = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(&grown.label),
-            size: room,
-            usage: grown.usage,
-            mapped_at_creation: false,
-        });
-        if let Some(old) = grown.buffer.as_ref().filter(|_| grown.keeps) {
-            self.uploads.replace(old, &new);
-        }
-        grown.buffer = Some(new);
-        self.made = true;
-    }
-}
 
 /// All buffers.
 #[derive(Debug)]
@@ -106,12 +23,15 @@ pub(crate) struct Buffers {
     instances: Grown,
     arguments: Grown,
     shares: Grown,
+    merges: Grown,
     casters: Grown,
     views: Grown,
     lights: Grown,
     chunks: Vec<[Grown; 3]>,
     /// Positions, triangles, edges and uses of edges of meshes.
     pools: Vec<[Grown; LISTS]>,
+    /// Casters, blocks and arguments of draws.
+    merged: Vec<[Grown; 3]>,
     /// Grows by one whenever a buffer was made anew: bind groups of before are then stale.
     generation: u64,
 }
@@ -124,6 +44,7 @@ pub(crate) struct Needs<'a> {
     pub work: &'a Work,
     pub cache: &'a VolumeCache,
     pub meshes: &'a MeshPool,
+    pub merged: &'a MergedDraws,
 }
 
 /// The buffers that compute shaders read and write, besides a chunk's.
@@ -132,11 +53,18 @@ pub(crate) struct Bound<'a> {
     pub instances: &'a wgpu::Buffer,
     pub arguments: &'a wgpu::Buffer,
     pub shares: &'a wgpu::Buffer,
+    pub merges: &'a wgpu::Buffer,
 }
 
 impl Buffers {
-    pub fn new(label: &str) -> Self {
+    /// `ways`: in which silhouettes may be found.
+    pub fn new(label: &str, ways: &Ways) -> Self {
         use wgpu::BufferUsages as U;
+        // The vertex way needs no storage buffers, and other ways no caster by itself.
+        let casters = match ways.contain(Way::Vertex) {
+            true => U::UNIFORM,
+            false => U::STORAGE,
+        };
         let name = |what: &str| format!("{label} {what}");
         Self {
             label: label.to_owned(),
@@ -144,11 +72,13 @@ impl Buffers {
             instances: Grown::new(name("instances"), U::STORAGE | U::COPY_DST),
             arguments: Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
             shares: Grown::new(name("shares"), U::STORAGE | U::COPY_DST),
-            casters: Grown::keeping(name("casters"), U::UNIFORM),
+            merges: Grown::new(name("merges"), U::STORAGE | U::COPY_DST),
+            casters: Grown::keeping(name("casters"), casters),
             views: Grown::keeping(name("views"), U::UNIFORM),
             lights: Grown::keeping(name("lights"), U::UNIFORM),
             chunks: Vec::new(),
             pools: Vec::new(),
+            merged: Vec::new(),
             generation: 0,
         }
     }
@@ -172,7 +102,8 @@ impl Buffers {
             grower.grow(grown, count as u64 * each, most);
         };
         let windows = limits.caster_window.into();
-        grow(&mut self.casters, needs.windows.len(), windows, most);
+        let of_casters = limits.caster_bytes;
+        grow(&mut self.casters, needs.windows.len(), windows, of_casters);
         let [views, lights] = [needs.views.len(), needs.lights.len()];
         grow(&mut self.views, views, limits.view_window.into(), most);
         grow(&mut self.lights, lights, limits.light_window.into(), most);
@@ -184,6 +115,8 @@ impl Buffers {
             grow(&mut self.instances, work.instances.len(), instance, storage);
             let share = size_of::<Share>() as u64;
             grow(&mut self.shares, work.shares.len(), share, storage);
+            let merge = size_of::<Merge>() as u64;
+            grow(&mut self.merges, work.merges.len(), merge, storage);
             let arguments = size_of::<Arguments>() as u64;
             grow(
                 &mut self.arguments,
@@ -206,6 +139,16 @@ impl Buffers {
             }
             for (list, grown) in self.pools[place].iter_mut().enumerate() {
                 grower.grow(grown, items[list] * ITEM_BYTES[list], storage);
+            }
+        }
+        for (place, items) in needs.merged.ends().enumerate() {
+            if place == self.merged.len() {
+                self.merged.push(merged(&self.label, place));
+            }
+            let each = [size_of::<Member>() as u64, BLOCK_BYTES, DRAW_BYTES];
+            let lists = self.merged[place].iter_mut().zip(items).zip(each);
+            for ((grown, items), each) in lists.filter(|((_, items), _)| *items > 0) {
+                grower.grow(grown, items * each, storage);
             }
         }
         self.generation += u64::from(grower.made);
@@ -236,8 +179,8 @@ impl Buffers {
 
     /// Has views and lights written again, whatever was written before.
     pub fn renew(&mut self) {
-        self.views.written.clear();
-        self.lights.written.clear();
+        self.views.renew();
+        self.lights.renew();
     }
 
     fn write_work(&self, uploads: &mut Uploads, work: &Work, limits: &PlanLimits) {
@@ -245,7 +188,7 @@ impl Buffers {
             return;
         };
         let params = work.dispatches().map(|dispatch| BatchParams {
-            first_share: dispatch.first_share,
+            first_item: dispatch.first_item,
             zero: 0,
             padding: [0; 2],
         });
@@ -253,6 +196,7 @@ impl Buffers {
         uploads.write(bound.batches, 0, &spread(&params, limits.batch_window));
         uploads.write(bound.instances, 0, bytemuck::cast_slice(&work.instances));
         uploads.write(bound.shares, 0, bytemuck::cast_slice(&work.shares));
+        uploads.write(bound.merges, 0, bytemuck::cast_slice(&work.merges));
         let mut rest = &work.arguments[..];
         while let Some(&(first, _)) = rest.first() {
             let follows = |(at, (number, _)): (u32, &(u32, Arguments))| *number == first + at;
@@ -277,16 +221,23 @@ impl Buffers {
             instances: self.instances.buffer.as_ref()?,
             arguments: self.arguments.buffer.as_ref()?,
             shares: self.shares.buffer.as_ref()?,
+            merges: self.merges.buffer.as_ref()?,
         })
     }
 
-    /// The parameters of casters, views and lights, once there are any.
+    /// The parameters of views, lights and casters, once there are any.
     pub fn uniforms(&self) -> Option<[&wgpu::Buffer; 3]> {
         Some([
-            self.casters.buffer.as_ref()?,
             self.views.buffer.as_ref()?,
             self.lights.buffer.as_ref()?,
+            self.casters.buffer.as_ref()?,
         ])
+    }
+
+    /// Casters, blocks and arguments of a chunk of draws, as far as any draw has them.
+    pub fn merged(&self, chunk: usize) -> Option<[Option<&wgpu::Buffer>; 3]> {
+        let lists = self.merged.get(chunk)?;
+        Some(lists.each_ref().map(|grown| grown.buffer.as_ref()))
     }
 
     /// Facings, caps and sides of a chunk.
@@ -317,6 +268,7 @@ impl Buffers {
             &self.instances,
             &self.arguments,
             &self.shares,
+            &self.merges,
             &self.casters,
             &self.views,
             &self.lights,
@@ -324,6 +276,7 @@ impl Buffers {
         .into_iter()
         .chain(self.chunks.iter().flatten())
         .chain(self.pools.iter().flatten())
+        .chain(self.merged.iter().flatten())
         .map(Grown::size)
         .sum()
     }
@@ -340,6 +293,16 @@ fn chunk(label: &str, place: usize) -> [Grown; 3] {
     ]
 }
 
+fn merged(label: &str, place: usize) -> [Grown; 3] {
+    use wgpu::BufferUsages as U;
+    let name = |what: &str| format!("{label} draws {what} {place}");
+    [
+        Grown::keeping(name("members"), U::STORAGE),
+        Grown::keeping(name("blocks"), U::STORAGE | U::VERTEX),
+        Grown::keeping(name("arguments"), U::STORAGE | U::INDIRECT),
+    ]
+}
+
 fn pool(label: &str, place: usize) -> [Grown; LISTS] {
     let name = |what: &str| format!("{label} mesh {what} {place}");
     meshes::NAMES.map(|what| Grown::keeping(name(what), wgpu::BufferUsages::STORAGE))
@@ -348,16 +311,6 @@ fn pool(label: &str, place: usize) -> [Grown; LISTS] {
 /// Bytes from one uniform window to the next.
 pub(crate) fn window<T>(limits: &wgpu::Limits) -> u32 {
     (size_of::<T>() as u32).next_multiple_of(limits.min_uniform_buffer_offset_alignment)
-}
-
-/// Items one after another, so many bytes apart.
-pub(crate) fn spread<T: bytemuck::NoUninit>(items: &[T], window: u32) -> Vec<u8> {
-    let window = window as usize;
-    let mut bytes = vec![0; window * items.len()];
-    for (target, item) in bytes.chunks_exact_mut(window).zip(items) {
-        target[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
-    }
-    bytes
 }
 
 impl PlanLimits {
@@ -374,18 +327,26 @@ impl PlanLimits {
             storage_bytes / size_of::<Arguments>() as u64,
             // One of each pass at least.
             storage_bytes / (2 * size_of::<Share>() as u64),
+            // If none of its faces shares a draw.
+            storage_bytes / (SEATS_OF_CASTER * size_of::<Merge>() as u64),
         ];
         let of_compute = of_compute
             .into_iter()
             .filter(|_| ways.contain(Way::Compute));
-        let windows = uniform_bytes / u64::from(window::<CasterParams>(limits));
+        let (caster_window, caster_bytes) = match ways.contain(Way::Vertex) {
+            true => (window::<CasterParams>(limits), limits.max_buffer_size),
+            false => (size_of::<CasterParams>() as u32, storage_bytes),
+        };
+        // Dynamic offsets are 32 bits wide.
+        let windows = caster_bytes.min(u64::from(u32::MAX)) / u64::from(caster_window);
         let casters = of_compute.fold(windows, u64::min);
         Self {
             buffer_bytes: limits.max_buffer_size,
             storage_bytes,
+            caster_bytes,
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,
-            caster_window: window::<CasterParams>(limits),
+            caster_window,
             view_window: window::<ViewParams>(limits),
             light_window: window::<LightParams>(limits),
             batch_window: window::<BatchParams>(limits),

@@ -7,8 +7,10 @@ use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::gpu::counter::{self, Counter, Counting};
 use crate::volume::gpu::layout::{storage, uniform};
 use crate::volume::plan::faces::Faces;
+use crate::volume::plan::limits::PULLED_BUFFERS;
+use crate::volume::plan::merged::BLOCK_BYTES;
 use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
-use crate::volume::silhouette::LIGHT_SIDE;
+use crate::volume::silhouette::{LIGHT_SIDE, Way};
 use crate::volume::{ShadowVolumeDescriptor, StartFrom};
 use crate::wgsl::POSITION;
 
@@ -35,15 +37,15 @@ const SIDE_BIAS_ULPS: i32 = 2;
 /// tell or the rasteriser rounds. (In z-pass they are drawn where rays start beyond them.)
 const DARK_CAP_BIAS_ULPS: i32 = 16;
 
-/// Bytes of a caster, a view and a light, bindings 0 to 2.
+/// Bytes of a view, a light and, where a draw has but one, a caster, from binding 0 on.
 pub(crate) const UNIFORM_SIZES: [usize; 3] = [
-    size_of::<CasterParams>(),
     size_of::<ViewParams>(),
     size_of::<LightParams>(),
+    size_of::<CasterParams>(),
 ];
 
 /// What the vertex shaders work from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Feed {
     /// The lists that an extraction left, in storage buffers.
     Pulled,
@@ -52,6 +54,14 @@ pub(crate) enum Feed {
 }
 
 impl Feed {
+    /// What draws need whose silhouettes are found in this way.
+    pub fn of(way: Way) -> Self {
+        match way {
+            Way::Vertex => Self::Records,
+            Way::Compute | Way::Cpu => Self::Pulled,
+        }
+    }
+
     /// The shader of all faces.
     pub fn source(self, depth: DepthConvention, near: NearPlane) -> String {
         let (extension, corner) = match near {
@@ -71,23 +81,24 @@ impl Feed {
         }
     }
 
-    /// Storage buffers at bindings 3 and on: positions, edges, sides.
-    fn storage_buffers(self) -> u32 {
+    /// The uniform buffers, from binding 0 on. Storage buffers follow.
+    pub(crate) fn uniforms(self) -> &'static [usize] {
         match self {
-            Self::Pulled => 3,
-            Self::Records => 0,
+            Self::Pulled => &UNIFORM_SIZES[..2],
+            Self::Records => &UNIFORM_SIZES,
         }
     }
 
-    /// Binds caster, view, light and, where they are pulled, positions, edges, sides.
+    /// Binds view, light and caster; where they are pulled casters, positions, edges, and sides or caps.
     pub(crate) fn layout(self, device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
         let stage = wgpu::ShaderStages::VERTEX;
-        let sizes = (0..).zip(UNIFORM_SIZES);
+        let sizes = (0..).zip(self.uniforms());
         let mut entries: Vec<_> = sizes
-            .map(|(binding, size)| uniform(binding, stage, size))
+            .map(|(binding, size)| uniform(binding, stage, *size))
             .collect();
-        let last = 3 + self.storage_buffers();
-        entries.extend((3..last).map(|binding| storage(binding, stage, true)));
+        if self == Self::Pulled {
+            entries.extend((2..2 + PULLED_BUFFERS).map(|binding| storage(binding, stage, true)));
+        }
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(label),
             entries: &entries,
@@ -104,13 +115,14 @@ impl Feed {
             0 => Float32x3, 1 => Float32x3, 2 => Float32x3,
             3 => Float32x3, 4 => Float32x3, 5 => Float32x3, 6 => Uint32
         ];
+        const BLOCK: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Uint32x3];
         let layout = |attributes, size: usize| wgpu::VertexBufferLayout {
             array_stride: size as u64,
             step_mode: wgpu::VertexStepMode::Instance,
             attributes,
         };
         match (self, faces) {
-            (Self::Pulled, _) => Vec::new(),
+            (Self::Pulled, _) => vec![Some(layout(&BLOCK, BLOCK_BYTES as usize))],
             (Self::Records, Faces::Sides | Faces::Fan) => {
                 vec![Some(layout(&EDGE, size_of::<EdgeRecord>()))]
             }
@@ -142,7 +154,7 @@ const LABEL: &str = "shadows volume";
 #[derive(Clone, Debug)]
 pub(crate) struct DrawPipelines {
     feed: Feed,
-    /// Binds caster, view, light and, where they are pulled, positions, edges, sides.
+    /// See [`Feed::layout`].
     pub layout: wgpu::BindGroupLayout,
     pipelines: Vec<(Style, wgpu::RenderPipeline)>,
 }

@@ -103,7 +103,7 @@ impl VolumePipelines {
     /// How many pipelines were compiled so far.
     pub fn count(&self) -> usize {
         let compiled = self.lock();
-        let extraction = compiled.extraction.as_ref().map_or(0, |_| 2);
+        let extraction = compiled.extraction.as_ref().map_or(0, |_| 3);
         let draws = compiled.draws.iter().map(|(_, draws)| draws.len());
         extraction + draws.sum::<usize>() + compiled.resets.len()
     }

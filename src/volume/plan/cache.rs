@@ -28,7 +28,7 @@ struct Key {
 
 /// The buffers that a volume's shaders read and write: those of a chunk of volumes and of a pool of meshes,
 /// and the positions' own where they are the host's.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Sources {
     pub chunk: usize,
     pub pool: usize,
@@ -49,8 +49,9 @@ pub(crate) struct Slot {
     /// No point is in it more often than this; `None` until somebody asks.
     pub layers: Option<u64>,
     key: Key,
-    /// Whether it has its place, which is of this size.
+    /// Whether it has its place, which is of this size, and whether it has it since this frame.
     found: bool,
+    new: bool,
     words: Words,
     /// Casters (under lights, in views) that have it, and those of them that are drawn.
     users: u32,
@@ -101,10 +102,14 @@ impl Slot {
         }
     }
 
-    /// Writes into a caster's parameters where its volume and its mesh lie.
+    /// Whether it was found for the last frame.
+    pub fn is_new(&self) -> bool {
+        self.new
+    }
+
+    /// Writes into a caster's parameters where its mesh lies.
     pub fn locate(&self, params: &mut CasterParams) {
         let instance = &self.instance;
-        params.side_base = instance.side_base;
         params.edge_base = instance.edge_base;
         params.position_stride = instance.position_stride;
         params.position_offset = instance.position_offset;
@@ -311,7 +316,11 @@ impl VolumeCache {
                 }
             }
         }
-        self.last_found.clone_from(&wanted);
+        for number in std::mem::replace(&mut self.last_found, wanted.clone()) {
+            if let Some(slot) = self.get_mut(number) {
+                slot.new = false;
+            }
+        }
         wanted
     }
 
@@ -321,7 +330,7 @@ impl VolumeCache {
         let Some(slot) = (self.slots.get_mut(number as usize)).and_then(Option::as_mut) else {
             return;
         };
-        slot.found = true;
+        (slot.found, slot.new) = (true, true);
         slot.words = words;
         slot.settle(place, mesh);
         if slot.way == Way::Compute {
@@ -360,6 +369,7 @@ impl VolumeCache {
             layers: None,
             key,
             found: false,
+            new: false,
             words: [0; 3],
             users: 0,
             drawn: 0,
@@ -374,7 +384,7 @@ impl VolumeCache {
         let Some(slot) = slot.filter(|slot| slot.found) else {
             return;
         };
-        slot.found = false;
+        (slot.found, slot.new) = (false, false);
         self.regions.give_back(&slot.place, slot.words);
         let sources = slot.sources();
         if let Some(users) = self.users_of.get_mut(&sources) {

@@ -16,6 +16,11 @@ pub(crate) enum Faces {
 }
 
 impl Faces {
+    /// Whether they are drawn from a list of caps, or from one of sides.
+    pub fn are_caps(self) -> bool {
+        matches!(self, Self::LightCap | Self::DarkCap)
+    }
+
     /// The vertex shader that places them.
     pub fn entry_point(self) -> &'static str {
         match self {
@@ -27,8 +32,8 @@ impl Faces {
     }
 }
 
-/// One draw. Ordered so that draws of one pipeline follow each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// The faces of one kind of one caster, as they are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Draw {
     pub style: Style,
     /// Number of the caster's window: see `windows.rs`.
@@ -37,11 +42,11 @@ pub(crate) struct Draw {
     pub back: bool,
 }
 
-impl Draw {
+impl Style {
     /// Whether another draw has the same faces, this one being for those that it leaves out.
     pub fn is_repeat(&self) -> bool {
-        let alone = (self.style.count, self.style.faces) == (Count::Pass, Faces::LightCap);
-        self.style.part == Part::Back && !alone
+        let alone = (self.count, self.faces) == (Count::Pass, Faces::LightCap);
+        self.part == Part::Back && !alone
     }
 }
 

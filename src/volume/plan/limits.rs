@@ -29,10 +29,14 @@ pub(crate) const COMPUTE: &[Need] = &[
     }),
 ];
 
-/// For vertex shaders that pull positions, edges and sides.
-const PULL: &[Need] = &[("max_storage_buffers_per_shader_stage", 3, |l| {
-    l.max_storage_buffers_per_shader_stage
-})];
+/// Storage buffers of a vertex shader that pulls: casters, positions, edges, and sides or caps.
+pub(crate) const PULLED_BUFFERS: u32 = 4;
+
+const PULL: &[Need] = &[(
+    "max_storage_buffers_per_shader_stage",
+    PULLED_BUFFERS,
+    |l| l.max_storage_buffers_per_shader_stage,
+)];
 
 /// For all volumes: caster, view and light.
 pub(crate) const EVERY_WAY: &[Need] =
@@ -47,7 +51,7 @@ pub(crate) fn check(needs: &[Need], limits: &wgpu::Limits) -> Result<(), ShadowV
     })
 }
 
-/// Whether vertex shaders can pull positions, edges and sides.
+/// Whether vertex shaders can pull what they draw.
 pub(crate) fn check_pulling(device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
     check(PULL, &device.limits())?;
     match has_vertex_storage(device) {
@@ -79,6 +83,8 @@ pub(crate) struct PlanLimits {
     pub buffer_bytes: u64,
     /// Bytes of the largest buffer that can be made and bound as storage.
     pub storage_bytes: u64,
+    /// Bytes of the largest buffer that can hold casters' parameters.
+    pub caster_bytes: u64,
     /// Casters whose parameters fit the buffers.
     pub casters: usize,
     /// Workgroups in one dimension of a dispatch.

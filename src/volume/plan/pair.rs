@@ -1,7 +1,5 @@
 //! One light in one view: what is decided for each caster, and the draws that follow from it.
 
-use std::collections::BTreeSet;
-
 use glam::Mat4;
 
 use crate::volume::decide::decision::{Choices, Decision, KnownCaster, Volume};
@@ -10,9 +8,12 @@ use crate::volume::decide::method::{Form, Options};
 use crate::volume::decide::scissor::Rect;
 use crate::volume::frame::Situation;
 use crate::volume::plan::cache::{Slot, VolumeCache};
+use crate::volume::plan::draw_lists::DrawLists;
 use crate::volume::plan::faces::{Draw, DrawnAs};
+use crate::volume::plan::merged::MergedDraws;
 use crate::volume::plan::params::CasterParams;
 use crate::volume::plan::scene::{Changes, SceneCasters};
+use crate::volume::plan::seats::Seats;
 use crate::volume::plan::windows::{Window, Windows};
 use crate::volume::statistics::{CasterState, Counted, Tally};
 
@@ -24,7 +25,7 @@ pub(crate) struct Pair {
     entries: Vec<Option<Entry>>,
     /// The casters that are drawn and were decided on in this frame.
     decided: Vec<Decided>,
-    pub draws: BTreeSet<Draw>,
+    pub draws: DrawLists,
     pub tally: Tally,
     /// What of the target is drawn to, and the target's size.
     pub scissor: Option<(Rect, [u32; 2])>,
@@ -34,7 +35,7 @@ pub(crate) struct Pair {
 #[derive(Clone, Copy, Debug)]
 struct Decided {
     number: u32,
-    /// Whether anything that its shaders read may be new.
+    /// Whether anything that its shaders read may be new, or the way in which it is drawn is.
     anew: bool,
 }
 
@@ -46,6 +47,7 @@ struct Entry {
     form: Option<Form>,
     slot: Option<u32>,
     drawn_as: Option<DrawnAs>,
+    seats: Seats,
 }
 
 /// What pairs share.
@@ -53,6 +55,7 @@ pub(crate) struct Shared<'a> {
     pub casters: &'a SceneCasters,
     pub cache: &'a mut VolumeCache,
     pub windows: &'a mut Windows,
+    pub merged: &'a mut MergedDraws,
 }
 
 impl Pair {
@@ -97,11 +100,12 @@ impl Pair {
         self.choices = Some(choices);
     }
 
-    /// Gives the casters that are drawn and were decided on their windows and draws.
+    /// Gives the casters that are drawn and were decided on their windows.
     pub fn draw(&mut self, shared: &mut Shared<'_>) {
         let Some(choices) = &self.choices else { return };
         let left_handed = choices.left_handed;
-        for &Decided { number, .. } in &self.decided {
+        for Decided { number, anew } in &mut self.decided {
+            let number = *number;
             let entry = self.entries[number as usize].as_mut();
             let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
                 continue;
@@ -117,31 +121,40 @@ impl Pair {
                 (volume.counted, known.way),
                 (known.mirrored, left_handed),
             );
-            if last != Some(now) {
-                remove_draws(&mut self.draws, last);
-                now.draws(|draw| {
-                    self.draws.insert(draw);
-                });
-                entry.drawn_as = Some(now);
-            }
+            *anew |= last != Some(now);
+            entry.drawn_as = Some(now);
         }
     }
 
-    /// Fills their windows, their volumes having their places.
-    pub fn fill(&self, shared: &mut Shared<'_>) {
-        for &Decided { number, .. } in self.decided.iter().filter(|decided| decided.anew) {
-            let entry = self.entries[number as usize].as_ref();
-            let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
-                continue;
-            };
-            let (Some(drawn_as), Some(number)) = (entry.drawn_as, entry.slot) else {
-                continue;
-            };
-            let slot = shared.cache.get(number);
-            if let Some(params) = slot.and_then(|slot| entry.params(known, slot)) {
-                let slot = number;
-                shared.windows.set(drawn_as.window, Window { slot, params });
-            }
+    /// Fills their windows and gives them their draws, their volumes having their places: of all that are
+    /// drawn if nothing can be counted on that was written before.
+    pub fn fill(&mut self, shared: &mut Shared<'_>, renewed: bool) {
+        let decided = std::mem::take(&mut self.decided);
+        let anew = decided.iter().filter(|decided| decided.anew && !renewed);
+        anew.for_each(|decided| self.fill_one(decided.number, shared));
+        let all = 0..self.entries.len() as u32;
+        all.filter(|_| renewed)
+            .for_each(|number| self.fill_one(number, shared));
+    }
+
+    fn fill_one(&mut self, number: u32, shared: &mut Shared<'_>) {
+        let entry = self.entries[number as usize].as_mut();
+        let (Some(entry), Some(known)) = (entry, shared.casters.get(number)) else {
+            return;
+        };
+        let (Some(drawn_as), Some(form), Some(number)) = (entry.drawn_as, entry.form, entry.slot)
+        else {
+            return;
+        };
+        let Some(slot) = shared.cache.get(number) else {
+            return;
+        };
+        let side_vertices = form.side_vertices;
+        let draws = (&mut self.draws, &mut *shared.merged);
+        entry.seats.update((drawn_as, side_vertices), slot, draws);
+        if let Some(params) = entry.params(known, slot) {
+            let slot = number;
+            shared.windows.set(drawn_as.window, Window { slot, params });
         }
     }
 
@@ -157,6 +170,16 @@ impl Pair {
     pub fn state(&self, number: u32) -> Option<CasterState> {
         let entry = self.entries.get(number as usize)?.as_ref()?;
         Some(entry.counted.state)
+    }
+
+    /// All that is drawn, caster by caster.
+    pub fn faces(&self) -> impl Iterator<Item = Vec<Draw>> {
+        let drawn = self.entries.iter().flatten();
+        drawn.filter_map(|entry| {
+            let mut faces = Vec::new();
+            entry.drawn_as?.draws(|draw| faces.push(draw));
+            Some(faces)
+        })
     }
 
     /// The windows of all casters that are drawn.
@@ -198,6 +221,7 @@ impl Pair {
             volume,
             form,
             drawn_as: None,
+            seats: Seats::default(),
         };
         self.entries[place] = Some(entry);
         self.tally.add(entry.counted);
@@ -211,10 +235,10 @@ impl Pair {
             match drawn {
                 true => {
                     if let Some(entry) = &mut self.entries[place] {
-                        entry.drawn_as = last.drawn_as;
+                        (entry.drawn_as, entry.seats) = (last.drawn_as, last.seats);
                     }
                 }
-                false => self.undraw(last.drawn_as, shared),
+                false => self.undraw(last, shared),
             }
         }
         if drawn {
@@ -229,22 +253,14 @@ impl Pair {
         if let Some(slot) = entry.slot {
             shared.cache.release(slot, entry.form.is_some());
         }
-        self.undraw(entry.drawn_as, shared);
+        self.undraw(entry, shared);
     }
 
-    fn undraw(&mut self, drawn_as: Option<DrawnAs>, shared: &mut Shared<'_>) {
-        remove_draws(&mut self.draws, drawn_as);
-        if let Some(drawn_as) = drawn_as {
+    fn undraw(&mut self, mut entry: Entry, shared: &mut Shared<'_>) {
+        entry.seats.leave(&mut self.draws, shared.merged);
+        if let Some(drawn_as) = entry.drawn_as {
             shared.windows.give_back(drawn_as.window);
         }
-    }
-}
-
-fn remove_draws(draws: &mut BTreeSet<Draw>, drawn_as: Option<DrawnAs>) {
-    if let Some(drawn_as) = drawn_as {
-        drawn_as.draws(|draw| {
-            draws.remove(&draw);
-        });
     }
 }
 
@@ -270,7 +286,7 @@ impl Entry {
             apex: form.far.apex.as_vec4().to_array(),
             position_stride: 0,
             position_offset: 0,
-            side_base: 0,
+            edge_base: 0,
             side_vertices: form.side_vertices,
             object_light: light.light,
             object_light_rest: light.rest,
@@ -278,7 +294,7 @@ impl Entry {
             anchor: light.origin.anchor,
             zero: 0,
             anchor_from_light: light.origin.from_light,
-            edge_base: 0,
+            padding: 0,
         };
         slot.locate(&mut params);
         Some(params)

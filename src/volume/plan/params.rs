@@ -5,11 +5,11 @@ use bytemuck::{Pod, Zeroable};
 use crate::View;
 use crate::volume::decide::facing;
 
-/// `Batch` in `volume_batch.wgsl`.
+/// `Batch` in `volume_dispatch.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct BatchParams {
-    pub first_share: u32,
+    pub first_item: u32,
     /// See `settled` in `volume_light_side.wgsl`.
     pub zero: u32,
     pub padding: [u32; 2],
@@ -45,7 +45,7 @@ pub(crate) struct CasterParams {
     pub apex: [f32; 4],
     pub position_stride: u32,
     pub position_offset: u32,
-    pub side_base: u32,
+    pub edge_base: u32,
     pub side_vertices: u32,
     pub object_light: [f32; 4],
     pub object_light_rest: [f32; 3],
@@ -54,7 +54,7 @@ pub(crate) struct CasterParams {
     /// See `settled` in `volume_light_side.wgsl`.
     pub zero: u32,
     pub anchor_from_light: [f32; 3],
-    pub edge_base: u32,
+    pub padding: u32,
 }
 
 /// `Camera` in `volume_extrude.wgsl`.
@@ -85,16 +85,14 @@ pub(crate) struct LightParams {
 
 /// The indirect arguments of one instance, before anything is counted.
 ///
-/// Two indexed draws (index count, instances, first index, base vertex, first instance) and two plain
-/// ones (vertex count, instances, first vertex, first instance): the list of sides with six vertices
-/// each and with three.
+/// Two indexed draws (index count, instances, first index, base vertex, first instance), and how many
+/// sides there are.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Arguments {
     pub front: [u32; 5],
     pub back: [u32; 5],
-    pub quads: [u32; 4],
-    pub triangles: [u32; 4],
+    pub sides: u32,
 }
 
 impl Arguments {
@@ -102,18 +100,15 @@ impl Arguments {
     pub const FRONT: u64 = 0;
     /// The same, caps that count -1.
     pub const BACK: u64 = 20;
-    /// The same, six vertices a side.
-    pub const QUADS: u64 = 40;
-    /// The same, three vertices a side.
-    pub const TRIANGLES: u64 = 56;
+    /// The same, to the number of sides.
+    pub const SIDES: u64 = 40;
 
     /// Arguments of an empty volume whose caps will lie in `cap_base .. cap_end` (in indices).
     pub fn new(cap_base: u32, cap_end: u32) -> Self {
         Self {
             front: [0, 1, cap_base, 0, 0],
             back: [0, 1, cap_end, 0, 0],
-            quads: [0, 1, 0, 0],
-            triangles: [0, 1, 0, 0],
+            sides: 0,
         }
     }
 }
@@ -129,6 +124,8 @@ mod tests {
     use crate::volume::decide::near_plane::NearPlane;
     use crate::volume::gpu::draw_pipelines::Feed;
     use crate::volume::plan::limits::WORKGROUP;
+    use crate::volume::plan::merged::{BLOCK, Member};
+    use crate::volume::plan::work::Merge;
     use crate::volume::silhouette;
     use crate::wgsl_layout::assert_layout;
 
@@ -143,10 +140,11 @@ mod tests {
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)))
     }
 
-    fn sources(depth: DepthConvention, near: NearPlane) -> [String; 4] {
+    fn sources(depth: DepthConvention, near: NearPlane) -> [String; 5] {
         [
             silhouette::facing_source(),
             silhouette::edges_source(),
+            silhouette::merge_source(),
             Feed::Pulled.source(depth, near),
             Feed::Records.source(depth, near),
         ]
@@ -168,7 +166,7 @@ mod tests {
     #[test]
     fn faces_cut_at_the_near_plane_need_clip_distances_alone() {
         for depth in [DepthConvention::FiniteReverse, DepthConvention::Standard] {
-            for source in &sources(depth, NearPlane::Cut)[2..] {
+            for source in &sources(depth, NearPlane::Cut)[3..] {
                 let is_valid = |capabilities| {
                     let mut validator = Validator::new(ValidationFlags::all(), capabilities);
                     validator.validate(&parse(source)).is_ok()
@@ -181,9 +179,24 @@ mod tests {
 
     #[test]
     fn rust_and_wgsl_agree_on_every_offset() {
-        let [facing, edges, draw, vertex] = sources(DepthConvention::Standard, NearPlane::Passed);
+        let [facing, edges, merge, draw, vertex] =
+            sources(DepthConvention::Standard, NearPlane::Passed);
+        assert_layout!(merge, "Batch", BatchParams, first_item, zero, padding);
+        assert_layout!(
+            merge,
+            "Merge",
+            Merge,
+            first_member,
+            member_count,
+            first_block,
+            draw,
+            element_words,
+            block_vertices,
+            padding
+        );
+        assert_layout!(merge, "Member", Member, caster, count, start, grows_down);
         for source in [facing, edges] {
-            assert_layout!(source, "Batch", BatchParams, first_share, zero, padding);
+            assert_layout!(source, "Batch", BatchParams, first_item, zero, padding);
             assert_layout!(
                 source,
                 "Instance",
@@ -215,15 +228,14 @@ mod tests {
                 apex,
                 position_stride,
                 position_offset,
-                side_base,
+                edge_base,
                 side_vertices,
                 object_light,
                 object_light_rest,
                 both_sides,
                 anchor,
                 zero,
-                anchor_from_light,
-                edge_base
+                anchor_from_light
             );
             assert_layout!(source, "Camera", ViewParams, clip_from_world, depth_step);
             assert_layout!(source, "Light", LightParams, homogeneous);
@@ -232,27 +244,24 @@ mod tests {
 
     #[test]
     fn rust_and_wgsl_agree_on_the_constants() {
-        let constants = [
+        let of_extraction = [
             ("WORKGROUP", WORKGROUP),
             ("ARGS_STRIDE", size_of::<Arguments>() as u32 / 4),
             ("ARGS_FRONT", offset_of!(Arguments, front) as u32 / 4),
             ("ARGS_BACK", offset_of!(Arguments, back) as u32 / 4),
-            ("ARGS_QUADS", offset_of!(Arguments, quads) as u32 / 4),
-            (
-                "ARGS_TRIANGLES",
-                offset_of!(Arguments, triangles) as u32 / 4,
-            ),
+            ("ARGS_SIDES", offset_of!(Arguments, sides) as u32 / 4),
         ];
         assert_eq!(Arguments::FRONT, offset_of!(Arguments, front) as u64);
         assert_eq!(Arguments::BACK, offset_of!(Arguments, back) as u64);
-        assert_eq!(Arguments::QUADS, offset_of!(Arguments, quads) as u64);
-        assert_eq!(
-            Arguments::TRIANGLES,
-            offset_of!(Arguments, triangles) as u64
-        );
-        for source in [silhouette::facing_source(), silhouette::edges_source()] {
+        assert_eq!(Arguments::SIDES, offset_of!(Arguments, sides) as u64);
+        let of_merging = [("WORKGROUP", WORKGROUP), ("BLOCK", BLOCK)];
+        for (source, constants) in [
+            (silhouette::facing_source(), &of_extraction[..]),
+            (silhouette::edges_source(), &of_extraction),
+            (silhouette::merge_source(), &of_merging),
+        ] {
             let module = parse(&source);
-            for (name, value) in constants {
+            for &(name, value) in constants {
                 let (_, constant) = module
                     .constants
                     .iter()

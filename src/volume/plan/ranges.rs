@@ -88,6 +88,11 @@ impl<const N: usize> Chunks<N> {
         }
     }
 
+    /// Items of each list that a chunk holds.
+    pub fn limit(&self) -> [u64; N] {
+        self.limit
+    }
+
     /// Whether so many items fit an empty chunk.
     pub fn check(&self, need: [u64; N]) -> Result<(), Overflow> {
         let lists = self.names.into_iter().zip(self.item_bytes);

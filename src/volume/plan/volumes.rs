@@ -7,6 +7,7 @@ use crate::volume::decide::facing::{self, ObjectLight};
 use crate::volume::decide::method::Options;
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
+use crate::volume::plan::merged::MergedDraws;
 use crate::volume::plan::pair::{Pair, Shared};
 use crate::volume::plan::params::{LightParams, ViewParams};
 use crate::volume::plan::scene::{Changes, SceneCasters};
@@ -15,10 +16,11 @@ use crate::volume::silhouette::{Way, Ways};
 use crate::{Caster, HomogeneousLight};
 
 /// What is drawn under which light in which view.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Volumes {
     pub casters: SceneCasters,
     pub windows: Windows,
+    pub merged: MergedDraws,
     lights: Vec<Light>,
     /// How many views there are.
     views: usize,
@@ -35,6 +37,17 @@ struct Light {
 }
 
 impl Volumes {
+    /// `bytes`: the largest storage buffer that can be made and bound.
+    pub fn new(bytes: u64) -> Self {
+        Self {
+            casters: SceneCasters::default(),
+            windows: Windows::default(),
+            merged: MergedDraws::new(bytes),
+            lights: Vec::new(),
+            views: 0,
+        }
+    }
+
     /// How many lights and views the last frame had.
     pub fn counts(&self) -> [usize; 2] {
         [self.lights.len(), self.views]
@@ -62,6 +75,7 @@ impl Volumes {
             casters: &self.casters,
             cache,
             windows: &mut self.windows,
+            merged: &mut self.merged,
         };
         self.views = frame.views.len();
         for light in self
@@ -97,15 +111,20 @@ impl Volumes {
         changes.meshes
     }
 
-    /// Fills the windows of what was decided, all volumes having their places.
-    pub fn fill(&mut self, cache: &mut VolumeCache) {
+    /// Fills the windows of what was decided and gives it its draws, all volumes having their places. If
+    /// nothing can be counted on that was written before, that of all casters.
+    pub fn fill(&mut self, cache: &mut VolumeCache, renewed: bool) {
+        if renewed {
+            self.merged.renew();
+        }
         let mut shared = Shared {
             casters: &self.casters,
             cache,
             windows: &mut self.windows,
+            merged: &mut self.merged,
         };
-        let pairs = self.lights.iter().flat_map(|light| &light.pairs);
-        pairs.for_each(|pair| pair.fill(&mut shared));
+        let pairs = self.lights.iter_mut().flat_map(|light| &mut light.pairs);
+        pairs.for_each(|pair| pair.fill(&mut shared, renewed));
     }
 }
 

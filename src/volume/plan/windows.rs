@@ -33,11 +33,6 @@ impl Windows {
         self.list.get(number as usize)?.as_ref()
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = (u32, &Window)> {
-        let numbered = (0..).zip(&self.list);
-        numbered.filter_map(|(number, window)| Some((number, window.as_ref()?)))
-    }
-
     /// The least number that is free, so that what is written lies together.
     pub fn take(&mut self) -> u32 {
         self.free.pop_first().unwrap_or_else(|| {

@@ -1,12 +1,14 @@
 //! The volumes that compute shaders find in one frame, for whichever lights, and who finds what.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::volume::plan::cache::{Sources, VolumeCache};
 use crate::volume::plan::limits::WORKGROUP;
+use crate::volume::plan::merged::{MergedDraw, MergedDraws};
 use crate::volume::plan::params::{Arguments, InstanceParams};
+use crate::volume::silhouette::Way;
 
 /// What one workgroup does: so many elements of an instance's mesh, from this one on. `shares` in
 /// `volume_batch.wgsl`.
@@ -15,6 +17,45 @@ use crate::volume::plan::params::{Arguments, InstanceParams};
 pub(crate) struct Share {
     pub instance: u32,
     pub first: u32,
+}
+
+/// A draw whose blocks are made anew. `Merge` in `volume_merge.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct Merge {
+    pub first_member: u32,
+    pub member_count: u32,
+    pub first_block: u32,
+    pub draw: u32,
+    pub element_words: u32,
+    pub block_vertices: u32,
+    pub padding: [u32; 2],
+}
+
+impl Merge {
+    /// Nothing.
+    const NONE: Self = Self {
+        first_member: 0,
+        member_count: 0,
+        first_block: 0,
+        draw: u32::MAX,
+        element_words: 1,
+        block_vertices: 0,
+        padding: [0; 2],
+    };
+
+    fn new(draw: &MergedDraw) -> Self {
+        let [first_member, first_block, arguments] = draw.starts();
+        Self {
+            first_member,
+            member_count: draw.seats(),
+            first_block,
+            draw: arguments,
+            element_words: draw.key.element_words(),
+            block_vertices: draw.key.block_vertices(),
+            padding: [0; 2],
+        }
+    }
 }
 
 impl Share {
@@ -29,8 +70,8 @@ impl Share {
 #[derive(Clone, Debug)]
 pub(crate) struct Dispatch {
     pub sources: Sources,
-    /// The first of their shares.
-    pub first_share: u32,
+    /// The first of their items, in the list of what is to be done.
+    pub first_item: u32,
     /// How many there are, in two dimensions.
     pub groups: [u32; 2],
 }
@@ -45,6 +86,9 @@ pub(crate) struct Work {
     pub shares: Vec<Share>,
     pub facing: Vec<Dispatch>,
     pub edges: Vec<Dispatch>,
+    pub merges: Vec<Merge>,
+    /// Those of draws of one chunk each, which is all that their sources say.
+    pub merging: Vec<Dispatch>,
 }
 
 impl Work {
@@ -73,13 +117,42 @@ impl Work {
         work
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.instances.is_empty()
+    /// Adds the draws whose blocks compute shaders make anew.
+    pub fn merge(&mut self, merged: &MergedDraws, touched: &[u32], most: u32) {
+        let draws = touched.iter().filter_map(|&number| merged.get(number));
+        let by_compute = draws.filter(|draw| draw.key.way == Way::Compute && !draw.key.own);
+        let mut lists: BTreeMap<usize, Vec<Merge>> = BTreeMap::new();
+        for draw in by_compute {
+            lists
+                .entry(draw.chunk())
+                .or_default()
+                .push(Merge::new(draw));
+        }
+        for (chunk, mut list) in lists {
+            let first_item = self.merges.len() as u32;
+            let groups = fold(list.len() as u32, most);
+            list.resize(groups.iter().product::<u32>() as usize, Merge::NONE);
+            self.merges.extend(list);
+            let sources = Sources {
+                chunk,
+                ..Sources::default()
+            };
+            self.merging.push(Dispatch {
+                sources,
+                first_item,
+                groups,
+            });
+        }
     }
 
-    /// The dispatches of both passes, one after the other.
+    pub fn is_empty(&self) -> bool {
+        self.instances.is_empty() && self.merges.is_empty()
+    }
+
+    /// The dispatches of all passes, one after the other.
     pub fn dispatches(&self) -> impl Iterator<Item = &Dispatch> {
-        self.facing.iter().chain(&self.edges)
+        let extraction = self.facing.iter().chain(&self.edges);
+        extraction.chain(&self.merging)
     }
 }
 
@@ -107,16 +180,16 @@ impl Lists {
     fn lay_out(self, all: &mut Vec<Share>, most: u32) -> Vec<Dispatch> {
         let lists = self.lists.into_iter().filter(|(_, list)| !list.is_empty());
         let dispatch = |(sources, list): (Sources, Vec<Share>)| {
-            let first_share = all.len() as u32;
+            let first_item = all.len() as u32;
             let groups = fold(list.len() as u32, most);
             all.extend(list);
             all.resize(
-                first_share as usize + groups.iter().product::<u32>() as usize,
+                first_item as usize + groups.iter().product::<u32>() as usize,
                 Share::NONE,
             );
             Dispatch {
                 sources,
-                first_share,
+                first_item,
                 groups,
             }
         };
@@ -164,8 +237,8 @@ mod tests {
             panic!("{dispatches:?}")
         };
         // Three workgroups each, in rows of two.
-        assert_eq!((first.first_share, first.groups), (0, [2, 2]));
-        assert_eq!((second.first_share, second.groups), (4, [2, 2]));
+        assert_eq!((first.first_item, first.groups), (0, [2, 2]));
+        assert_eq!((second.first_item, second.groups), (4, [2, 2]));
         assert_eq!(
             shares,
             [

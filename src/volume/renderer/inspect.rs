@@ -4,8 +4,9 @@ use super::{Drawn, ShadowVolumeRenderer};
 use crate::DepthConvention;
 use crate::error::VolumeRenderError;
 use crate::volume::decide::method::Options;
+use crate::volume::gpu::draw_pipelines::Feed;
 use crate::volume::plan::count_bound;
-use crate::volume::plan::faces::Draw;
+use crate::volume::plan::merged::MergedDraw;
 use crate::volume::{CasterState, VolumeStatistics};
 
 impl ShadowVolumeRenderer {
@@ -53,21 +54,22 @@ impl ShadowVolumeRenderer {
 
     /// Sets the bind group that a draw reads, under the light and in the view of this place, if it is
     /// there.
-    pub(crate) fn bind_volume(
+    pub(crate) fn bind_draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        draw: &Draw,
+        draw: &MergedDraw,
         [light, view]: [usize; 2],
     ) -> bool {
-        let Some(group) = self.groups.of_window(draw.window) else {
+        let (Some(group), Some(caster)) = (self.groups.of_draws(&draw.key), draw.first()) else {
             return false;
         };
         let offsets = [
-            draw.window * self.limits.caster_window,
             view as u32 * self.limits.view_window,
             light as u32 * self.limits.light_window,
+            caster * self.limits.caster_window,
         ];
-        pass.set_bind_group(0, group, &offsets);
+        let uniforms = Feed::of(draw.key.way).uniforms().len();
+        pass.set_bind_group(0, group, &offsets[..uniforms]);
         true
     }
 

@@ -6,6 +6,7 @@ use crate::volume::decide::decision::words;
 use crate::volume::gpu::bind_groups::Parts;
 use crate::volume::gpu::buffers::Needs;
 use crate::volume::gpu::staged::StagedVolumes;
+use crate::volume::gpu::staged_draws::write_draws;
 use crate::volume::gpu::staged_meshes::write_meshes;
 use crate::volume::plan::work::Work;
 use crate::volume::silhouette::Way;
@@ -67,7 +68,7 @@ impl ShadowVolumeRenderer {
     }
 
     /// Has written what changed, and brings the bind groups up to date.
-    pub(super) fn upload(&mut self, device: &wgpu::Device, staged: StagedVolumes) {
+    pub(super) fn upload(&mut self, device: &wgpu::Device, staged: StagedVolumes, touched: &[u32]) {
         self.waits = false;
         if self.volumes.pairs().all(|pair| pair.draws.is_empty()) {
             return;
@@ -84,12 +85,14 @@ impl ShadowVolumeRenderer {
             work: &self.work,
             cache: &self.cache,
             meshes: &self.meshes,
+            merged: &self.volumes.merged,
         };
         let (uploads, limits) = (&mut self.uploads, &self.limits);
         self.buffers.reserve(device, uploads, &needs, limits);
         self.buffers.write(uploads, &needs, &changed, limits);
         write_meshes(device, uploads, (&self.meshes, &self.buffers), limits);
         staged.write(uploads, &self.buffers);
+        write_draws(uploads, &self.volumes.merged, touched, &self.buffers);
         self.waits = uploads.is_waiting() || !self.work.is_empty();
         let parts = Parts {
             device: &self.device,
@@ -97,8 +100,8 @@ impl ShadowVolumeRenderer {
             buffers: &self.buffers,
             pipelines: &self.pipelines,
         };
-        let windows = (&self.volumes.windows, &changed[..]);
-        self.groups.update(windows, &self.work, &self.cache, &parts);
+        let keys = self.volumes.pairs().flat_map(|pair| pair.draws.keys());
+        self.groups.update(keys, &self.work, &self.cache, &parts);
     }
 
     pub(super) fn count(&self) -> VolumeStatistics {

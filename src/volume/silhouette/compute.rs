@@ -1,22 +1,30 @@
-//! Extraction on the GPU: facings and caps, then sides, in two compute passes.
+//! Extraction on the GPU: facings and caps, then sides, in two compute passes, and a third that puts those
+//! of many casters together in few draws.
 
 use crate::volume::gpu::layout::{storage, uniform};
 use crate::volume::plan::params::BatchParams;
 
+const DISPATCH: &str = include_str!("../../../shaders/volume_dispatch.wgsl");
 const BATCH: &str = include_str!("../../../shaders/volume_batch.wgsl");
 /// The predicate of all ways.
 pub(crate) const LIGHT_SIDE: &str = include_str!("../../../shaders/volume_light_side.wgsl");
 const FACING: &str = include_str!("../../../shaders/volume_facing.wgsl");
 const EDGES: &str = include_str!("../../../shaders/volume_edges.wgsl");
+const MERGE: &str = include_str!("../../../shaders/volume_merge.wgsl");
 
 /// The shader of the facing pass.
 pub(crate) fn facing_source() -> String {
-    [BATCH, LIGHT_SIDE, FACING].join("\n")
+    [DISPATCH, BATCH, LIGHT_SIDE, FACING].join("\n")
 }
 
 /// The shader of the edge pass.
 pub(crate) fn edges_source() -> String {
-    [BATCH, EDGES].join("\n")
+    [DISPATCH, BATCH, EDGES].join("\n")
+}
+
+/// The shader of the merge pass.
+pub(crate) fn merge_source() -> String {
+    [DISPATCH, MERGE].join("\n")
 }
 
 /// A compute pipeline and the layout of its only bind group.
@@ -26,13 +34,15 @@ pub(crate) struct Pass {
     pub pipeline: wgpu::ComputePipeline,
 }
 
-/// The two passes.
+/// The passes.
 #[derive(Clone, Debug)]
 pub(crate) struct Extraction {
     /// Binds batch, instances, arguments, shares, positions, triangles, facings, caps.
     pub facing: Pass,
     /// Binds batch, instances, arguments, shares, edges, uses, facings, sides.
     pub edges: Pass,
+    /// Binds batch, merges, members, arguments, blocks, arguments of draws.
+    pub merge: Pass,
 }
 
 impl Extraction {
@@ -52,17 +62,24 @@ impl Extraction {
                 "shadows_volume_edges",
                 [true, false, true, true, true, true, false],
             ),
+            merge: Pass::new(
+                (device, cache),
+                "shadows volume merge",
+                merge_source(),
+                "shadows_volume_merge",
+                [true, true, true, false, false],
+            ),
         }
     }
 }
 
 impl Pass {
-    fn new(
+    fn new<const N: usize>(
         (device, cache): (&wgpu::Device, Option<&wgpu::PipelineCache>),
         label: &str,
         source: String,
         entry_point: &str,
-        read_only: [bool; 7],
+        read_only: [bool; N],
     ) -> Self {
         let module = crate::shader::module(device, label, source);
         let label = Some(label);

@@ -16,7 +16,7 @@ pub enum Silhouettes {
     /// extracted by compute, wherever the others are not.
     #[default]
     Auto,
-    /// Two compute passes. Needs compute, storage buffers in vertex shaders and indirect draws.
+    /// Three compute passes. Needs compute, storage buffers in vertex shaders and indirect draws.
     Compute,
     /// One thread of the CPU during `prepare`: facings, 64 triangles at a time by their planes, then
     /// the edges near those that differ. Needs storage buffers in vertex shaders, and positions that
@@ -28,14 +28,15 @@ pub enum Silhouettes {
     /// are not part of the volume are degenerate. Runs at WebGL2's limits; needs positions that
     /// were uploaded by [`CasterMesh::new`], and 76 bytes of GPU memory an edge and 36 a triangle.
     ///
-    /// Weaker than the others in two ways: its work grows with the mesh, not the silhouette; and
-    /// where more than two triangles meet in an edge, they are taken in pairs, so that sides may be
+    /// Weaker than the others in three ways: its work grows with the mesh, not the silhouette; casters
+    /// share no draws (their triangles and edges lie in buffers of their own, and without storage buffers
+    /// a vertex knows its caster by what is bound), so there are two to five for each; and where more than two triangles meet in an edge, they are taken in pairs, so that sides may be
     /// drawn which cancel each other. The picture is the same.
     Vertex,
 }
 
 /// A way that was decided on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Way {
     Compute,
     Cpu,
