@@ -250,7 +250,8 @@ fn market(city: &mut City, pieces: &Pieces, area: &Area) {
     for i in 0..8 {
         let angle = TAU * (i as f32 + 0.5) / 8.0;
         let out = direction(angle);
-        let place = stand(ground(middle + 5.6 * out), out.x.atan2(out.y) + PI);
+        let turn = f64::from(out.x).atan2(out.y.into()) as f32;
+        let place = stand(ground(middle + 5.6 * out), turn + PI);
         city.put(pieces.bench, place, palette::PLANK);
     }
     for i in 0..4 {
