@@ -2,13 +2,14 @@
 # Every picture and every measured figure of README.md and docs/, anew on this machine.
 #
 #   scripts/report.sh             all of them (an hour on two cores)
-#   scripts/report.sh PART...     some: scenes kernels volume-debug volume-start picture models egui
-#                                 speed-vs-error cost-vs-error growth hard-cases temporal benches
+#   scripts/report.sh PART...     some: scenes kernels gallery volume-debug volume-start picture models
+#                                 egui web speed-vs-error cost-vs-error growth hard-cases temporal benches
 #   scripts/report.sh --check     whether those that take seconds are what it makes, times aside
 #   SMALL=1 scripts/report.sh ..  tries the script itself: the least sizes, docs/ left alone
 #
 # Leave the machine alone for scenes, speed-vs-error, growth and benches, which are times. `models` wants
-# MODELS, a directory with stanford-bunny.obj, suzanne.obj and beetle.obj; `egui` a display, or xvfb-run.
+# MODELS, a directory with stanford-bunny.obj, suzanne.obj and beetle.obj; `egui` a display, or xvfb-run;
+# `web` node and Chromium.
 # BENCH_RUNS (3) is how often the benches run, to say how far their ratios scatter.
 #
 # Figures stand between <!-- NAME --> and <!-- /NAME -->, which is where they are put.
@@ -50,6 +51,15 @@ kernels() {
     example kernel_sheet --difference $docs/difference.png
 }
 
+# The courtyard by day and by night, and two loops.
+gallery() {
+    [ -z "${SMALL:-}" ] || return 0
+    example gallery --day $docs/courtyard-day.png
+    example gallery --night $docs/courtyard-night.png
+    example gallery --sun $docs/sun.png
+    example gallery --pan $docs/pan.png
+}
+
 volume_debug() {
     example volume_debug --out $docs/volume-debug.png >$made/volume-debug.txt
 }
@@ -85,6 +95,20 @@ egui() {
     fi
     $window cargo run --release --quiet --manifest-path examples/egui/Cargo.toml -- --scene courtyard \
         --technique volumes --show surfaces --screenshot $docs/egui.png
+}
+
+# The page in the browser, as its test leaves it.
+web() {
+    [ -z "${SMALL:-}" ] || return 0
+    if ! command -v node >/dev/null 2>&1; then
+        echo 'web: left out, as node is not installed' >&2
+        return 0
+    fi
+    rm -f examples/web/target/web-test/wide-layout.png
+    scripts/web.sh
+    scripts/web.sh test 'wide: layout'
+    cp examples/web/target/web-test/wide-layout.png $docs/web.png ||
+        echo 'web: left out, as Chromium is not installed' >&2
 }
 
 speed_vs_error() {
@@ -151,11 +175,12 @@ check() {
     copies check
     scenes
     kernels
+    example gallery --day $docs/courtyard-day.png # the others take minutes
     volume_debug
     volume_start
     cost_vs_error
     failed=
-    for picture in courtyard difference kernels peers volume-debug volume-start; do
+    for picture in courtyard courtyard-day difference kernels peers volume-debug volume-start; do
         example same_picture docs/$picture.png $docs/$picture.png || failed="$failed docs/$picture.png"
     done
     same_figures scenes README.md "$readme" || failed="$failed README.md:scenes"
@@ -195,11 +220,11 @@ if [ -n "${SMALL:-}" ]; then
     swept='--technique volume,cube-2x2,cube-hard'
     BENCH_RUNS=1
 fi
-[ $# -gt 0 ] || set -- scenes kernels volume-debug volume-start picture models egui speed-vs-error \
+[ $# -gt 0 ] || set -- scenes kernels gallery volume-debug volume-start picture models egui web speed-vs-error \
     cost-vs-error growth hard-cases temporal benches
 for part in "$@"; do
     case $part in
-    scenes | kernels | picture | models | egui | growth | temporal | benches) $part ;;
+    scenes | kernels | gallery | picture | models | egui | web | growth | temporal | benches) $part ;;
     volume-debug) volume_debug ;;
     volume-start) volume_start ;;
     speed-vs-error) speed_vs_error ;;

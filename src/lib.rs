@@ -15,11 +15,11 @@
 //! | [`ShadowAtlas`] | all lights of a scene as tiles of one texture | many lights of any kind in one bind group, cascades |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
-//! | [`BlobShadow`] | an ellipsoid for each caster, its penumbra computed | soft shadows of thousands of things whose shape does not matter |
-//! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall that alone receives, exact to the pixel |
-//! | [`PlanarSoftShadow`] | the same from many places of a light with a size | soft shadows on one rectangle |
+//! | [`BlobShadow`] | an ellipsoid for each caster, with a computed penumbra | soft shadows of thousands of things whose shape does not matter |
+//! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall as the only receiver, exact to the pixel |
+//! | [`PlanarSoftShadow`] | the same, averaged over points of an area light | soft shadows on one rectangle |
 //! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
-//! | [`mesh::Adjacency`] | welded edges and their triangles | input of the volumes; any triangle mesh will do |
+//! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes are made from; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above; light maps |
 //!
 //! Each type has the same three calls: `new` for what never changes, `prepare` once a frame for the CPU's

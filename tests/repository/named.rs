@@ -68,6 +68,7 @@ fn homes(kind: &str, name: &str) -> Vec<String> {
             format!("examples/{name}.rs"),
             format!("examples/{name}/src/main.rs"),
             format!("examples/compare/examples/{name}.rs"),
+            format!("examples/compare/examples/{name}/main.rs"),
         ],
         "--bench" => vec![
             format!("benches/{name}.rs"),

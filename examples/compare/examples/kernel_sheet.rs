@@ -6,9 +6,11 @@
 //! cargo run --release --example kernel_sheet -- --difference docs/difference.png  close-ups: textbook, ours
 //! ```
 //!
-//! In the last two wrong pixels have a colour: red where light is false, blue where shadow is.
+//! In the last two wrong pixels have a colour: red where light is false, blue where shadow is. Above each
+//! picture stands what it is.
 
 use anyhow::{Context as _, Result, bail};
+use compare::label::{self, band};
 use compare::shadow::Shadow;
 use compare::stage::Stage;
 use host::gpu::Gpu;
@@ -23,13 +25,21 @@ const COLUMNS: u32 = 4;
 /// Grey levels of the picture.
 const LEVELS: u32 = 48;
 
-/// Tiles in reading order, each with its camera and a technique's name, or `exact` or `area` for rays.
+/// Tiles in reading order.
 struct Sheet {
-    tiles: Vec<(Camera, &'static str)>,
+    tiles: Vec<Tile>,
     /// Texels of a face.
     side: u32,
     /// Whether wrong pixels have a colour.
     errors: bool,
+}
+
+struct Tile {
+    camera: Camera,
+    /// A technique's, or `exact` or `area` for rays.
+    name: &'static str,
+    /// What stands above it.
+    words: String,
 }
 
 const EYE: Vec3 = Vec3::new(-4.6, 5.9, 13.7);
@@ -47,16 +57,31 @@ const fn close_up(target: Vec3, fovy: f32) -> Camera {
 const CHAINS: Camera = close_up(Vec3::new(2.35, 0.0, 5.75), 0.25);
 const LINKS: Camera = close_up(Vec3::new(1.2, 0.3, 6.2), 0.13);
 
-/// Links of a chain, a bollard's foot, where two panels of the fence meet, a railing.
-const CLOSE_UPS: [Camera; COLUMNS as usize] = [
-    close_up(Vec3::new(1.55, 0.5, 5.2), 0.04),
-    close_up(Vec3::new(2.75, 0.08, 5.0), 0.05),
-    close_up(Vec3::new(-3.45, 0.05, 4.8), 0.07),
-    close_up(Vec3::new(5.9, 1.2, -0.3), 0.07),
+/// Links of a chain, a bollard's foot, the fence where three faces of the cube meet, and the flank of the
+/// stairs, along which the light falls.
+const CLOSE_UPS: [(Camera, &str); COLUMNS as usize] = [
+    (close_up(Vec3::new(1.55, 0.5, 5.2), 0.04), "a chain"),
+    (close_up(Vec3::new(2.75, 0.08, 5.0), 0.05), "a contact"),
+    (close_up(Vec3::new(-3.45, 0.05, 4.8), 0.07), "a seam"),
+    (close_up(Vec3::new(5.9, 1.2, -0.3), 0.07), "a grazed wall"),
 ];
 
-fn of_one_view(camera: Camera, techniques: &[&'static str]) -> Vec<(Camera, &'static str)> {
-    techniques.iter().map(|name| (camera, *name)).collect()
+fn of_one_view(camera: Camera, techniques: &[(&'static str, &str)]) -> Vec<Tile> {
+    let tiles = techniques.iter().map(|&(name, words)| Tile {
+        camera,
+        name,
+        words: words.into(),
+    });
+    tiles.collect()
+}
+
+/// Close-ups of one technique.
+fn close_ups(&(name, words): &(&'static str, &'static str)) -> [Tile; COLUMNS as usize] {
+    CLOSE_UPS.map(|(camera, what)| Tile {
+        camera,
+        name,
+        words: format!("{words}: {what}"),
+    })
 }
 
 fn sheet(kind: &str) -> Result<Sheet> {
@@ -66,18 +91,18 @@ fn sheet(kind: &str) -> Result<Sheet> {
             tiles: of_one_view(
                 CHAINS,
                 &[
-                    "exact",
-                    "cube-hard",
-                    "cube-2x2",
-                    "cube-16",
-                    "cube-3x3",
-                    "cube-5x5",
-                    "cube-7x7",
-                    "cube-disk",
-                    "cube-disk-full",
-                    "cube-vogel",
-                    "cube-pcss",
-                    "area",
+                    ("exact", "exact"),
+                    ("cube-hard", "Hard"),
+                    ("cube-2x2", "Bilinear"),
+                    ("cube-16", "FourTaps"),
+                    ("cube-3x3", "Weighted3"),
+                    ("cube-5x5", "Weighted5"),
+                    ("cube-7x7", "Weighted7"),
+                    ("cube-disk", "RandomDisk"),
+                    ("cube-disk-full", "RandomDisk, no early-out"),
+                    ("cube-vogel", "Vogel"),
+                    ("cube-pcss", "ContactHardening"),
+                    ("area", "a light of radius 0.1"),
                 ],
             ),
             side: 512,
@@ -87,24 +112,28 @@ fn sheet(kind: &str) -> Result<Sheet> {
             tiles: of_one_view(
                 LINKS,
                 &[
-                    "exact",
-                    "cube-2x2",
-                    "cube-hw",
-                    "cube-3x3",
-                    "cube-textbook",
-                    "peer-bevy-2x2",
-                    "peer-bevy-gaussian",
-                    "peer-three",
+                    ("exact", "exact"),
+                    ("cube-2x2", "Bilinear"),
+                    ("cube-hw", "HardwareBilinear"),
+                    ("cube-3x3", "Weighted3"),
+                    ("cube-textbook", "textbook"),
+                    ("peer-bevy-2x2", "Bevy, 2x2"),
+                    ("peer-bevy-gaussian", "Bevy, Gaussian"),
+                    ("peer-three", "three.js"),
                 ],
             ),
             side: 1024,
             errors: true,
         },
         "--difference" => Sheet {
-            tiles: ["cube-textbook", "cube-2x2", "volume"]
-                .iter()
-                .flat_map(|name| CLOSE_UPS.map(|camera| (camera, *name)))
-                .collect(),
+            tiles: [
+                ("cube-textbook", "textbook"),
+                ("cube-2x2", "map"),
+                ("volume", "volumes"),
+            ]
+            .iter()
+            .flat_map(close_ups)
+            .collect(),
             side: 1024,
             errors: true,
         },
@@ -150,27 +179,26 @@ fn main() -> Result<()> {
     let sheet = sheet(kind)?;
     let gpu = Gpu::new(None)?;
     let rows = (sheet.tiles.len() as u32).div_ceil(COLUMNS);
-    let size = [
-        COLUMNS * (TILE[0] + GAP) - GAP,
-        rows * (TILE[1] + GAP) - GAP,
-    ];
+    let [across, down] = [TILE[0] + GAP, label::ROWS + TILE[1] + GAP];
+    let size = [COLUMNS * across - GAP, rows * down - GAP];
     let mut pixels = vec![[255; 3]; (size[0] * size[1]) as usize];
     let mut views = Vec::new();
-    for (place, (camera, name)) in (0..).zip(&sheet.tiles) {
-        let view = view_of(&gpu, &mut views, *camera)?;
+    for (place, shown_as) in (0..).zip(&sheet.tiles) {
+        let view = view_of(&gpu, &mut views, shown_as.camera)?;
         let View {
             stage, reference, ..
         } = &views[view];
-        let visibility = match *name {
+        let visibility = match shown_as.name {
             "exact" => reference.visibility(),
             "area" => area(reference),
             name => shown(&gpu, stage, name, sheet.side)?,
         };
-        let colors = tile(reference, &visibility, sheet.errors)?;
-        let corner = [
-            place % COLUMNS * (TILE[0] + GAP),
-            place / COLUMNS * (TILE[1] + GAP),
-        ];
+        let colors = [
+            band(TILE[0], &shown_as.words),
+            tile(reference, &visibility, sheet.errors)?,
+        ]
+        .concat();
+        let corner = [place % COLUMNS * across, place / COLUMNS * down];
         for (y, row) in (0..).zip(colors.chunks_exact(TILE[0] as usize)) {
             let at = ((corner[1] + y) * size[0] + corner[0]) as usize;
             pixels[at..at + row.len()].copy_from_slice(row);
@@ -184,7 +212,7 @@ fn main() -> Result<()> {
         }
     };
     std::fs::write(path, file)?;
-    let names: Vec<&str> = sheet.tiles.iter().map(|(_, name)| *name).collect();
+    let names: Vec<&str> = sheet.tiles.iter().map(|tile| tile.name).collect();
     host::terminal::say(&format!("{path}: {}", names.join(", ")))
 }
 

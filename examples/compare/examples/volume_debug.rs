@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result};
 use clap::Parser;
+use compare::label::{self, band};
 use host::gpu::Gpu;
 use host::image::rgb_png;
 use host::one_light::{OneLight, PrepareOne as _};
@@ -26,7 +27,8 @@ use shadows::{
     wgpu,
 };
 
-const SIZE: [u32; 2] = [400, 260];
+/// Pixels of a panel, below its words.
+const SIZE: [u32; 2] = [640, 416];
 
 /// Draws the debug views of shadow volumes as one picture.
 #[derive(Parser)]
@@ -44,35 +46,52 @@ fn main() -> Result<()> {
     let args = Args::parse();
     let gpu = Gpu::new(None)?;
     if let Some(path) = args.start {
-        let panel = |start| Ok(Panels::new(&gpu, &coarse_spheres(), start)?.draw(|_| {}));
+        let panel = |start| {
+            let picture = Panels::new(&gpu, &coarse_spheres(), start)?.draw(|_| {});
+            Ok(below(&format!("{start:?}"), picture))
+        };
         let starts = [StartFrom::LightFacing, StartFrom::AwayFacing];
         let pictures: Vec<_> = starts.into_iter().map(panel).collect::<Result<_>>()?;
         return save(&path, &pictures);
     }
     let panels = Panels::new(&gpu, &scene(), StartFrom::LightFacing)?;
     let pictures = [
-        panels.draw(|_| {}),
-        panels.draw(|pass| {
-            panels
-                .debug
-                .draw_surfaces(pass, &panels.volumes, 0, 0)
-                .unwrap();
-            panels
-                .debug
-                .draw_edges(pass, &panels.volumes, 0, 0)
-                .unwrap();
-        }),
-        panels.draw(|pass| panels.debug.draw_counts(pass)),
-        panels.draw(|pass| panels.debug.draw_casters(pass)),
+        below("shaded", panels.draw(|_| {})),
+        below(
+            "surfaces and silhouette edges",
+            panels.draw(|pass| {
+                panels
+                    .debug
+                    .draw_surfaces(pass, &panels.volumes, 0, 0)
+                    .unwrap();
+                panels
+                    .debug
+                    .draw_edges(pass, &panels.volumes, 0, 0)
+                    .unwrap();
+            }),
+        ),
+        below(
+            "stencil counts",
+            panels.draw(|pass| panels.debug.draw_counts(pass)),
+        ),
+        below(
+            "methods",
+            panels.draw(|pass| panels.debug.draw_casters(pass)),
+        ),
     ];
     say(&format!("{:#?}", panels.volumes.statistics()))?;
     say(&format!("{:#?}", panels.volumes.survey(0, 0, SIZE)))?;
     save(&args.out, &pictures)
 }
 
+/// A panel below what it is.
+fn below(words: &str, picture: Vec<[u8; 3]>) -> Vec<[u8; 3]> {
+    [band(SIZE[0], words), picture].concat()
+}
+
 /// Writes panels, two in a row.
 fn save(path: &Path, panels: &[Vec<[u8; 3]>]) -> Result<()> {
-    let height = SIZE[1] * panels.len() as u32 / 2;
+    let height = (label::ROWS + SIZE[1]) * panels.len() as u32 / 2;
     let png = rgb_png([2 * SIZE[0], height], &sheet(panels))?;
     std::fs::write(path, png).with_context(|| path.display().to_string())?;
     say(&path.display().to_string())
@@ -208,7 +227,7 @@ fn guardless() -> wgpu::StencilState {
 
 /// Two panels in a row.
 fn sheet(panels: &[Vec<[u8; 3]>]) -> Vec<[u8; 3]> {
-    let [width, height] = SIZE.map(|side| side as usize);
+    let [width, height] = [SIZE[0], label::ROWS + SIZE[1]].map(|side| side as usize);
     let row = |y: usize| {
         let pair = 2 * (y / height);
         let from = y % height * width;

@@ -31,7 +31,12 @@ impl Atlas {
         (size, kept): (u32, bool),
         sampler: PcfSampler,
     ) -> Result<Self> {
-        let atlas = ShadowAtlas::new(&gpu.device, &ShadowAtlasDescriptor::default())?;
+        let usual = ShadowAtlasDescriptor::default();
+        let descriptor = ShadowAtlasDescriptor {
+            layer_size: usual.layer_size.max(size),
+            ..usual
+        };
+        let atlas = ShadowAtlas::new(&gpu.device, &descriptor)?;
         Ok(Self {
             group: (atlas.revision(), sampler.bind_group(&gpu.device, &atlas)?),
             atlas,

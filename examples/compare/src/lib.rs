@@ -1,5 +1,6 @@
 //! What `compare` is made of, for its tests and for the other pictures of the pages.
 
+pub mod animation;
 pub mod args;
 pub mod arithmetic;
 pub mod atlas;
@@ -7,6 +8,7 @@ pub mod cost;
 pub mod date;
 pub mod growth;
 pub mod hard;
+pub mod label;
 pub mod lamps;
 pub mod measure;
 pub mod output;

@@ -6,7 +6,7 @@ const DEFAULTS = {
   light: 'point',
   left: 'textbook',
   right: 'map',
-  kernel: 'weighted_3',
+  kernel: 'bilinear',
   size: '512',
   normal: '',
   constant: '',

@@ -39,6 +39,7 @@ export class ErrorMeter {
     try {
       measurement = this.measure(width, height);
       const { job: numbers } = measurement;
+      this.numbers = numbers;
       const visibility = await measurement.visibility;
       if (id !== this.id) return;
       const half = () => new OffscreenCanvas(width, height);

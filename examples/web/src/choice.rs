@@ -74,7 +74,7 @@ impl Default for Choice {
             left: Method::Textbook,
             right: Method::Map,
             maps: Maps {
-                kernel: Kernel::Weighted3,
+                kernel: Kernel::default(),
                 size: 512,
                 bias: Bias::default(),
             },

@@ -6,6 +6,7 @@ mod atlas;
 pub mod choice;
 #[cfg(target_arch = "wasm32")]
 mod compose;
+pub mod digest;
 pub mod job;
 pub mod motion;
 pub mod picture;

@@ -13,6 +13,7 @@ use web_sys::HtmlCanvasElement;
 use crate::app::App;
 use crate::choice::{Choice, Show};
 use crate::compose::Compose;
+use crate::digest::digest;
 use crate::picture::Picture;
 use crate::readback::{Readback, promise};
 
@@ -200,6 +201,11 @@ impl Page {
             (rows.triangles as f64).into(),
             (rows.bytes as f64).into(),
         ]
+    }
+
+    /// The scene in short, a line for each part of it.
+    pub fn digest(&self) -> Vec<String> {
+        digest(&self.app.world.scene)
     }
 
     /// The last frame's half, four bytes a pixel, sRGB.

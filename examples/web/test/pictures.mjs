@@ -5,9 +5,6 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-/** Part of the pixels that may differ from what the same code draws natively, on the same SwiftShader. */
-const TOLERATED = 0;
-
 /** Scenes, lights and methods that are compared; every scene, light and method occurs. */
 export const PICTURES = [
   '',
@@ -37,9 +34,12 @@ export class Native {
       'swiftshader', folder, `${width}x${height}`, `${measuredWidth}x${measuredHeight}`, ...pairs,
     ], { env: this.environment });
     const file = (name) => readFileSync(join(folder, name));
+    const job = file('job.bin');
     return {
       halves: [file('left.rgba'), file('right.rgba')],
       counts: JSON.parse(file('counts.json')),
+      scene: file('scene.txt').toString().split('\n'),
+      job: [...new Float32Array(job.buffer, job.byteOffset, job.length / 4)],
     };
   }
 }
@@ -54,6 +54,20 @@ export function differing(a, b) {
   return count;
 }
 
+/** How two pictures differ: how far at most in each channel, and where first. */
+function difference(a, b, width) {
+  const most = [0, 0, 0];
+  const places = [];
+  for (let at = 0; at < a.length; at += 4) {
+    const by = [0, 1, 2].map((channel) => a[at + channel] - b[at + channel]);
+    if (by.every((channel) => channel === 0)) continue;
+    by.forEach((channel, place) => { most[place] = Math.max(most[place], Math.abs(channel)); });
+    const pixel = at / 4;
+    if (places.length < 12) places.push(`${pixel % width},${Math.floor(pixel / width)}: ${by}`);
+  }
+  return places.length === 0 ? '' : `by ${most} at most; ${places.join('; ')}`;
+}
+
 /** The bytes of a half as the page has it. */
 export async function half(tab, side) {
   const base64 = await tab.evaluate(`(async () => {
@@ -65,7 +79,7 @@ export async function half(tab, side) {
   return Buffer.from(base64, 'base64');
 }
 
-/** The page's halves, and the counts of its worker, are the native ones. */
+/** The page's scene, its halves and the counts of its worker are the native ones. */
 export async function comparePicture(tab, native, choices) {
   await tab.until('shadows.meter.done', 300);
   const [size, measured, counts] = await tab.evaluate(`[
@@ -77,10 +91,18 @@ export async function comparePicture(tab, native, choices) {
   const halves = [await half(tab, 0), await half(tab, 1)];
   const differ = halves.map((bytes, side) => differing(bytes, drawn.halves[side]));
   const said = `${differ} of ${pixels} pixels differ; wrong: ${JSON.stringify(counts)}`;
-  assert.ok(Math.max(...differ) <= TOLERATED * pixels, said);
+  const [scene, job] = await tab.evaluate(`[shadows.page.digest(), [...shadows.meter.numbers]]`);
+  const others = scene.filter((line, place) => line !== drawn.scene[place]);
+  assert.deepEqual(others, [], `${others.length} of ${scene.length} parts of the scene are others than natively`);
+  assert.deepEqual(job, drawn.job, 'another view or light than natively');
+  const where = halves.map((bytes, side) => difference(bytes, drawn.halves[side], size[0]));
+  assert.deepEqual(differ, [0, 0], `${said}; ${where}`);
   assert.deepEqual(counts, drawn.counts);
   // The twin: the other half is not this one.
   const crossed = differing(halves[0], drawn.halves[1]);
-  assert.ok(crossed > 20 * TOLERATED * pixels, `only ${crossed} pixels tell the halves apart`);
+  assert.ok(crossed > 20, `only ${crossed} pixels tell the halves apart`);
+  // And the light a thousandth of the picture aside makes another scene.
+  const moved = await tab.evaluate(`(shadows.light(0.001, 0), shadows.page.digest())`);
+  assert.equal(moved.filter((line, place) => line !== drawn.scene[place]).length, 1);
   return said;
 }

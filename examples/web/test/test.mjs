@@ -103,6 +103,8 @@ for (const [name, width, height, touch] of [['wide', 1280, 800, false], ['narrow
   await test(`${name}: layout`, async () => {
     const tab = await open(browser, '', width, height, touch);
     const said = await layout(tab, width, height);
+    // For the picture that is left.
+    if (!touch) await tab.until('shadows.meter.done', 300);
     await close(tab, `${name}-layout`);
     return said;
   });

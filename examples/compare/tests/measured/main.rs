@@ -11,6 +11,7 @@ mod growth;
 mod hard_cases;
 mod leaves;
 mod peers;
+mod pictures;
 #[path = "../../../../tests/common/receivers.rs"]
 mod receivers;
 mod temporal;

@@ -1,10 +1,26 @@
-//! What city and valley are built from: prisms, tubes, lumps. All closed; metres.
+//! What city and valley are built from: prisms, tubes, lumps, all closed, and turns. Metres.
 
 use std::f64::consts::TAU;
 
-use shadows::glam::{DAffine3, DVec2, DVec3, dvec3};
+use shadows::glam::{DAffine3, DQuat, DVec2, DVec3, Quat, Vec2, dvec3};
 
 use super::surface::Surface;
+
+/// A turn about y, in radians. Sines of f32 differ from platform to platform in their last bit, and so do
+/// products of quaternions; f64's are the same once they are rounded to f32.
+pub fn about_y(angle: f32) -> Quat {
+    DQuat::from_rotation_y(angle.into()).as_quat()
+}
+
+/// The direction at an angle from x, in radians; see [`about_y`].
+pub fn direction(angle: f32) -> Vec2 {
+    DVec2::from_angle(angle.into()).as_vec2()
+}
+
+/// The turn of [`about_y`] before +y is laid into a direction, of length 1.
+pub fn leaning(up: DVec3, angle: f32) -> Quat {
+    (DQuat::from_rotation_arc(DVec3::Y, up) * DQuat::from_rotation_y(angle.into())).as_quat()
+}
 
 impl Surface {
     /// Adds a closed box.

@@ -316,7 +316,7 @@ impl Scene {
     }
 
     /// Adds a mesh and says where it is.
-    fn add_mesh(&mut self, mesh: Mesh) -> usize {
+    pub fn add_mesh(&mut self, mesh: Mesh) -> usize {
         self.meshes.push(mesh);
         self.meshes.len() - 1
     }

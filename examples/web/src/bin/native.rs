@@ -2,8 +2,8 @@
 //! `native ADAPTER FOLDER WIDTHxHEIGHT MEASURED [NAME=VALUE ...]` with the names of the page's address.
 //!
 //! Writes both halves (`left.rgba`, `right.rgba`), those of the smaller picture by which the error is
-//! measured, of `MEASURED` pixels (`left.visibility`, `right.visibility`), and its counts
-//! (`counts.json`).
+//! measured, of `MEASURED` pixels (`left.visibility`, `right.visibility`), its counts (`counts.json`), what
+//! the reference is told (`job.bin`, f32), and the scene in short (`scene.txt`).
 
 use std::env;
 use std::fs;
@@ -14,6 +14,7 @@ use host::gpu::Gpu;
 use shadows::wgpu::TextureAspect;
 use shadows_web::app::App;
 use shadows_web::choice::Choice;
+use shadows_web::digest::digest;
 use shadows_web::job::{Count, Job, Judge};
 
 const SIDES: [&str; 2] = ["left", "right"];
@@ -49,8 +50,14 @@ fn main() -> Result<()> {
     for (name, bytes) in SIDES.iter().zip(&visibility) {
         fs::write(folder.join(format!("{name}.visibility")), bytes)?;
     }
+    fs::write(
+        folder.join("scene.txt"),
+        digest(&app.world.scene).join("\n"),
+    )?;
     // As a worker gets it.
-    let job = Job::from_numbers(&job.to_numbers());
+    let numbers = job.to_numbers();
+    fs::write(folder.join("job.bin"), bytemuck::cast_slice(&numbers[..]))?;
+    let job = Job::from_numbers(&numbers);
     let mut counts = [Count::default(); 2];
     let rows = [0, measured[1]];
     let bytes = visibility.each_ref().map(|bytes| &bytes[..]);

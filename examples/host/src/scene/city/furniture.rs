@@ -4,6 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use shadows::glam::{Affine3A, Quat, Vec2, Vec3, vec2, vec3};
 
+use super::super::kit::{about_y, direction};
 use super::super::plants::{Habit, Wood, grow, lumps};
 use super::super::square;
 use super::lights::{Candidate, Lamp};
@@ -79,7 +80,7 @@ fn at(road: &Road, along: f32, aside: f32) -> Vec3 {
 
 /// The turn by which +x comes to lie in a direction.
 fn turn_to(way: Vec2) -> f32 {
-    (-way.y).atan2(way.x)
+    -way.as_dvec2().to_angle() as f32
 }
 
 fn length(road: &Road) -> f32 {
@@ -136,7 +137,7 @@ fn avenue_trees(city: &mut City, pieces: &Pieces, road: &Road) {
 fn tree(city: &mut City, pieces: &Pieces, foot: Vec3, scale: f32) {
     let [wood, crown] = city.any(&pieces.trees);
     let scale = scale * city.random.within(0.88, 1.08);
-    let turn = Quat::from_rotation_y(city.random.within(0.0, TAU));
+    let turn = about_y(city.random.within(0.0, TAU));
     let place = Affine3A::from_scale_rotation_translation(Vec3::splat(scale), turn, foot);
     let leaves = city.any(&palette::LEAVES);
     city.put(wood, place, palette::BARK);
@@ -248,12 +249,13 @@ fn market(city: &mut City, pieces: &Pieces, area: &Area) {
     }
     for i in 0..8 {
         let angle = TAU * (i as f32 + 0.5) / 8.0;
-        let out = vec2(angle.cos(), angle.sin());
-        let place = stand(ground(middle + 5.6 * out), out.x.atan2(out.y) + PI);
+        let out = direction(angle);
+        let turn = f64::from(out.x).atan2(out.y.into()) as f32;
+        let place = stand(ground(middle + 5.6 * out), turn + PI);
         city.put(pieces.bench, place, palette::PLANK);
     }
     for i in 0..4 {
-        let out = Vec2::from_angle(TAU * i as f32 / 4.0 + 0.4);
+        let out = direction(TAU * i as f32 / 4.0 + 0.4);
         lamp(city, pieces, ground(middle + 7.4 * out), turn_to(-out));
     }
     stalls(city, area);
@@ -318,8 +320,8 @@ fn tables(city: &mut City, pieces: &Pieces, area: &Area) {
 /// From the lamps around the fountain outwards, with a bulb every few metres.
 fn strings(city: &mut City, pieces: &Pieces, middle: Vec2) {
     for i in 0..4 {
-        let out = Vec2::from_angle(TAU * i as f32 / 4.0 + 0.4);
-        let next = Vec2::from_angle(TAU * (i + 1) as f32 / 4.0 + 0.4);
+        let out = direction(TAU * i as f32 / 4.0 + 0.4);
+        let next = direction(TAU * (i + 1) as f32 / 4.0 + 0.4);
         let post = |out: Vec2| {
             let p = middle + 7.4 * out;
             vec3(p.x, PAVEMENT + 4.7, p.y)

@@ -19,6 +19,7 @@ pub(super) mod walls;
 use shadows::glam::{Affine3A, Quat, Vec3, Vec4, vec3};
 
 use super::super::random::Random;
+use super::kit::about_y;
 use super::{Camera, Light, Mesh, Object, Scene, Sky, Time, square};
 use lights::Candidate;
 
@@ -43,7 +44,7 @@ struct City {
 
 /// Where an object stands: its foot, turned about y by so many radians.
 fn stand(foot: Vec3, turn: f32) -> Affine3A {
-    Affine3A::from_rotation_translation(Quat::from_rotation_y(turn), foot)
+    Affine3A::from_rotation_translation(about_y(turn), foot)
 }
 
 impl City {

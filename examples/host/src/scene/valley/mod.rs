@@ -12,10 +12,11 @@ mod village;
 
 use std::f32::consts::{PI, TAU};
 
-use shadows::glam::{Affine3A, Mat3A, Quat, Vec3, Vec4, dvec2, vec3};
+use shadows::glam::{Affine3A, Mat3A, Vec3, Vec4, dvec2, vec3};
 
 use super::super::random::Random;
 use super::city::street;
+use super::kit::{about_y, leaning};
 use super::plants::{Habit, Leaves, Wood, foliage, grow};
 use super::{Camera, Light, Mesh, Object, Scene, Sky};
 use fields::INSULATORS;
@@ -156,7 +157,7 @@ impl Valley {
             let x = stream(z) + side * self.within(1.2, 4.5);
             let size = self.within(0.15, 0.6) as f32;
             let mesh = self.any(&stones);
-            let turn = Quat::from_rotation_y(self.within(0.0, 6.3) as f32);
+            let turn = about_y(self.within(0.0, 6.3) as f32);
             let foot = ground(x, z).as_vec3();
             let place = Affine3A::from_scale_rotation_translation(Vec3::splat(size), turn, foot);
             self.put(mesh, place, STONE);
@@ -210,7 +211,7 @@ impl Valley {
         turn: f32,
     ) {
         let foot = ground(x, z).as_vec3() + Vec3::Y * (0.25 - village::SUNK);
-        let place = Affine3A::from_rotation_translation(Quat::from_rotation_y(turn), foot);
+        let place = Affine3A::from_rotation_translation(about_y(turn), foot);
         let plaster = self.any(&PLASTER);
         let tiles = self.any(&TILES);
         let paint = self.any(&[[0.2, 0.26, 0.2], [0.3, 0.17, 0.1], [0.22, 0.28, 0.34]]);
@@ -239,7 +240,7 @@ impl Valley {
         for pair in feet.windows(2) {
             let [from, to] = [0, 1].map(|k: usize| ground(pair[k][0], pair[k][1]).as_vec3());
             let way = to - from;
-            let turn = Quat::from_rotation_y(self.within(0.0, 6.3) as f32);
+            let turn = about_y(self.within(0.0, 6.3) as f32);
             self.put(*post, Affine3A::from_rotation_translation(turn, from), WOOD);
             // Sheared, not turned: rails follow the slope and posts stay upright.
             let side = way.cross(Vec3::Y).normalize();
@@ -260,7 +261,7 @@ impl Valley {
             let z = 66.0 - 32.0 * f64::from(i);
             let x = road(z) + terrain::ROAD + 3.4;
             let way = road(z - 10.0) - road(z + 10.0);
-            let turn = Quat::from_rotation_y((-way / 20.0).atan() as f32);
+            let turn = about_y((-way / 20.0).atan() as f32);
             let place = Affine3A::from_rotation_translation(turn, ground(x, z).as_vec3());
             self.put(pole, place, WOOD);
             if let Some(last) = last {
@@ -410,7 +411,7 @@ impl Valley {
     fn plant(&mut self, kinds: &[Tree], [x, z]: [f64; 2], colors: &[[f32; 3]], size: f64) {
         let [wood, crown] = self.any(kinds);
         let scale = Vec3::splat((size * self.within(0.8, 1.2)) as f32);
-        let turn = Quat::from_rotation_y(self.random.within(0.0, TAU));
+        let turn = about_y(self.random.within(0.0, TAU));
         let foot = ground(x, z).as_vec3();
         let place = Affine3A::from_scale_rotation_translation(scale, turn, foot);
         let leaves = self.any(colors);
@@ -431,9 +432,7 @@ impl Valley {
                 continue;
             }
             grown += 1;
-            let up = normal(x, z).as_vec3();
-            let lie = Quat::from_rotation_arc(Vec3::Y, up);
-            let turn = lie * Quat::from_rotation_y(self.random.within(0.0, TAU));
+            let turn = leaning(normal(x, z), self.random.within(0.0, TAU));
             let scale = Vec3::splat(self.random.within(0.75, 1.2));
             let foot = ground(x, z).as_vec3();
             let place = Affine3A::from_scale_rotation_translation(scale, turn, foot);
@@ -451,7 +450,7 @@ impl Valley {
         for _ in 0..14 {
             let z = self.within(-22.0, 26.0);
             let x = road(z) + self.within(8.0, 17.0);
-            let turn = Quat::from_rotation_y(self.random.within(0.0, TAU));
+            let turn = about_y(self.random.within(0.0, TAU));
             let place = Affine3A::from_rotation_translation(turn, ground(x, z).as_vec3());
             self.put(wool, place, [0.72, 0.69, 0.62]);
             self.put(dark, place, [0.12, 0.11, 0.1]);
@@ -460,8 +459,7 @@ impl Valley {
 
     /// Something on the ground, leaning with it.
     fn rest(&mut self, mesh: usize, [x, z]: [f64; 2], albedo: [f32; 3]) {
-        let lie = Quat::from_rotation_arc(Vec3::Y, normal(x, z).as_vec3());
-        let turn = lie * Quat::from_rotation_y(self.random.within(0.0, TAU));
+        let turn = leaning(normal(x, z), self.random.within(0.0, TAU));
         let place = Affine3A::from_rotation_translation(turn, ground(x, z).as_vec3());
         self.put(mesh, place, albedo);
     }
