@@ -1,5 +1,7 @@
 //! A scene set up to be seen: on the GPU, with a renderer, and as exact geometry for the reference.
 
+use std::sync::Arc;
+
 use anyhow::Result;
 use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
@@ -56,6 +58,7 @@ impl Stage {
             receivers: receivers(&scene),
             seen: seen(&scene),
             ground: survey::planar::ground(&scene),
+            scene: Arc::new(scene.clone()),
         };
         Ok(Self {
             scene,

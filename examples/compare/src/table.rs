@@ -6,7 +6,7 @@ use shadows::{
 };
 
 use crate::survey::projected::Projected;
-use crate::survey::{Blobs, Survey};
+use crate::survey::{Baked, Blobs, Survey};
 use crate::technique::{Config, Technique};
 use host::peers::peer;
 
@@ -120,6 +120,10 @@ pub static ROWS: &[Row] = &[
     row("projected-all", |side| {
         Config::Survey(Survey::Projected(Projected::new(side, true)))
     }),
+    row("baked", |side| baked(side, 4, 0.0)),
+    row("baked-soft", |side| {
+        baked(side, 16, ContactHardening::default().light_size)
+    }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {
         of_peer("cube/bevy-gaussian", side)
@@ -224,6 +228,11 @@ pub fn volume() -> ShadowVolumeDescriptor<'static> {
         keep_between_frames: false,
         ..Default::default()
     }
+}
+
+/// A light map of all that there is, by so many rays a texel; the light's radius in world units, or 0.
+fn baked(texels: u32, samples: u32, radius: f32) -> Config {
+    Config::Survey(Survey::Baked(Baked::new(texels, samples, radius)))
 }
 
 fn volume_by(silhouettes: Silhouettes) -> Config {

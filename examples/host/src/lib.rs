@@ -23,3 +23,4 @@ mod targets;
 pub mod terminal;
 pub mod timer;
 mod uniforms;
+pub mod unwrap;

@@ -3,6 +3,7 @@
 
 mod against_reference;
 mod arithmetic;
+mod baked;
 #[path = "../../../../tests/common/mod.rs"]
 mod common;
 mod far_from_origin;

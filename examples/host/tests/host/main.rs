@@ -2,3 +2,4 @@
 
 mod scene_files;
 mod scenes;
+mod unwrap;
