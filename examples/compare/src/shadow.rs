@@ -26,6 +26,7 @@ use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, Renderer, ShadowAccess};
 use host::scene::{Cone, Scene};
 use host::scene_gpu::SceneGpu;
+use host::warped::Seen;
 
 /// What a technique is told each frame.
 #[derive(Clone)]
@@ -260,6 +261,11 @@ impl Shadow {
                     cone: inputs.cone,
                     range: inputs.range,
                     bounds: inputs.receivers,
+                    seen: Some(Seen {
+                        clip_from_world: inputs.view.clip_from_world(),
+                        nearest: None,
+                        far: inputs.seen,
+                    }),
                 },
             ),
         }

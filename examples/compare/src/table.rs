@@ -8,7 +8,7 @@ use shadows::{
 use crate::survey::projected::Projected;
 use crate::survey::{Baked, Blobs, Survey};
 use crate::technique::{Config, Technique};
-use host::peers::peer;
+use host::peers::{WARPED, peer};
 
 /// A technique but for the size of its maps.
 #[derive(Debug)]
@@ -135,6 +135,10 @@ pub static ROWS: &[Row] = &[
     }),
     row("peer-bevy-spot-gaussian", |side| {
         of_peer("flat/bevy-spot-gaussian", side)
+    }),
+    row("peer-lispsm", |size| Config::Peer {
+        peer: &WARPED,
+        size,
     }),
     row("peer-bevy-sun-2x2", |side| of_peer("flat/bevy-2x2", side)),
     row("peer-bevy-sun-gaussian", |side| {

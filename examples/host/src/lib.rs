@@ -24,3 +24,4 @@ pub mod terminal;
 pub mod timer;
 mod uniforms;
 pub mod unwrap;
+pub mod warped;

@@ -3,3 +3,4 @@
 mod scene_files;
 mod scenes;
 mod unwrap;
+mod warped;
