@@ -12,9 +12,13 @@ use anyhow::{Context as _, Result, bail, ensure};
 use compare::stage::Stage;
 use host::gpu::Gpu;
 use host::image::rgb_png;
+use host::peer_light::PeerInputs;
+use host::peer_map::PeerMap;
+use host::peers::WARPED;
 use host::pipelines::visibility_module;
 use host::renderer::ShadowAccess;
 use host::terminal::say;
+use host::warped;
 use shadows::glam::{DVec3, DVec4, Mat4};
 use shadows::reference::{Hit, Interior, Verdict};
 use shadows::{
@@ -33,10 +37,13 @@ struct Try {
     kernel: Kernel,
     reach: f32,
     sampled: bool,
+    /// One warped map instead.
+    warp: bool,
 }
 
 impl Try {
-    /// `size:1024,count:4,lambda:0.85,fit:tight,distance:900,margin:0.03,blend:0.1,kernel:hard,reach:1,depths:1`
+    /// `size:1024,count:4,lambda:0.85,fit:tight,distance:900,margin:0.03,blend:0.1,kernel:hard,reach:1,depths:1`,
+    /// or `warp:1,size:2048`, and `depths:1` with that
     fn parse(text: &str, distance: f32) -> Result<Self> {
         let mut made = Self {
             name: text.into(),
@@ -49,6 +56,7 @@ impl Try {
             kernel: Kernel::Bilinear,
             reach: 12.0,
             sampled: false,
+            warp: false,
         };
         for setting in text.split(',').filter(|setting| !setting.is_empty()) {
             let (key, value) = setting.split_once(':').context("KEY:VALUE")?;
@@ -68,6 +76,7 @@ impl Try {
                 "margin" => made.cascades.margin = number()?,
                 "blend" => made.cascades.blend = number()?,
                 "reach" => made.reach = number()?,
+                "warp" => made.warp = number()? > 0.0,
                 "depths" => made.sampled = number()? > 0.0,
                 "ground" => made.cascades.split = CascadeSplit::Ground { nearest: number()? },
                 "whole" => made.whole = number()? > 0.0,
@@ -91,7 +100,50 @@ struct Seen {
     tiles: Vec<(Mat4, u32)>,
 }
 
+/// By the paper's matrix, and the rest as wgpu's own example has it.
+fn warped(gpu: &Gpu, stage: &Stage, of: &Try) -> Seen {
+    let mut map = PeerMap::new(gpu, &WARPED, of.size);
+    let access = ShadowAccess {
+        module: Some(&map.module()),
+        layout: Some(map.bind_group_layout()),
+        ..Default::default()
+    };
+    let lit = stage.renderer.lit_pipeline(gpu, &access);
+    let inputs = &stage.inputs;
+    let depths = inputs.depths.filter(|_| of.sampled);
+    let seen = warped::Seen {
+        clip_from_world: inputs.view.clip_from_world(),
+        nearest: depths.map(|depths| depths.nearest),
+        far: depths.map_or(inputs.seen, |depths| depths.farthest),
+    };
+    map.prepare(
+        gpu,
+        &PeerInputs {
+            light: inputs.light.xyzw(),
+            cone: None,
+            range: inputs.range,
+            bounds: inputs.receivers,
+            seen: Some(seen),
+        },
+    );
+    gpu.run(|encoder| {
+        stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
+        map.encode(&stage.scene_gpu, encoder);
+        let group = Some(map.bind_group());
+        stage
+            .renderer
+            .draw_lit_by(encoder, &stage.scene_gpu, 0, &lit, group);
+    });
+    Seen {
+        visibility: stage.renderer.read_visibility(gpu),
+        tiles: vec![(map.clip_from_world(), of.size)],
+    }
+}
+
 fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
+    if of.warp {
+        return Ok(warped(gpu, stage, of));
+    }
     let mut atlas = ShadowAtlas::new(
         &gpu.device,
         &ShadowAtlasDescriptor {
@@ -151,6 +203,20 @@ fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
             .map(|tile| (tile.clip_from_world, tile.size))
             .collect(),
     })
+}
+
+/// Sides of a texel at a point, across the light: of its longer one.
+fn texel(matrix: &Mat4, size: u32, position: DVec3) -> f64 {
+    let rows = matrix.as_dmat4().transpose();
+    let clip = matrix.as_dmat4() * position.extend(1.0);
+    // Of a warped map it is another at each point, and in each direction.
+    let slope = |row: DVec4, at: f64| (row - at / clip.w * rows.w_axis).truncate() / clip.w;
+    let slopes = [slope(rows.x_axis, clip.x), slope(rows.y_axis, clip.y)];
+    let shortest = slopes
+        .map(DVec3::length)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    2.0 / shortest / f64::from(size)
 }
 
 /// The cascade that a point reads.
@@ -313,6 +379,8 @@ fn main() -> Result<()> {
     let mut tries = Vec::new();
     let mut out = std::path::PathBuf::from("target/cascade-errors");
     let mut inside = false;
+    let mut turn = 0.0_f32;
+    let mut down_sun = 0.0_f32;
     let mut args = std::env::args().skip(1);
     while let Some(arg) = args.next() {
         let mut value = || args.next().context("a value");
@@ -325,12 +393,23 @@ fn main() -> Result<()> {
             }
             "--out" => out = value()?.into(),
             "--interior" => inside = true,
+            // Of the camera where it stands, degrees to the left.
+            "--turn" => turn = value()?.parse()?,
+            // What it looks at is seen from so many metres toward the sun.
+            "--down-sun" => down_sun = value()?.parse()?,
             _ => tries.push(arg),
         }
     }
     ensure!(!tries.is_empty(), "no try");
     let gpu = Gpu::new(None)?;
-    let stage = Stage::new(&gpu, host::scene::load(&scene, false, None)?, size)?;
+    let mut scene = host::scene::load(&scene, false, None)?;
+    let camera = &mut scene.camera;
+    let turned = Quat::from_rotation_y(turn.to_radians()) * (camera.target - camera.eye);
+    camera.target = camera.eye + turned;
+    if down_sun > 0.0 {
+        camera.eye = camera.target + down_sun * scene.lights[0].place.truncate().normalize();
+    }
+    let stage = Stage::new(&gpu, scene, size)?;
     let start = std::time::Instant::now();
     let truth = stage.reference(|_| ())?;
     say(&format!("reference {:.1} s", start.elapsed().as_secs_f64()))?;
@@ -391,7 +470,7 @@ fn main() -> Result<()> {
             };
             let at = cascade(&seen, reads, hit.position);
             let (matrix, tile) = seen.tiles[at];
-            let texel = 2.0 / f64::from(matrix.row(0).truncate().length()) / f64::from(tile);
+            let texel = texel(&matrix, tile, hit.position);
             let depth = axis.dot(hit.position - camera.eye.as_dvec3());
             let ratio = texel / (depth * per_pixel);
             let interior = own.get(at).is_some_and(|own| {

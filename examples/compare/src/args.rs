@@ -31,7 +31,8 @@ pub const USUAL: &str = "usual";
 #[derive(Clone, Debug, PartialEq, Parser)]
 #[command(name = "compare", disable_help_subcommand = true)]
 pub struct Args {
-    /// spheres, courtyard, teapot, city, valley, valley-leaves, or an .obj, .gltf or .glb file; may be given several times.
+    /// spheres, courtyard, teapot, city, valley, valley-leaves, floor, or an .obj, .gltf or .glb file; may be given
+    /// several times.
     #[arg(long = "scene", value_name = "NAME|FILE", value_parser = scene_name, default_value = "spheres")]
     pub scenes: Vec<String>,
 

@@ -6,6 +6,7 @@ use shadows::wgpu;
 
 use crate::shadow::{Cost, Shadow};
 use crate::stage::{Picture, Stage};
+use crate::survey::Bake;
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 
@@ -151,6 +152,18 @@ impl Lamps {
             }
             Means::Atlas(shadow) => shadow.cost(),
         }
+    }
+
+    /// What was baked before the first frame: of all lights the time, of the first the rest.
+    pub fn bake(&self) -> Option<Bake> {
+        let Means::Each(shadows) = &self.means else {
+            return None;
+        };
+        let all = shadows.iter().filter_map(Shadow::bake);
+        all.reduce(|sum, own| Bake {
+            seconds: sum.seconds + own.seconds,
+            ..sum
+        })
     }
 
     /// Where resolution is no excuse for the errors of one of its lights.

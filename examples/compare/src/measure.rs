@@ -9,6 +9,7 @@ use crate::lamps::{Lamps, Shown, Truth};
 use crate::shadow::{Cost, Shadow};
 use crate::soft::Soft;
 use crate::stage::{Picture, Stage};
+use crate::survey::Bake;
 use crate::technique::Technique;
 use host::gpu::Gpu;
 use host::timer::{Clock, Timer};
@@ -77,6 +78,8 @@ pub struct Measured {
     pub picture: Picture,
     /// Of kernels that make soft edges, once they are judged by them.
     pub soft: Option<Soft>,
+    /// What was done once, and is in no frame's time.
+    pub bake: Option<Bake>,
 }
 
 impl Measured {
@@ -234,6 +237,7 @@ impl Contestant {
             lights: self.lamps.lights().len(),
             picture: truth.picture(&self.lamps, self.shown),
             soft: None,
+            bake: self.lamps.bake(),
             prepare: self.prepare,
             generate: self.generate,
             shade: self.shade,

@@ -12,6 +12,7 @@ use crate::lamps::Truth;
 use crate::measure::{self, Measured};
 use crate::soft::{self, Soft};
 use crate::stage::Stage;
+use crate::survey::Bake;
 use host::gpu::{Gpu, describe};
 
 /// report.json. Numbers that were `f32` are written so that they read back as the same `f32`.
@@ -120,6 +121,8 @@ pub struct Technique {
     pub rmse: f64,
     /// Null for kernels that make no soft edges.
     pub soft: Option<Soft>,
+    /// Null for what is found anew in each frame.
+    pub bake: Option<Bake>,
     pub bytes: u64,
     pub draws: u64,
     pub triangles_drawn: u64,
@@ -305,7 +308,7 @@ impl Report {
                     _ => format!("{} {value}", name.replace('_', " ")),
                 })
                 .collect();
-            writeln!(out, "- `{}`: {}", t.name, list.join(", "))?;
+            writeln!(out, "- `{}`: {}{}", t.name, list.join(", "), baked(t.bake))?;
         }
         writeln!(out)
     }
@@ -355,6 +358,7 @@ impl Technique {
             false_shadow_interior: error.false_shadow_interior,
             rmse: error.rmse,
             soft: measured.soft,
+            bake: measured.bake,
             bytes: measured.cost.bytes,
             draws: measured.cost.draws,
             triangles_drawn: measured.cost.triangles,
@@ -446,6 +450,19 @@ impl Light {
             ),
         }
     }
+}
+
+/// What was done before the frames that were timed.
+fn baked(bake: Option<Bake>) -> String {
+    let Some(bake) = bake else {
+        return String::new();
+    };
+    let centimetres = 100.0 * bake.texel;
+    format!(
+        "; unwrapped and baked once, in {:.1} s, which is in no frame's time; a texel is {centimetres:.2} cm of a surface at \
+         most, and {:.0} % of them are filled",
+        bake.seconds, bake.filled_percent
+    )
 }
 
 /// How many lights of which kind.

@@ -1,5 +1,7 @@
 //! The shadow techniques behind one interface: prepare, generate, shade.
 
+use std::sync::Arc;
+
 use anyhow::Result;
 use host::one_light::{OneLight, PrepareOne as _};
 use serde_json::{Value, json};
@@ -14,7 +16,7 @@ use shadows::{
 };
 
 use crate::atlas::Atlas;
-use crate::survey::SurveyShadow;
+use crate::survey::{Bake, SurveyShadow};
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::interior::{self, radius_in_texels};
@@ -22,8 +24,9 @@ use host::peer_light::PeerInputs;
 use host::peer_map::PeerMap;
 use host::pipelines::visibility_module;
 use host::renderer::{LitPipeline, Renderer, ShadowAccess};
-use host::scene::Cone;
+use host::scene::{Cone, Scene};
 use host::scene_gpu::SceneGpu;
+use host::warped::Seen;
 
 /// What a technique is told each frame.
 #[derive(Clone)]
@@ -46,6 +49,8 @@ pub struct ShadowInputs {
     pub depths: Option<DepthBounds>,
     /// The corners of a horizontal rectangle that receives and does not cast, if there is one.
     pub ground: Option<[Vec3; 4]>,
+    /// What there is, for what is made of it once.
+    pub scene: Arc<Scene>,
 }
 
 impl ShadowInputs {
@@ -271,6 +276,11 @@ impl Shadow {
                     cone: inputs.cone,
                     range: inputs.range,
                     bounds: inputs.receivers,
+                    seen: Some(Seen {
+                        clip_from_world: inputs.view.clip_from_world(),
+                        nearest: None,
+                        far: inputs.seen,
+                    }),
                 },
             ),
         }
@@ -391,6 +401,14 @@ impl Shadow {
             bytes,
             draws,
             triangles,
+        }
+    }
+
+    /// What was baked before the first frame, if anything was.
+    pub fn bake(&self) -> Option<Bake> {
+        match &self.means {
+            Means::Survey(survey) => survey.bake(),
+            _ => None,
         }
     }
 

@@ -29,6 +29,7 @@ pub fn of(config: &Config) -> String {
                     .finish()
             }
             Survey::Projected(projected) => projected.snippet(),
+            Survey::Baked(baked) => baked.snippet(),
             Survey::Blob(blobs) => blobs.snippet(),
         },
         Config::Peer { peer, size } => format!(

@@ -1,5 +1,7 @@
 //! A scene set up to be seen: on the GPU, with a renderer, and as exact geometry for the reference.
 
+use std::sync::Arc;
+
 use anyhow::Result;
 use shadows::glam::{Mat4, Vec3, Vec4};
 use shadows::mesh::Bounds;
@@ -61,6 +63,7 @@ impl Stage {
             seen: seen(&scene),
             depths: depths(gpu, &renderer, &scene_gpu, &scene, &view),
             ground: survey::planar::ground(&scene),
+            scene: Arc::new(scene.clone()),
         };
         Ok(Self {
             scene,

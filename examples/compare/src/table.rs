@@ -6,9 +6,9 @@ use shadows::{
 };
 
 use crate::survey::projected::Projected;
-use crate::survey::{Blobs, Survey};
+use crate::survey::{Baked, Blobs, Survey};
 use crate::technique::{Config, Technique};
-use host::peers::peer;
+use host::peers::{WARPED, peer};
 
 /// A technique but for the size of its maps.
 #[derive(Debug)]
@@ -120,6 +120,10 @@ pub static ROWS: &[Row] = &[
     row("projected-all", |side| {
         Config::Survey(Survey::Projected(Projected::new(side, true)))
     }),
+    row("baked", |side| baked(side, 4, 0.0)),
+    row("baked-soft", |side| {
+        baked(side, 16, ContactHardening::default().light_size)
+    }),
     row("peer-bevy-2x2", |side| of_peer("cube/bevy-2x2", side)),
     row("peer-bevy-gaussian", |side| {
         of_peer("cube/bevy-gaussian", side)
@@ -131,6 +135,10 @@ pub static ROWS: &[Row] = &[
     }),
     row("peer-bevy-spot-gaussian", |side| {
         of_peer("flat/bevy-spot-gaussian", side)
+    }),
+    row("peer-lispsm", |size| Config::Peer {
+        peer: &WARPED,
+        size,
     }),
     row("peer-bevy-sun-2x2", |side| of_peer("flat/bevy-2x2", side)),
     row("peer-bevy-sun-gaussian", |side| {
@@ -224,6 +232,11 @@ pub fn volume() -> ShadowVolumeDescriptor<'static> {
         keep_between_frames: false,
         ..Default::default()
     }
+}
+
+/// A light map of all that there is, by so many rays a texel; the light's radius in world units, or 0.
+fn baked(texels: u32, samples: u32, radius: f32) -> Config {
+    Config::Survey(Survey::Baked(Baked::new(texels, samples, radius)))
 }
 
 fn volume_by(silhouettes: Silhouettes) -> Config {

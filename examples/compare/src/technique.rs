@@ -123,6 +123,11 @@ impl Config {
         kept
     }
 
+    /// Whether another light, or another place of it, takes longer than a frame.
+    pub fn is_of_one_light(&self) -> bool {
+        matches!(self, Self::Survey(Survey::Baked(_)))
+    }
+
     /// The kernel by which the map is read, if there is a map.
     pub fn kernel(&self) -> Option<Kernel> {
         match self {

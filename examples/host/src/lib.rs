@@ -24,3 +24,5 @@ mod targets;
 pub mod terminal;
 pub mod timer;
 mod uniforms;
+pub mod unwrap;
+pub mod warped;

@@ -10,6 +10,7 @@ use shadows::wgpu;
 
 use super::peers::{Engine, Peer, PeerLight};
 use super::scene::Cone;
+use super::warped::{Seen, warped};
 
 /// The axis and the upper side of a cube's faces.
 const FACES: [(Vec3, Vec3); 6] = [
@@ -61,7 +62,7 @@ impl Convention {
                 near: 0.5,
                 ..usual
             },
-            Engine::WgpuExample => Self {
+            Engine::WgpuExample | Engine::Warped => Self {
                 near: 1.0,
                 bias: wgpu::DepthBiasState {
                     constant: 2,
@@ -99,6 +100,8 @@ pub struct PeerInputs {
     pub range: f32,
     /// All that casts or receives.
     pub bounds: Bounds,
+    /// By what a warped map is fitted; without it that is a square around everything.
+    pub seen: Option<Seen>,
 }
 
 /// An orthographic map of everything.
@@ -117,6 +120,11 @@ impl Convention {
         }
         vec![match inputs.cone {
             Some(cone) => self.spot(place, cone, inputs.range),
+            None if peer.engine == Engine::Warped => {
+                let seen = inputs.seen.as_ref();
+                let warped = seen.and_then(|seen| warped(place, seen, &inputs.bounds));
+                warped.unwrap_or_else(|| self.sun(inputs).clip_from_world)
+            }
             None => self.sun(inputs).clip_from_world,
         }]
     }
@@ -157,8 +165,10 @@ impl Convention {
         match (peer.light, inputs.cone) {
             (PeerLight::Point, _) => self.cube_light(peer, place, inputs.range, size),
             (PeerLight::Spot, Some(cone)) => self.spot_light(place, cone, size),
-            (_, Some(_)) => flat_light(self.faces(peer, inputs)[0], place, 0.0, size),
-            (_, None) => {
+            (_, cone) if cone.is_some() || peer.engine == Engine::Warped => {
+                flat_light(self.faces(peer, inputs)[0], place, 0.0, size)
+            }
+            _ => {
                 let Sun {
                     clip_from_world,
                     width,

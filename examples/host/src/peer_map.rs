@@ -110,6 +110,11 @@ fn host_visibility(at: HostReceiver) -> f32 {
         self.statistics
     }
 
+    /// Of a flat map, as it was last prepared.
+    pub fn clip_from_world(&self) -> Mat4 {
+        self.clip_from_world
+    }
+
     /// Where resolution is no excuse for an error.
     pub fn interior(&self) -> Interior {
         let kernel_radius = self.peer.reach_in_texels(self.size);

@@ -10,6 +10,8 @@ pub enum Engine {
     Bevy,
     Three,
     WgpuExample,
+    /// No engine's: the technique of a paper, with the rest of the wgpu example's.
+    Warped,
 }
 
 /// The lights that it is for.
@@ -128,6 +130,16 @@ pub static PEERS: [Peer; 8] = [
         wgsl: &[FLAT_BEVY_SPOT, FILTER_CASTANO, AXES],
     },
 ];
+
+/// Light space perspective shadow maps (Wimmer, Scherzer and Purgathofer 2004; `warped`): what cascades are measured
+/// against. Not one of [`PEERS`], as it costs what `flat/wgpu-example` costs.
+pub static WARPED: Peer = Peer {
+    name: "flat/lispsm",
+    engine: Engine::Warped,
+    light: PeerLight::Directional,
+    reach: BILINEAR,
+    wgsl: &[include_str!("peers/flat_wgpu.wgsl")],
+};
 
 /// The one of that name.
 ///

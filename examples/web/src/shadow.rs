@@ -222,6 +222,7 @@ impl Shadow {
                     cone: inputs.light.cone,
                     range: inputs.light.range,
                     bounds: inputs.receivers,
+                    seen: None,
                 },
             ),
             Means::None => {}

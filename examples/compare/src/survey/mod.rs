@@ -1,5 +1,6 @@
 //! The techniques of scenes that need no more than they show. Each is a variant here and a file beside.
 
+pub mod baked;
 mod blob;
 pub mod planar;
 pub mod planar_soft;
@@ -16,6 +17,7 @@ use host::renderer::{LitPipeline, Renderer};
 use host::scene::LightKind;
 use host::scene_gpu::SceneGpu;
 
+pub use baked::Baked;
 pub use blob::Blobs;
 
 /// Which one, and how it is made.
@@ -29,6 +31,19 @@ pub enum Survey {
     Projected(projected::Projected),
     /// An ellipsoid for each caster.
     Blob(Blobs),
+    /// Found once by rays, and kept in a light map.
+    Baked(Baked),
+}
+
+/// What was done once, before the first frame.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Bake {
+    /// Wall-clock seconds of unwrapping and of baking.
+    pub seconds: f64,
+    /// The longest side of a texel on a surface, world units.
+    pub texel: f64,
+    /// Texels of the map that hold something, in per cent.
+    pub filled_percent: f64,
 }
 
 /// One at work.
@@ -50,6 +65,11 @@ pub trait SurveyShadow {
 
     /// Where resolution is no excuse for its errors.
     fn interior(&self) -> Interior;
+
+    /// What was baked before the first frame, if anything was.
+    fn bake(&self) -> Option<Bake> {
+        None
+    }
 }
 
 impl Survey {
@@ -59,12 +79,17 @@ impl Survey {
             Self::Planar | Self::PlanarSoft { .. } => "planar",
             Self::Projected(_) => "projected",
             Self::Blob(_) => "blob",
+            Self::Baked(_) => "baked",
         }
     }
 
     /// Whether its edges are as soft as those of a light with a size.
     pub fn is_soft(&self) -> bool {
-        matches!(self, Self::PlanarSoft { .. } | Self::Blob(_))
+        match self {
+            Self::PlanarSoft { .. } | Self::Blob(_) => true,
+            Self::Baked(baked) => baked.radius > 0.0,
+            Self::Planar | Self::Projected(_) => false,
+        }
     }
 
     /// Whether it can shadow this kind of light.
@@ -72,7 +97,7 @@ impl Survey {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => true,
             Self::Projected(_) => true,
-            Self::Blob(_) => true,
+            Self::Blob(_) | Self::Baked(_) => true,
         }
     }
 
@@ -81,7 +106,7 @@ impl Survey {
         match self {
             Self::Planar | Self::PlanarSoft { .. } => "",
             Self::Projected(_) => "",
-            Self::Blob(_) => "",
+            Self::Blob(_) | Self::Baked(_) => "",
         }
     }
 
@@ -92,6 +117,7 @@ impl Survey {
             Self::PlanarSoft { size, samples } => planar_soft::settings(*size, *samples),
             Self::Projected(projected) => projected.settings(),
             Self::Blob(blobs) => blobs.settings(),
+            Self::Baked(baked) => baked.settings(),
         }
     }
 
@@ -111,6 +137,7 @@ impl Survey {
             }
             Self::Projected(projected) => projected.make(gpu, renderer),
             Self::Blob(blobs) => blobs.make(gpu, renderer),
+            Self::Baked(baked) => baked.make(gpu, renderer),
         }
     }
 }

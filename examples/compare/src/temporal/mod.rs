@@ -32,6 +32,19 @@ pub struct Plan<'a> {
     pub steps: u32,
 }
 
+/// Why a light map is not watched.
+const ONE_LIGHT: &str = "a light map is of a light that stands, and here it moves";
+
+impl Plan<'_> {
+    /// What can be watched.
+    fn asked(&self) -> Vec<Technique> {
+        let rows = self.techniques.0.iter();
+        let all = rows.map(|row| row.at(self.side));
+        all.filter(|technique| !technique.config.is_of_one_light())
+            .collect()
+    }
+}
+
 /// A technique on all paths, under one light.
 #[derive(Clone, Debug, Serialize)]
 pub struct Watched {
@@ -113,15 +126,23 @@ fn kinds(own: LightKind, plan: &Plan<'_>) -> Result<Vec<LightKind>> {
     if own == LightKind::Point {
         kinds.push(LightKind::Directional);
     }
-    let techniques = plan.techniques.0.iter().map(|row| row.at(plan.side));
-    let (some, none): (Vec<_>, Vec<_>) = techniques.partition(|technique| {
+    let techniques = plan.asked();
+    let (some, none): (Vec<_>, Vec<_>) = techniques.into_iter().partition(|technique| {
         let mut kinds = kinds.iter();
         kinds.any(|&kind| technique.config.applies_to(kind))
     });
+    if some.is_empty() && none.is_empty() {
+        bail!("no technique is left: {ONE_LIGHT}");
+    }
     if some.is_empty() {
         bail!("no technique is left: {}", none[0].config.limit());
     }
     if !plan.techniques.are_usual() {
+        for row in &plan.techniques.0 {
+            if row.at(plan.side).config.is_of_one_light() {
+                note(&format!("{} is left out: {ONE_LIGHT}", row.name));
+            }
+        }
         for other in none {
             note(&format!(
                 "{} is left out: {}",
@@ -140,7 +161,7 @@ fn kinds(own: LightKind, plan: &Plan<'_>) -> Result<Vec<LightKind>> {
 /// Every technique that can shadow the scene's light.
 fn watch_all(gpu: &Gpu, scene: Scene, plan: &Plan<'_>) -> Result<Vec<Watched>> {
     let kind = scene.light().kind();
-    let techniques = plan.techniques.0.iter().map(|row| row.at(plan.side));
+    let techniques = plan.asked().into_iter();
     let techniques: Vec<Technique> = techniques
         .filter(|technique| technique.config.applies_to(kind))
         .collect();

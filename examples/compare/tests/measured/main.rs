@@ -3,6 +3,7 @@
 
 mod against_reference;
 mod arithmetic;
+mod baked;
 mod cascades;
 #[path = "../../../../tests/common/mod.rs"]
 mod common;

@@ -5,7 +5,7 @@ use compare::shadow::{Shadow, ShadowInputs};
 use compare::stage::Stage;
 use compare::technique::{Config, Technique};
 use host::gpu::Gpu;
-use host::peers::PEERS;
+use host::peers::{PEERS, WARPED};
 use host::scene::{LightKind, moved_light, spheres};
 use shadows::glam::Vec3;
 use shadows::reference::ReferenceImage;
@@ -38,7 +38,7 @@ fn on_spheres_each_is_right_away_from_edges_and_not_where_its_light_is_elsewhere
         let reference = stage.reference(|_| ()).unwrap();
         let mut elsewhere = stage.inputs.clone();
         elsewhere.light = moved_light(elsewhere.light, Vec3::new(0.5, 0.0, 0.4));
-        for peer in &PEERS {
+        for peer in PEERS.iter().chain([&WARPED]) {
             let technique = Technique {
                 name: peer.name.into(),
                 config: Config::Peer { peer, size: 1024 },
@@ -56,12 +56,12 @@ fn on_spheres_each_is_right_away_from_edges_and_not_where_its_light_is_elsewhere
         }
     }
     // The matrix of wgpu's example does for two kinds.
-    assert_eq!(seen, PEERS.len() + 1);
+    assert_eq!(seen, PEERS.len() + 1 + 1);
 }
 
 #[test]
 fn every_peer_is_a_technique() {
-    for peer in &PEERS {
+    for peer in PEERS.iter().chain([&WARPED]) {
         let is_it =
             |config: &Config| matches!(config, Config::Peer { peer: p, .. } if p.name == peer.name);
         let rows = compare::table::ROWS.iter();

@@ -326,7 +326,7 @@ fn techniques_may_be_named_by_how_they_begin() {
     assert!(cubes >= 12 && cubes < ROWS.len());
     assert_eq!(names("--technique cube-*,cube-hard"), cubes);
     assert_eq!(
-        names("--technique cube-*,flat-*,atlas-*,volume*,planar*,projected*,blob*,peer-*"),
+        names("--technique cube-*,flat-*,atlas-*,volume*,planar*,projected*,blob*,baked*,peer-*"),
         ROWS.len()
     );
     let usual = names("--technique usual");

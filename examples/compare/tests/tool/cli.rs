@@ -120,6 +120,48 @@ fn broken_models_are_refused_in_one_line() {
 }
 
 #[test]
+fn a_light_map_is_not_watched_while_its_light_moves() {
+    let args = ["--temporal", "--technique", "baked", "--steps", "1"];
+    assert_refused(&args, "a light that stands");
+}
+
+/// The time of a bake stands beside those of frames, in none of them.
+#[test]
+fn a_bake_is_told_of() {
+    if host::gpu::Gpu::for_test().is_none() {
+        return;
+    }
+    let scratch = Scratch::new("baked");
+    let out = scratch.path("out");
+    let of = ["--scene", "floor", "--technique", "baked,planar"];
+    let small = ["--size", "64x36", "--frames", "1", "--face", "128"];
+    let output = compare(&[&of[..], &small, &["--out", &out]].concat());
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let report = fs::read_to_string(scratch.0.join("out/report.json")).unwrap();
+    let report: Value = serde_json::from_str(&report).unwrap();
+    let baked = &report["techniques"][0]["bake"];
+    let figure = |name: &str| baked[name].as_f64().unwrap();
+    let texel = figure("texel");
+    assert!(
+        figure("seconds") > 0.0 && figure("filled_percent") > 50.0,
+        "{baked}"
+    );
+    assert!((0.1..0.3).contains(&texel), "{baked}");
+    assert!(report["techniques"][1]["bake"].is_null());
+    let page = fs::read_to_string(scratch.0.join("out/report.md")).unwrap();
+    let line = page
+        .lines()
+        .find(|line| line.starts_with("- `baked`"))
+        .unwrap();
+    assert!(line.contains("baked once, in"), "{line}");
+    assert!(
+        line.contains(&format!("a texel is {:.2} cm", 100.0 * texel)),
+        "{line}"
+    );
+}
+
+#[test]
 fn maps_alone_are_refused_for_lights_of_the_other_kind() {
     let args = ["--light", "1,2,3,0", "--technique", "cube-hard,cube-16"];
     assert_refused(&args, "directional");

@@ -2,3 +2,5 @@
 
 mod scene_files;
 mod scenes;
+mod unwrap;
+mod warped;
