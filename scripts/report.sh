@@ -2,7 +2,7 @@
 # Every picture and every measured figure of README.md and docs/, anew on this machine.
 #
 #   scripts/report.sh             all of them (an hour on two cores)
-#   scripts/report.sh PART...     some: scenes kernels volume-debug volume-start picture models egui
+#   scripts/report.sh PART...     some: scenes kernels cheap volume-debug volume-start picture models egui
 #                                 speed-vs-error cost-vs-error growth hard-cases temporal benches
 #   scripts/report.sh --check     whether those that take seconds are what it makes, times aside
 #   SMALL=1 scripts/report.sh ..  tries the script itself: the least sizes, docs/ left alone
@@ -48,6 +48,11 @@ kernels() {
     example kernel_sheet --kernels $docs/kernels.png
     example kernel_sheet --peers $docs/peers.png
     example kernel_sheet --difference $docs/difference.png
+}
+
+# The cheap and the baked techniques side by side.
+cheap() {
+    example cheap_sheet $docs/cheap.png
 }
 
 volume_debug() {
@@ -151,11 +156,12 @@ check() {
     copies check
     scenes
     kernels
+    cheap
     volume_debug
     volume_start
     cost_vs_error
     failed=
-    for picture in courtyard difference kernels peers volume-debug volume-start; do
+    for picture in cheap courtyard difference kernels peers volume-debug volume-start; do
         example same_picture docs/$picture.png $docs/$picture.png || failed="$failed docs/$picture.png"
     done
     same_figures scenes README.md "$readme" || failed="$failed README.md:scenes"
@@ -195,11 +201,11 @@ if [ -n "${SMALL:-}" ]; then
     swept='--technique volume,cube-2x2,cube-hard'
     BENCH_RUNS=1
 fi
-[ $# -gt 0 ] || set -- scenes kernels volume-debug volume-start picture models egui speed-vs-error \
+[ $# -gt 0 ] || set -- scenes kernels cheap volume-debug volume-start picture models egui speed-vs-error \
     cost-vs-error growth hard-cases temporal benches
 for part in "$@"; do
     case $part in
-    scenes | kernels | picture | models | egui | growth | temporal | benches) $part ;;
+    scenes | kernels | cheap | picture | models | egui | growth | temporal | benches) $part ;;
     volume-debug) volume_debug ;;
     volume-start) volume_start ;;
     speed-vs-error) speed_vs_error ;;
