@@ -2,7 +2,7 @@
 # Every picture and every measured figure of README.md and docs/, anew on this machine.
 #
 #   scripts/report.sh             all of them (an hour on two cores)
-#   scripts/report.sh PART...     some: scenes kernels gallery volume-debug volume-start picture models
+#   scripts/report.sh PART...     some: scenes kernels cheap gallery volume-debug volume-start picture models
 #                                 egui web speed-vs-error cost-vs-error growth hard-cases temporal benches
 #   scripts/report.sh --check     whether those that take seconds are what it makes, times aside
 #   SMALL=1 scripts/report.sh ..  tries the script itself: the least sizes, docs/ left alone
@@ -58,6 +58,11 @@ gallery() {
     example gallery --night $docs/courtyard-night.png
     example gallery --sun $docs/sun.png
     example gallery --pan $docs/pan.png
+}
+
+# The cheap and the baked techniques side by side.
+cheap() {
+    example cheap_sheet $docs/cheap.png
 }
 
 volume_debug() {
@@ -175,12 +180,13 @@ check() {
     copies check
     scenes
     kernels
+    cheap
     example gallery --day $docs/courtyard-day.png # the others take minutes
     volume_debug
     volume_start
     cost_vs_error
     failed=
-    for picture in courtyard courtyard-day difference kernels peers volume-debug volume-start; do
+    for picture in cheap courtyard courtyard-day difference kernels peers volume-debug volume-start; do
         example same_picture docs/$picture.png $docs/$picture.png || failed="$failed docs/$picture.png"
     done
     same_figures scenes README.md "$readme" || failed="$failed README.md:scenes"
@@ -220,11 +226,11 @@ if [ -n "${SMALL:-}" ]; then
     swept='--technique volume,cube-2x2,cube-hard'
     BENCH_RUNS=1
 fi
-[ $# -gt 0 ] || set -- scenes kernels gallery volume-debug volume-start picture models egui web speed-vs-error \
+[ $# -gt 0 ] || set -- scenes kernels cheap gallery volume-debug volume-start picture models egui web speed-vs-error \
     cost-vs-error growth hard-cases temporal benches
 for part in "$@"; do
     case $part in
-    scenes | kernels | gallery | picture | models | egui | web | growth | temporal | benches) $part ;;
+    scenes | kernels | cheap | gallery | picture | models | egui | web | growth | temporal | benches) $part ;;
     volume-debug) volume_debug ;;
     volume-start) volume_start ;;
     speed-vs-error) speed_vs_error ;;

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use shadows::reference::{Candidate, Survey};
 
 use crate::measure::Measured;
-use crate::technique::Technique;
+use crate::technique::{Config, Technique};
 
 const SIZE: (u32, u32) = (880, 560);
 pub const FONT: &str = "sans-serif";
@@ -17,6 +17,8 @@ const GAP: i32 = 13;
 const LINE_HEIGHT: i32 = 20;
 /// About that of the labels' font, to keep labels apart.
 const CHARACTER_WIDTH: i32 = 8;
+/// The kind of those that have names of their own.
+const CHEAP: &str = "cheap";
 const DIAMOND: [(i32, i32); 4] = [(0, -10), (10, 0), (0, 10), (-10, 0)];
 
 /// Colours that people with any common colour blindness tell apart (Okabe and Ito, "Color Universal
@@ -76,12 +78,16 @@ pub fn fronts(title: &str, survey: &Survey<Technique>) -> Result<String> {
         ("cube", "cubes \u{25cf}"),
         ("flat", "flat maps \u{25b2}"),
         ("volume", "volumes \u{25a0}"),
+        (CHEAP, "cheap and baked \u{25c6}"),
     ];
     for (style, (kind, shape)) in kinds.into_iter().enumerate() {
         let of_kind = survey.candidates().iter();
         let measured = |c: &&Candidate<Technique>| c.time.is_finite() && c.error.is_finite();
         let of_kind = of_kind.filter(measured);
-        let of_kind = of_kind.filter(|c| c.configuration.name.starts_with(kind));
+        let of_kind = of_kind.filter(|c| match c.configuration.config {
+            Config::Survey(_) => kind == CHEAP,
+            _ => c.configuration.name.starts_with(kind),
+        });
         let of_kind: Vec<Candidate<&Technique>> = of_kind
             .map(|candidate| Candidate {
                 configuration: &candidate.configuration,

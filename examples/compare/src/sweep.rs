@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use anyhow::{Context as _, Result};
 use serde_json::json;
-use shadows::reference::{Candidate, ReferenceImage, Survey};
+use shadows::reference::{Candidate, ReferenceImage};
 use shadows::{
     Bias, Caps, CasterSides, DepthEncoding, Extrusion, Kernel, Method, ShadowVolumeDescriptor,
     Silhouettes, wgpu,
@@ -18,10 +18,14 @@ use crate::date::{date, now};
 use crate::measure::{self, median};
 use crate::snippet;
 use crate::stage::Stage;
-use crate::table::{self, ROWS};
+use crate::survey::Survey;
+use crate::table::{self, ROWS, Row};
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::terminal::note;
+
+/// What was measured of each.
+type Surveyed = shadows::reference::Survey<Technique>;
 
 /// Sides of maps in texels.
 const SIDES: [u32; 5] = [256, 512, 1024, 2048, 4096];
@@ -41,12 +45,16 @@ pub fn techniques(asked: &Techniques) -> Vec<Technique> {
             // How long our drawing of another engine's maps takes says nothing of that engine.
             Config::Peer { .. } if asked.are_usual() => {}
             // Its maps are those of the others.
-            Config::Atlas { .. } | Config::Survey(_) => {}
+            Config::Atlas { .. } => {}
+            // Cheap on what they are for, and wrong or slow elsewhere: whoever asks knows which it is.
+            Config::Survey(_) if asked.are_usual() => {}
+            Config::Survey(survey) if !survey.has_texels() => all.push(row.at(SIDE)),
+            // The same shadows, read by what should not.
+            Config::Survey(Survey::Projected(projected)) if projected.on_casters => {}
             _ if row.name == "cube-1024" => {} // one of the sizes
-            _ => all.extend(SIDES.map(|side| Technique {
-                name: format!("{} {side}", row.name).into(),
-                ..row.at(side)
-            })),
+            // A larger one is baked for minutes, and anew for each round.
+            Config::Survey(Survey::Baked(_)) => all.extend(sized(row, &SIDES[..3])),
+            _ => all.extend(sized(row, &SIDES)),
         }
     }
     all.extend(cubes().chain(flats()).chain(volumes()));
@@ -63,6 +71,13 @@ pub fn techniques(asked: &Techniques) -> Vec<Technique> {
         }
     });
     all
+}
+
+fn sized<'a>(row: &'a Row, sides: &'a [u32]) -> impl Iterator<Item = Technique> + 'a {
+    sides.iter().map(|side| Technique {
+        name: format!("{} {side}", row.name).into(),
+        ..row.at(*side)
+    })
 }
 
 fn cubes() -> impl Iterator<Item = Technique> {
@@ -187,7 +202,7 @@ pub struct Wishes {
 
 /// What a sweep found.
 pub struct Swept {
-    pub survey: Survey<Technique>,
+    pub survey: Surveyed,
     /// Half of a configuration's times lie within this part of their median, in the middle
     /// configuration. `None` if there are too few times to tell.
     pub spread: Option<f64>,
@@ -232,7 +247,7 @@ pub fn survey(
             f64::NAN
         }))
     };
-    let survey = Survey::measure(techniques, rounds, time, error)?;
+    let survey = Surveyed::measure(techniques, rounds, time, error)?;
     let spreads: Vec<f64> = samples.values().map(|times| spread(times)).collect();
     Ok(Swept {
         survey,
@@ -282,7 +297,7 @@ fn noise(spread: f64) -> String {
     )
 }
 
-fn write_report(out: &mut String, survey: &Survey<Technique>, wishes: &Wishes) -> std::fmt::Result {
+fn write_report(out: &mut String, survey: &Surveyed, wishes: &Wishes) -> std::fmt::Result {
     let advice = advice(survey, wishes);
     for advice in &advice {
         writeln!(out, "{advice}\n")?;
@@ -301,7 +316,8 @@ fn write_report(out: &mut String, survey: &Survey<Technique>, wishes: &Wishes) -
         out,
         "\nMilliseconds a frame for shadows alone, medians; wrong pixels in per cent of those that \
          face the light. Every frame is drawn as if everything moved, except where maps are cached or \
-         volumes kept: those are compared only if asked for by name (--technique)."
+         volumes kept: those are compared only if asked for by name (--technique), and so are the cheap and \
+         the baked ones, a bake being in no frame's time."
     )
 }
 
@@ -310,7 +326,7 @@ const KEPT: &str = "The times are of frames in which everything moves. With the 
                     stands still is kept from frame to frame, and costs less than that.";
 
 /// Those that were measured, the fastest first.
-fn by_time(survey: &Survey<Technique>) -> Vec<&Candidate<Technique>> {
+fn by_time(survey: &Surveyed) -> Vec<&Candidate<Technique>> {
     let measured = survey.candidates().iter();
     let mut all: Vec<_> = measured
         .filter(|candidate| candidate.time.is_finite())
@@ -334,7 +350,7 @@ fn write_table(out: &mut String, rows: &[&Candidate<Technique>]) -> std::fmt::Re
 }
 
 /// A paragraph with a snippet for each wish.
-pub fn advice(survey: &Survey<Technique>, wishes: &Wishes) -> Vec<String> {
+pub fn advice(survey: &Surveyed, wishes: &Wishes) -> Vec<String> {
     let tell = |wish: String, found: Option<&Candidate<Technique>>| match found {
         Some(Candidate {
             configuration,
@@ -360,7 +376,7 @@ pub fn advice(survey: &Survey<Technique>, wishes: &Wishes) -> Vec<String> {
 }
 
 /// The front and the advice for a terminal.
-pub fn summary(survey: &Survey<Technique>, scene: &str, wishes: &Wishes) -> String {
+pub fn summary(survey: &Surveyed, scene: &str, wishes: &Wishes) -> String {
     let mut out = format!(
         "{scene}: {} configurations; the front:",
         by_time(survey).len()
@@ -385,7 +401,7 @@ pub fn summary(survey: &Survey<Technique>, scene: &str, wishes: &Wishes) -> Stri
 }
 
 /// The same for programs, by time.
-pub fn json(survey: &Survey<Technique>) -> serde_json::Result<String> {
+pub fn json(survey: &Surveyed) -> serde_json::Result<String> {
     let front = survey.front();
     let all = by_time(survey);
     let rows: Vec<_> = all

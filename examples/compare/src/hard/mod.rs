@@ -2,6 +2,7 @@
 
 pub mod cases;
 pub mod causes;
+pub mod cheap;
 pub mod course;
 pub mod expect;
 pub mod input;
@@ -55,6 +56,8 @@ const NAMES: [&str; 16] = [
     "volume-exact-count",
     "volume-textbook",
 ];
+/// The cheap and baked ones, where a case names them.
+const CHEAP: [&str; 5] = ["planar", "planar-soft", "projected", "blob", "baked"];
 /// With a map of 16 bits; only where that is what is tried.
 const SIXTEEN_BITS: &str = "cube-2x2-16-bit";
 /// With finer maps, so many texels along a side; only where that is what is tried.
@@ -151,6 +154,9 @@ pub fn techniques() -> Result<Vec<Technique>> {
             name: fine.into(),
             ..at(name, side)?
         });
+    }
+    for name in CHEAP {
+        all.push(named(name)?);
     }
     Ok(all)
 }

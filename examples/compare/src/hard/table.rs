@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::causes;
 use super::outcome::Outcome;
 use super::seams::FACTOR;
+use super::{CHEAP, causes};
 
 /// Pictures side by side on the sheet.
 const COLUMNS: usize = 6;
@@ -82,7 +82,8 @@ impl Table {
              does here, and `Cpu` on a software adapter.\n",
             self.command, self.date, self.driver, self.rounds, self.way
         );
-        self.results(&mut text);
+        self.results(&mut text, false);
+        self.cheap(&mut text);
         self.limits(&mut text);
         self.seams(&mut text);
         self.inputs(&mut text);
@@ -90,14 +91,31 @@ impl Table {
         text
     }
 
-    fn results(&self, text: &mut String) {
-        let _ = writeln!(text, "| Case | {} |", self.techniques.join(" | "));
-        let _ = writeln!(text, "|---{}|", "|---".repeat(self.techniques.len()));
+    /// The cheap techniques, on the cases on which they are tried; or all others on all cases.
+    fn results(&self, text: &mut String, cheap: bool) {
+        let is_shown = |at: &usize| CHEAP.contains(&self.techniques[*at].as_str()) == cheap;
+        let shown: Vec<usize> = (0..self.techniques.len()).filter(is_shown).collect();
+        let names: Vec<&str> = shown.iter().map(|&at| &*self.techniques[at]).collect();
+        let _ = writeln!(text, "| Case | {} |", names.join(" | "));
+        let _ = writeln!(text, "|---{}|", "|---".repeat(shown.len()));
         for row in &self.rows {
-            let cells: Vec<String> = row.outcomes.iter().map(cell).collect();
+            if cheap && shown.iter().all(|&at| row.outcomes[at].is_none()) {
+                continue;
+            }
+            let cells: Vec<String> = shown.iter().map(|&at| cell(&row.outcomes[at])).collect();
             let _ = writeln!(text, "| {} | {} |", row.name, cells.join(" | "));
         }
         text.push('\n');
+    }
+
+    fn cheap(&self, text: &mut String) {
+        text.push_str(
+            "## Cheap and baked techniques\n\n\
+             The same, on the cases that show where each of these ends. `planar` and `planar-soft` want a plane that \
+             receives, `baked` one sample a pixel. `-`: not tried. Truth is that of a light without a size; of soft \
+             edges the darker half counts as shadow.\n\n",
+        );
+        self.results(text, true);
     }
 
     fn limits(&self, text: &mut String) {

@@ -188,11 +188,11 @@ impl Situation {
         }
     }
 
-    /// Where the light is and how far it reaches, for a technique that knows; the light pass of
-    /// volumes is the host's.
+    /// Where the light is and how far it reaches, for a technique that knows; of volumes and of the cheap ones
+    /// it is the host that does.
     pub fn reach(&self, technique: &Technique) -> Option<(DVec3, f32)> {
-        let knows =
-            !matches!(technique.config, Config::Volume(_)) && self.scene.light().place.w != 0.0;
+        let is_host_s = matches!(technique.config, Config::Volume(_) | Config::Survey(_));
+        let knows = !is_host_s && self.scene.light().place.w != 0.0;
         knows.then(|| {
             (
                 self.scene.light().place.truncate().as_dvec3(),
@@ -207,7 +207,11 @@ impl Situation {
 pub fn applies(gpu: &Gpu, technique: &Technique, situation: &Situation) -> bool {
     let clamps = wgpu::Features::DEPTH_CLIP_CONTROL;
     let config = &technique.config;
-    config.applies_to(situation.scene.light().kind())
+    let fits = match config {
+        Config::Survey(survey) => survey.fits(&situation.scene, situation.look),
+        _ => true,
+    };
+    fits && config.applies_to(situation.scene.light().kind())
         && (situation.look.depth == DepthConvention::InfiniteReverse
             || !matches!(config, Config::Volume(_))
             || gpu.device.features().contains(clamps))

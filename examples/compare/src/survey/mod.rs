@@ -13,8 +13,8 @@ use shadows::wgpu;
 
 use crate::shadow::{Cost, ShadowInputs};
 use host::gpu::Gpu;
-use host::renderer::{LitPipeline, Renderer};
-use host::scene::LightKind;
+use host::renderer::{LitPipeline, Look, Renderer};
+use host::scene::{LightKind, Scene};
 use host::scene_gpu::SceneGpu;
 
 pub use baked::Baked;
@@ -83,12 +83,30 @@ impl Survey {
         }
     }
 
+    /// Whether it is made for a number of texels.
+    pub fn has_texels(&self) -> bool {
+        match self {
+            Self::Planar | Self::Blob(_) => false,
+            Self::PlanarSoft { .. } | Self::Projected(_) | Self::Baked(_) => true,
+        }
+    }
+
     /// Whether its edges are as soft as those of a light with a size.
     pub fn is_soft(&self) -> bool {
         match self {
             Self::PlanarSoft { .. } | Self::Blob(_) => true,
             Self::Baked(baked) => baked.radius > 0.0,
             Self::Planar | Self::Projected(_) => false,
+        }
+    }
+
+    /// Whether it can be tried on a scene that is drawn in this way.
+    pub fn fits(&self, scene: &Scene, look: Look) -> bool {
+        match self {
+            Self::Planar | Self::PlanarSoft { .. } => planar::ground(scene).is_some(),
+            Self::Projected(_) | Self::Blob(Blobs::Asked) => true,
+            Self::Blob(Blobs::Decals) => look.samples == 1,
+            Self::Baked(_) => baked::knows(look),
         }
     }
 

@@ -131,7 +131,12 @@ fn interior(inputs: &ShadowInputs, receiver: &PlanarRectangle, size: u32) -> Int
         _ => (height.powi(2) + far(receiver.width).powi(2)).sqrt() / height,
     };
     let penumbra = f64::from(radius()) * top * reach / room;
-    let texel = far(receiver.width).min(far(receiver.height)) / f64::from(size);
+    let narrower = far(receiver.width).min(far(receiver.height));
+    let texel = narrower / f64::from(size);
+    // As wide as what receives: nothing is so far from an edge, and many rays would ask.
+    if penumbra >= 0.5 * narrower {
+        return Interior::Screen;
+    }
     // Blinn's matrix, and the rectangle as clip space.
     let columns = plane.to_array().map(|entry| -light * entry / height);
     let projected = DMat4::IDENTITY + DMat4::from_cols_array_2d(&columns.map(|c| c.to_array()));

@@ -51,8 +51,13 @@ fn one_round_passes() {
     std::fs::remove_dir_all(&dir).unwrap();
 }
 
-/// Limits that are as wrong as no shadow at all: a bias of 0.15 is more than the scene at x 1e-4.
-const ALL_IS_LOST: [(&str, &str); 1] = [("Scale", "cube-textbook")];
+/// Limits that are as wrong as no shadow at all: a bias of 0.15 is more than the scene at x 1e-4, and a projector has no
+/// picture of what is around its light; in the courtyard planar shadows are as many as are left out.
+const ALL_IS_LOST: [(&str, &str); 3] = [
+    ("Scale", "cube-textbook"),
+    ("Light inside a closed caster", "projected"),
+    ("Courtyard from anywhere", "planar"),
+];
 
 /// Without shadows, and with nothing but shadow, no technique passes any case by what is expected
 /// of it there, known limits included.
@@ -228,7 +233,7 @@ fn a_known_limit_holds_up_to_its_bound_and_fails_above_it() {
 #[test]
 fn known_limits_are_of_techniques_on_cases() {
     let techniques = techniques().unwrap();
-    for known in limits::ALL {
+    for known in limits::ALL.iter().chain(limits::CHEAP) {
         let used = cases::all().any(|case| {
             let mut names = techniques.iter().map(|technique| &technique.name);
             names.any(|name| {
@@ -359,6 +364,10 @@ fn frames_around_it_leave_a_picture_as_it_is_alone() {
             let stage = Stage::with_look(&gpu, scene, SIZE, situation.look).unwrap();
             let applies = |technique: &&Technique| trial::applies(&gpu, technique, &situation);
             for technique in techniques.iter().filter(applies) {
+                let software = is_software(&gpu);
+                if expected(&case, technique, software) == Expect::Nothing {
+                    continue;
+                }
                 // A sun's map lies where its casters were, as long as it holds them.
                 let may_lie_elsewhere = matches!(technique.config, Config::Flat { .. });
                 if case.course == Course::ComeAndGo && may_lie_elsewhere {

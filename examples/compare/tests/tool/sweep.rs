@@ -116,6 +116,19 @@ fn techniques_that_were_asked_for_are_the_only_ones() {
     let rows = |technique: &Technique| technique.name.split(' ').next().unwrap().to_owned();
     let rows: BTreeSet<String> = asked.iter().map(rows).collect();
     assert_eq!(rows.into_iter().collect::<Vec<_>>(), ["cube-2x2", "volume"]);
+    // The cheap and the baked ones by name: once, or in each size.
+    let is_cheap = |technique: &Technique| matches!(technique.config, Config::Survey(_));
+    assert!(!techniques("usual").iter().any(is_cheap));
+    for (row, count) in [
+        ("planar", 1),
+        ("blob-decals", 1),
+        ("planar-soft", 5),
+        ("projected", 5),
+        ("baked", 3),
+    ] {
+        let swept = techniques(row);
+        assert!(swept.len() == count && swept.iter().all(is_cheap), "{row}");
+    }
     // What is kept between frames only by name.
     assert!(
         techniques("usual")

@@ -15,6 +15,7 @@ pub const CASES: [Case; 9] = [
         build: "eye behind a box from the light",
         answer: "equals the reference",
         situations: inside_a_volume,
+        cheap: &["planar", "projected", "baked"],
         ..Case::EXACT
     },
     Case {
@@ -29,6 +30,7 @@ pub const CASES: [Case; 9] = [
         build: "receivers from 1e6 to 1e7 x near",
         answer: "equals the reference",
         situations: receiver_far_away,
+        cheap: &["planar", "planar-soft", "projected"],
         ..Case::EXACT
     },
     Case {
@@ -43,6 +45,7 @@ pub const CASES: [Case; 9] = [
         build: "N.L of the ground 1e-2, 1e-3, 1e-4, 1e-5 in the middle of the picture",
         answer: "maps: acne and leak reported; volumes: exact",
         situations: grazing,
+        cheap: &["planar", "projected"],
         ..Case::EXACT
     },
     Case {
@@ -64,6 +67,7 @@ pub const CASES: [Case; 9] = [
         build: "near planes 20, 50 and 1000 behind the camera, off centre, finite reversed and standard depth",
         answer: "equals the reference",
         situations: orthographic,
+        cheap: &["planar", "projected", "blob"],
         ..Case::EXACT
     },
     Case {
@@ -71,6 +75,7 @@ pub const CASES: [Case; 9] = [
         build: "sloped edges, four samples a pixel",
         answer: "per-sample stencil",
         situations: four_samples,
+        cheap: &["planar", "planar-soft", "projected", "blob"],
         ..Case::EXACT
     },
 ];

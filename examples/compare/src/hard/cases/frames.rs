@@ -14,6 +14,7 @@ pub const CASES: [Case; 2] = [
         answer: "as a fresh renderer: equals the reference",
         situations: crowd,
         course: Course::ComeAndGo,
+        cheap: &["planar", "projected"],
         ..Case::EXACT
     },
     Case {
@@ -22,6 +23,7 @@ pub const CASES: [Case; 2] = [
         answer: "the first as alone: equals the reference",
         situations: crowd,
         course: Course::TwoViews,
+        cheap: &["planar", "planar-soft", "projected", "blob"],
         ..Case::EXACT
     },
 ];

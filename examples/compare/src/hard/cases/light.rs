@@ -35,6 +35,7 @@ pub const CASES: [Case; 10] = [
         build: "a box around the light, whole and without its floor",
         answer: "finite, equals the reference",
         situations: inside_a_caster,
+        cheap: &["planar", "projected"],
         ..Case::EXACT
     },
     Case {

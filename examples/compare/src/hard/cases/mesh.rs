@@ -36,6 +36,7 @@ pub const CASES: [Case; 9] = [
         build: "a square and a hemisphere, both windings",
         answer: "casts from both sides",
         situations: open,
+        cheap: &["planar", "baked"],
         ..Case::EXACT
     },
     Case {
@@ -57,6 +58,7 @@ pub const CASES: [Case; 9] = [
         build: "scale (-1, 1, 1) and (1, 0.01, 100)",
         answer: "equals the reference",
         situations: transforms,
+        cheap: &["planar", "projected", "baked"],
         ..Case::EXACT
     },
     Case {
@@ -64,6 +66,7 @@ pub const CASES: [Case; 9] = [
         build: "one mesh nine times, one mirrored",
         answer: "independent shadows",
         situations: instances,
+        cheap: &["planar", "planar-soft", "projected", "blob", "baked"],
         ..Case::EXACT
     },
     Case {
@@ -71,6 +74,7 @@ pub const CASES: [Case; 9] = [
         build: "a wire of a tenth of a texel",
         answer: "volumes exact; maps: loss reported",
         situations: wire,
+        cheap: &["planar", "projected"],
         ..Case::EXACT
     },
 ];

@@ -31,6 +31,8 @@ pub struct Case {
     pub sixteen_bits: bool,
     /// Whether maps of 4096 texels are tried, too.
     pub fine: bool,
+    /// Which of the cheap and baked techniques are tried: where it shows what each can and cannot do.
+    pub cheap: &'static [&'static str],
     /// Whether cube maps are asked if their seams are worse than their faces.
     pub seams: bool,
     /// What a technique has been through before.
@@ -47,6 +49,7 @@ impl Case {
         maps: Expect::Exact,
         sixteen_bits: false,
         fine: false,
+        cheap: &[],
         seams: false,
         course: Course::Fresh,
     };

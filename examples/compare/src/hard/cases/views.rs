@@ -27,6 +27,7 @@ pub const CASES: [Case; 3] = [
         situations: |random| views(courtyard(), random),
         volumes: Expect::Rare(NEAR_EDGE),
         maps: Expect::Rare(NEAR_EDGE),
+        cheap: &["planar"],
         ..Case::EXACT
     },
     Case {

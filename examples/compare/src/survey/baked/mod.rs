@@ -21,7 +21,7 @@ use super::{Bake, SurveyShadow};
 use crate::shadow::{Cost, ShadowInputs};
 use host::exact;
 use host::gpu::Gpu;
-use host::renderer::{LitPipeline, Renderer, ShadowAccess};
+use host::renderer::{LitPipeline, Look, Renderer, ShadowAccess};
 use host::scene::Scene;
 use host::scene_gpu::SceneGpu;
 use host::unwrap::Unwrapping;
@@ -89,9 +89,8 @@ impl Baked {
         gpu: &Gpu,
         renderer: &Renderer,
     ) -> Result<(Box<dyn SurveyShadow>, LitPipeline)> {
-        let look = renderer.look();
         ensure!(
-            look.samples == 1 && !look.premultiplied,
+            knows(renderer.look()),
             "light maps are compared with one sample a pixel and the library's own arithmetic"
         );
         let visible = gpu.target(renderer.size(), FORMAT, 1);
@@ -134,6 +133,11 @@ impl Baked {
         let map = exact::reference_scene(scene)?.bake(&unwrapping.layout, &light, &descriptor)?;
         Ok((unwrapping, map))
     }
+}
+
+/// Whether the pass that reads the map knows this way to draw.
+pub fn knows(look: Look) -> bool {
+    look.samples == 1 && !look.premultiplied
 }
 
 struct AtWork {
