@@ -19,7 +19,7 @@ use host::pipelines::visibility_module;
 use host::renderer::ShadowAccess;
 use host::terminal::say;
 use host::warped;
-use shadows::glam::{DVec3, DVec4, Mat4};
+use shadows::glam::{DVec3, DVec4, Mat4, Quat};
 use shadows::reference::{Hit, Interior, Verdict};
 use shadows::{
     AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DirectionalLight,

@@ -5,7 +5,8 @@ use compare::stage::Stage;
 use compare::survey::{Bake, Baked, Survey};
 use compare::technique::{Config, Technique};
 use host::gpu::Gpu;
-use host::scene::{Scene, floor, spheres};
+use host::scene::{Scene, floor, moved_light, spheres};
+use shadows::glam::Vec3;
 use shadows::reference::ReferenceImage;
 
 struct Baking<'a> {
