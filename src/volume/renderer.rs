@@ -1,7 +1,10 @@
 //! The renderer: prepare, encode, render.
 
+mod drawn;
 mod inspect;
 mod upload;
+
+pub(crate) use drawn::Drawn;
 
 use crate::DepthConvention;
 use crate::error::{ShadowVolumeError, VolumeRenderError};
@@ -10,15 +13,12 @@ use crate::uploads::Uploads;
 use crate::volume::decide::method::Options;
 use crate::volume::gpu::bind_groups::Groups;
 use crate::volume::gpu::buffers::Buffers;
-use crate::volume::gpu::draw_calls::Recorder;
 use crate::volume::gpu::draw_pipelines::{self, Feed};
 use crate::volume::gpu::pipelines::{OwnPipelines, VolumePipelines};
-use crate::volume::plan::cache::{Slot, VolumeCache};
+use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
-use crate::volume::plan::merged::MergedDraw;
 use crate::volume::plan::meshes::MeshPool;
-use crate::volume::plan::pair::Pair;
-use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
+use crate::volume::plan::params::{LightParams, ViewParams};
 use crate::volume::plan::scene::Requirements;
 use crate::volume::plan::volumes::{Volumes, check_counts, light_params, view_params};
 use crate::volume::plan::work::{Dispatch, Work};
@@ -93,40 +93,6 @@ pub struct ShadowVolumeRenderer {
     waits: bool,
     /// Whether nothing that was written before can be counted on.
     renewed: bool,
-}
-
-/// What the last frame draws under one light in one view, and where it lies.
-pub(crate) struct Drawn<'a> {
-    pub pair: &'a Pair,
-    pub volumes: &'a Volumes,
-    pub cache: &'a VolumeCache,
-    pub buffers: &'a Buffers,
-    pub view: &'a ViewParams,
-    pub light: &'a LightParams,
-}
-
-impl<'a> Drawn<'a> {
-    /// A window's volume, and what its draws read.
-    pub fn of(&self, window: u32) -> Option<(&'a Slot, &'a CasterParams)> {
-        let window = self.volumes.windows.get(window)?;
-        Some((self.cache.get(window.slot)?, &window.params))
-    }
-
-    /// All draws, those of one pipeline one after another.
-    pub fn draws(&self) -> impl Iterator<Item = &'a MergedDraw> + use<'a> {
-        let (lists, merged) = (&self.pair.draws, &self.volumes.merged);
-        let numbers = lists.numbers();
-        numbers.filter_map(|number| merged.get(number))
-    }
-
-    /// What they are recorded from.
-    pub fn recorder(&self) -> Recorder<'a> {
-        Recorder {
-            windows: &self.volumes.windows,
-            cache: self.cache,
-            buffers: self.buffers,
-        }
-    }
 }
 
 impl ShadowVolumeRenderer {

@@ -12,11 +12,9 @@ use crate::installed::{find, folder};
 fn refused(package: &Path, name: &str, modules: &[Module]) -> String {
     let folder = folder(name);
     for module in modules {
-        std::fs::write(
-            folder.join(&module.name).with_extension("wgsl"),
-            &module.wgsl,
-        )
-        .unwrap();
+        // Names of files stay whole: two shaders of one page differ behind its extension.
+        let file = folder.join(format!("{}.wgsl", module.name));
+        std::fs::write(file, &module.wgsl).unwrap();
     }
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/translations/tint.mjs");
     let output = Command::new("node")

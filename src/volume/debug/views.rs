@@ -11,8 +11,9 @@ use crate::volume::debug::pipelines::{
 };
 use crate::volume::decide::method::Count;
 use crate::volume::descriptor::check_depth;
-use crate::volume::gpu::buffers::{spread, window};
+use crate::volume::gpu::buffers::window;
 use crate::volume::gpu::draw_pipelines::{Feed, Style};
+use crate::volume::gpu::grown::spread;
 use crate::volume::gpu::layout::bind;
 use crate::volume::light_pass::join::check_color;
 use crate::volume::light_pass::mask::check_target;

@@ -7,7 +7,7 @@ use crate::volume::gpu::draw_pipelines::Feed;
 use crate::volume::gpu::layout::bind;
 use crate::volume::gpu::pipelines::OwnPipelines;
 use crate::volume::plan::cache::{Sources, VolumeCache};
-use crate::volume::plan::merged::DrawKey;
+use crate::volume::plan::draw_lists::DrawKey;
 use crate::volume::plan::params::BatchParams;
 use crate::volume::plan::work::{Dispatch, Work};
 

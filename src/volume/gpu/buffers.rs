@@ -1,6 +1,7 @@
 //! The GPU memory of the renderer: grown when a frame needs more, kept between frames.
 
 use crate::uploads::Uploads;
+use crate::volume::gpu::grown::{Grower, Grown, spread};
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
 use crate::volume::plan::merged::{BLOCK_BYTES, DRAW_BYTES, Member, MergedDraws};
@@ -13,92 +14,6 @@ use crate::volume::plan::seats::SEATS_OF_CASTER;
 use crate::volume::plan::windows::Windows;
 use crate::volume::plan::work::{Merge, Share, Work};
 use crate::volume::silhouette::{Way, Ways};
-
-/// A buffer that grows.
-#[derive(Debug)]
-struct Grown {
-    label: String,
-    usage: wgpu::BufferUsages,
-    buffer: Option<wgpu::Buffer>,
-    /// Whether later frames read what this one writes.
-    keeps: bool,
-    /// What [`write_changed`](Self::write_changed) has written.
-    written: Vec<u8>,
-}
-
-impl Grown {
-    fn new(label: String, usage: wgpu::BufferUsages) -> Self {
-        Self {
-            label,
-            usage,
-            buffer: None,
-            keeps: false,
-            written: Vec::new(),
-        }
-    }
-
-    /// One that takes along what it holds when it grows.
-    fn keeping(label: String, usage: wgpu::BufferUsages) -> Self {
-        use wgpu::BufferUsages as U;
-        Self {
-            keeps: true,
-            ..Self::new(label, usage | U::COPY_SRC | U::COPY_DST)
-        }
-    }
-
-    /// Has the items written that are not there yet, so many bytes apart.
-    fn write_changed<T: bytemuck::NoUninit>(
-        &mut self,
-        uploads: &mut Uploads,
-        items: &[T],
-        window: u32,
-    ) {
-        let Some(buffer) = &self.buffer else { return };
-        let bytes = spread(items, window);
-        let windows = bytes.chunks(window as usize);
-        for (offset, new) in (0..).step_by(window as usize).zip(windows) {
-            let old = self.written.get(offset..offset + new.len());
-            if old != Some(new) {
-                uploads.write(buffer, offset as u64, new);
-            }
-        }
-        self.written = bytes;
-    }
-
-    fn size(&self) -> u64 {
-        self.buffer.as_ref().map_or(0, wgpu::Buffer::size)
-    }
-}
-
-/// Makes buffers large enough.
-struct Grower<'a> {
-    device: &'a wgpu::Device,
-    uploads: &'a mut Uploads,
-    /// Whether one was made.
-    made: bool,
-}
-
-impl Grower<'_> {
-    /// Room for at least `size` bytes, `most` being the largest buffer that there can be.
-    fn grow(&mut self, grown: &mut Grown, size: u64, most: u64) {
-        if grown.buffer.is_some() && grown.size() >= size {
-            return;
-        }
-        // A frame that needs a little more than the last should not allocate again.
-        let room = size.max(256).next_power_of_two().min(most).max(size);
-        let new = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(&grown.label),
-            size: room,
-            usage: grown.usage,
-            mapped_at_creation: false,
-        });
-        if let Some(old) = grown.buffer.as_ref().filter(|_| grown.keeps) {
-            self.uploads.replace(old, &new);
-        }
-        grown.buffer = Some(new);
-        self.made = true;
-    }
-}
 
 /// All buffers.
 #[derive(Debug)]
@@ -264,8 +179,8 @@ impl Buffers {
 
     /// Has views and lights written again, whatever was written before.
     pub fn renew(&mut self) {
-        self.views.written.clear();
-        self.lights.written.clear();
+        self.views.renew();
+        self.lights.renew();
     }
 
     fn write_work(&self, uploads: &mut Uploads, work: &Work, limits: &PlanLimits) {
@@ -397,16 +312,6 @@ fn pool(label: &str, place: usize) -> [Grown; LISTS] {
 /// Bytes from one uniform window to the next.
 pub(crate) fn window<T>(limits: &wgpu::Limits) -> u32 {
     (size_of::<T>() as u32).next_multiple_of(limits.min_uniform_buffer_offset_alignment)
-}
-
-/// Items one after another, so many bytes apart.
-pub(crate) fn spread<T: bytemuck::NoUninit>(items: &[T], window: u32) -> Vec<u8> {
-    let window = window as usize;
-    let mut bytes = vec![0; window * items.len()];
-    for (target, item) in bytes.chunks_exact_mut(window).zip(items) {
-        target[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
-    }
-    bytes
 }
 
 impl PlanLimits {

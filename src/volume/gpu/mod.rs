@@ -5,6 +5,7 @@ pub(crate) mod buffers;
 pub(crate) mod counter;
 pub(crate) mod draw_calls;
 pub(crate) mod draw_pipelines;
+pub(crate) mod grown;
 pub(crate) mod layout;
 pub(crate) mod pipelines;
 pub(crate) mod reset;

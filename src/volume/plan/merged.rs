@@ -5,12 +5,11 @@
 //! found the lists, and the CPU where the CPU did. A draw has so few casters that what one of them
 //! changes is made anew at once, by one workgroup.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::volume::gpu::draw_pipelines::Style;
-use crate::volume::plan::cache::Sources;
+use crate::volume::plan::draw_lists::{DrawKey, DrawLists};
 use crate::volume::plan::limits::WORKGROUP;
 use crate::volume::plan::ranges::Chunks;
 use crate::volume::silhouette::Way;
@@ -34,36 +33,6 @@ const SEATS: u64 = WORKGROUP as u64;
 
 /// The three buffers of a chunk.
 const NAMES: [&str; 3] = ["members", "blocks", "draws"];
-
-/// What the draws of one key share: pipeline, bind group and index buffer. Ordered so that those of one
-/// pipeline follow each other.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct DrawKey {
-    pub way: Way,
-    pub style: Style,
-    /// Vertices of an element.
-    pub vertices: u32,
-    /// Whether the caps are those that count -1.
-    pub back: bool,
-    /// Whether a draw is one caster's.
-    pub own: bool,
-    pub sources: Sources,
-}
-
-impl DrawKey {
-    /// Words of an element in its list.
-    pub fn element_words(&self) -> u32 {
-        match self.style.faces.are_caps() {
-            true => 3,
-            false => 1,
-        }
-    }
-
-    /// Vertices of a block.
-    pub fn block_vertices(&self) -> u32 {
-        BLOCK * self.vertices
-    }
-}
 
 /// A caster in a draw. `Member` in `volume_merge.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
@@ -107,29 +76,6 @@ impl Seated {
 pub(crate) struct Seat {
     draw: u32,
     place: u32,
-}
-
-/// The numbers of the draws of a light in a view.
-#[derive(Debug, Default)]
-pub(crate) struct DrawLists(BTreeMap<DrawKey, BTreeSet<u32>>);
-
-impl DrawLists {
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    pub fn len(&self) -> usize {
-        self.0.values().map(BTreeSet::len).sum()
-    }
-
-    pub fn keys(&self) -> impl Iterator<Item = &DrawKey> {
-        self.0.keys()
-    }
-
-    /// Those of one key one after another.
-    pub fn numbers(&self) -> impl Iterator<Item = u32> + use<'_> {
-        self.0.values().flatten().copied()
-    }
 }
 
 /// One draw call.
@@ -280,7 +226,7 @@ impl MergedDraws {
         let has_room = |draw: &MergedDraw| {
             draw.taken < most_seats && draw.most + seated.blocks() <= most_blocks
         };
-        let list = lists.0.entry(key.clone()).or_default();
+        let list = lists.of(&key);
         let found = match key.own {
             true => None,
             false => list
@@ -349,12 +295,7 @@ impl MergedDraws {
             self.touched.push(seat.draw);
             return;
         }
-        if let Some(list) = lists.0.get_mut(&draw.key) {
-            list.remove(&seat.draw);
-            if list.is_empty() {
-                lists.0.remove(&draw.key);
-            }
-        }
+        lists.remove(&draw.key, seat.draw);
         self.chunks.give_back(draw.place, draw.room);
         self.draws[seat.draw as usize] = None;
         self.free.push(seat.draw);

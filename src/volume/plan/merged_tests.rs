@@ -1,6 +1,7 @@
 use super::*;
 use crate::volume::decide::method::Count;
-use crate::volume::gpu::draw_pipelines::Part;
+use crate::volume::gpu::draw_pipelines::{Part, Style};
+use crate::volume::plan::cache::Sources;
 use crate::volume::plan::faces::Faces;
 
 fn key(way: Way, faces: Faces) -> DrawKey {

@@ -2,6 +2,7 @@
 
 pub(crate) mod cache;
 pub(crate) mod count_bound;
+pub(crate) mod draw_lists;
 pub(crate) mod faces;
 pub(crate) mod limits;
 pub(crate) mod merged;

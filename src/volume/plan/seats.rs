@@ -3,10 +3,9 @@
 use crate::mesh::MeshKind;
 use crate::volume::decide::facing::Counted;
 use crate::volume::plan::cache::Slot;
+use crate::volume::plan::draw_lists::{DrawKey, DrawLists};
 use crate::volume::plan::faces::{Draw, DrawnAs, Faces};
-use crate::volume::plan::merged::{
-    DrawKey, DrawLists, Member, MergedDraws, OWN_CAPS, Seat, Seated,
-};
+use crate::volume::plan::merged::{Member, MergedDraws, OWN_CAPS, Seat, Seated};
 use crate::volume::plan::params::Arguments;
 use crate::volume::silhouette::Way;
 

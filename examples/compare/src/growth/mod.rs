@@ -91,7 +91,7 @@ fn grow(gpu: &Gpu, timer: &Timer, quantity: Quantity, times: f64, rounds: usize)
     let sizes = quantity.series(times);
     let kinds = KINDS
         .into_iter()
-        .filter(|kind| kind.is_map || quantity != Quantity::Texels);
+        .filter(|kind| quantity.concerns(kind.is_map));
     let kinds: Vec<Kind> = kinds.collect();
     let places: Vec<Place> = sizes
         .iter()

@@ -19,6 +19,7 @@ pub enum Quantity {
     Casters,
     Meshes,
     Lights,
+    Views,
     Pixels,
     Texels,
 }
@@ -33,17 +34,20 @@ pub struct Situation {
     /// Whether each caster has a mesh of its own.
     pub distinct: bool,
     pub lights: Vec<PointLight>,
+    /// Of one camera that turns around the middle.
+    pub views: u32,
     pub size: [u32; 2],
     /// Of a cube face, in texels.
     pub side: u32,
 }
 
 impl Quantity {
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Triangles,
         Self::Casters,
         Self::Meshes,
         Self::Lights,
+        Self::Views,
         Self::Pixels,
         Self::Texels,
     ];
@@ -55,6 +59,7 @@ impl Quantity {
             Self::Casters => "casters",
             Self::Meshes => "meshes",
             Self::Lights => "lights",
+            Self::Views => "views",
             Self::Pixels => "resolution",
             Self::Texels => "map-size",
         }
@@ -67,6 +72,7 @@ impl Quantity {
             Self::Casters => "casters, of twelve triangles each",
             Self::Meshes => "casters, each of a mesh of its own",
             Self::Lights => "lights",
+            Self::Views => "views, each a whole picture",
             Self::Pixels => "pixels of the picture (360p to 2160p)",
             Self::Texels => "texels of a cube face (256 to 4096 a side)",
         }
@@ -82,7 +88,7 @@ impl Quantity {
                  needed, triangles."
             }
             Self::Casters => {
-                "Boxes on a grid, ever more and smaller, under one light. Each is a draw: at most \
+                "Boxes on a grid, ever more and smaller, under one light: at most \
                  linear, on the CPU as on the GPU. What stands still is compared and drawn no more \
                  by maps; volumes are drawn each frame, and only looked for once."
             }
@@ -92,8 +98,13 @@ impl Quantity {
             }
             Self::Lights => {
                 "A hundred boxes; the lights on a circle above, all of which reach everything. One \
-                 cube map holds them all (256 texels a side), a volume renderer for each. Reading \
+                 atlas holds the maps of them all (256 texels a side), one renderer the volumes. Reading \
                  the maps is the host's, and not counted here."
+            }
+            Self::Views => {
+                "A hundred boxes, one light, seen from ever more sides in one frame. What of a volume \
+                 depends on the light is searched once for all views; what is drawn of it is chosen in \
+                 each. A lamp's map knows no views."
             }
             Self::Pixels => {
                 "A hundred boxes, one light. Maps are read once a pixel: linear, with the lit pass \
@@ -106,6 +117,15 @@ impl Quantity {
                  once it outweighs the draws; a map that is kept is only read. With the lit pass, \
                  less the lit pass without shadows. Volumes have no texels."
             }
+        }
+    }
+
+    /// Whether shadow maps, or else volumes, know of it.
+    pub fn concerns(self, maps: bool) -> bool {
+        match self {
+            Self::Views => !maps,
+            Self::Texels => maps,
+            _ => true,
         }
     }
 
@@ -122,6 +142,7 @@ impl Quantity {
             Self::Casters => &[1, 10, 100, 1_000, 10_000, 100_000],
             Self::Meshes => &[1, 10, 100, 1_000, 4_000, 10_000],
             Self::Lights => &[1, 2, 4, 8, 16, 32, 64],
+            Self::Views => &[1, 2, 4, 8, 16],
             Self::Pixels => &[360, 540, 720, 1080, 1440, 2160],
             Self::Texels => &[256, 512, 1024, 2048, 4096],
         }
@@ -142,7 +163,7 @@ impl Quantity {
         match self {
             // Four spheres of four triangles for each ring and each ring.
             Self::Triangles => 16.0 * size * size,
-            Self::Casters | Self::Meshes | Self::Lights => size,
+            Self::Casters | Self::Meshes | Self::Lights | Self::Views => size,
             Self::Pixels => size * size * 16.0 / 9.0,
             Self::Texels => size * size,
         }
@@ -156,6 +177,7 @@ impl Quantity {
             transforms: grid(100),
             distinct: false,
             lights: vec![PointLight::new(Vec3::new(0.5, 6.0, 0.3), RANGE)],
+            views: 1,
             size: [640, 360],
             side: 1024,
         };
@@ -177,6 +199,10 @@ impl Quantity {
             Self::Lights => Situation {
                 lights: circle(size),
                 side: 256,
+                ..common
+            },
+            Self::Views => Situation {
+                views: size,
                 ..common
             },
             Self::Pixels => Situation {

@@ -1,15 +1,15 @@
 //! What is measured: a technique in a scene where all moves, or where all stands still.
 
+use std::f32::consts::TAU;
 use std::time::Instant;
 
 use anyhow::Result;
-use host::one_light::{OneLight, PrepareOne as _};
-use shadows::glam::{Affine3A, Vec3};
+use shadows::glam::{Affine3A, Mat4, Vec3};
 use shadows::mesh::Adjacency;
 use shadows::{
     AtlasFrame, AtlasLight, Caster, CasterMesh, CubeShadowMapDescriptor, PcfDescriptor, PointLight,
-    ShadowAtlas, ShadowAtlasDescriptor, ShadowVolumeDescriptor, ShadowVolumeRenderer, TileSize,
-    wgpu,
+    ShadowAtlas, ShadowAtlasDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame,
+    ShadowVolumeRenderer, TileSize, View, VolumeLight, VolumeView, wgpu,
 };
 
 use super::quantity::Situation;
@@ -50,6 +50,7 @@ pub const KINDS: [Kind; 4] = [
 pub struct Place {
     stage: Stage,
     lights: Vec<PointLight>,
+    views: Vec<VolumeView>,
     side: u32,
     /// Where everything is in even frames, and in odd ones if it moves.
     inputs: [ShadowInputs; 2],
@@ -82,8 +83,15 @@ impl Place {
                 ..stage.inputs.clone()
             }
         });
+        let first = &stage.inputs.view;
+        let turned = |n: u32| {
+            let turn = Mat4::from_rotation_y(TAU * n as f32 / situation.views as f32);
+            Ok(View::new(first.clip_from_world() * turn, first.depth())?.into())
+        };
+        let views = (0..situation.views).map(turned).collect::<Result<_>>()?;
         Ok(Self {
             stage,
+            views,
             lights: situation.lights,
             side: situation.side,
             inputs,
@@ -103,12 +111,12 @@ pub struct Subject {
 }
 
 enum Means {
-    /// One light, with a lit pass.
-    One(Box<Shadow>),
+    /// A map of one light, with a lit pass.
+    Map(Box<Shadow>),
     /// One for all lights.
     Atlas(Box<ShadowAtlas>),
-    /// One for each light.
-    Volumes(Vec<ShadowVolumeRenderer>),
+    /// One for all lights and views.
+    Volumes(Box<ShadowVolumeRenderer>),
 }
 
 impl Subject {
@@ -150,7 +158,7 @@ impl Subject {
         self.means.prepare(gpu, place, inputs)?;
         self.prepare.push(start.elapsed().as_secs_f64() * 1e3);
         let mut work = timer.time(gpu, |encoder| self.means.generate(place, encoder));
-        if let (true, Means::One(shadow)) = (reads && self.kind.is_map, &self.means) {
+        if let (true, Means::Map(shadow)) = (reads, &self.means) {
             let with = timer.time(gpu, |encoder| shadow.shade(renderer, scene, encoder));
             let without = timer.time(gpu, |encoder| {
                 renderer.draw_lit(encoder, scene, renderer.unshadowed(), None);
@@ -165,21 +173,17 @@ impl Subject {
 
 impl Means {
     fn new(gpu: &Gpu, place: &Place, kind: Kind) -> Result<Self> {
-        let map = CubeShadowMapDescriptor {
-            size: place.side,
-            ..Default::default()
-        };
-        if place.lights.len() == 1 {
-            let config = match kind.is_map {
-                true => Config::Cube {
-                    map,
-                    sampler: PcfDescriptor::default(),
+        if kind.is_map && place.lights.len() == 1 {
+            let config = Config::Cube {
+                map: CubeShadowMapDescriptor {
+                    size: place.side,
+                    ..Default::default()
                 },
-                false => Config::Volume(ShadowVolumeDescriptor::default()),
+                sampler: PcfDescriptor::default(),
             };
             let name = kind.name.into();
             let shadow = Shadow::new(gpu, &place.stage.renderer, Technique { name, config })?;
-            return Ok(Self::One(Box::new(shadow)));
+            return Ok(Self::Map(Box::new(shadow)));
         }
         if kind.is_map {
             let atlas = ShadowAtlas::new(&gpu.device, &ShadowAtlasDescriptor::default())?;
@@ -189,14 +193,13 @@ impl Means {
             depth_stencil_format: place.stage.renderer.depth_stencil_format(),
             ..Default::default()
         };
-        let lights = place.lights.iter();
-        let volumes = lights.map(|_| ShadowVolumeRenderer::new(&gpu.device, &descriptor));
-        Ok(Self::Volumes(volumes.collect::<Result<_, _>>()?))
+        let volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
+        Ok(Self::Volumes(Box::new(volumes)))
     }
 
     fn prepare(&mut self, gpu: &Gpu, place: &Place, inputs: &ShadowInputs) -> Result<()> {
         match self {
-            Self::One(shadow) => shadow.prepare(gpu, inputs)?,
+            Self::Map(shadow) => shadow.prepare(gpu, inputs)?,
             Self::Atlas(atlas) => {
                 let size = TileSize::Fixed(place.side);
                 let lights = place.lights.iter();
@@ -211,14 +214,15 @@ impl Means {
                 atlas.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
             Self::Volumes(volumes) => {
-                for (volumes, light) in volumes.iter_mut().zip(&place.lights) {
-                    let frame = OneLight {
-                        range: Some(light.range),
-                        receivers: Some(inputs.receivers),
-                        ..OneLight::new(&inputs.view, light.homogeneous(), &inputs.casters)
-                    };
-                    volumes.prepare_one(&gpu.device, &gpu.queue, &frame)?;
-                }
+                let lights = place.lights.iter().copied();
+                let lights: Vec<VolumeLight> = lights.map(VolumeLight::from).collect();
+                let frame = ShadowVolumeFrame {
+                    lights: &lights,
+                    views: &place.views,
+                    receivers: Some(inputs.receivers),
+                    casters: &inputs.casters,
+                };
+                volumes.prepare(&gpu.device, &gpu.queue, &frame)?;
             }
         }
         Ok(())
@@ -227,14 +231,17 @@ impl Means {
     fn generate(&mut self, place: &Place, encoder: &mut wgpu::CommandEncoder) {
         let renderer = &place.stage.renderer;
         match self {
-            Self::One(shadow) => shadow.generate(renderer, &place.stage.scene_gpu, encoder),
+            Self::Map(shadow) => shadow.generate(renderer, &place.stage.scene_gpu, encoder),
             Self::Atlas(atlas) => atlas.encode(encoder),
             Self::Volumes(volumes) => {
-                for volumes in volumes {
-                    volumes.encode(encoder);
-                    volumes
-                        .render(&mut renderer.begin_stencil_pass(encoder), 0, 0)
-                        .expect("it is encoded");
+                volumes.encode(encoder);
+                // The ground is a square: other views see nearly the depth of the first.
+                for light in 0..place.lights.len() {
+                    for view in 0..place.views.len() {
+                        volumes
+                            .render(&mut renderer.begin_stencil_pass(encoder), light, view)
+                            .expect("it is encoded");
+                    }
                 }
             }
         }
