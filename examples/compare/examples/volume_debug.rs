@@ -62,7 +62,7 @@ fn main() -> Result<()> {
                 .draw_edges(pass, &panels.volumes, 0, 0)
                 .unwrap();
         }),
-        panels.draw(|pass| panels.debug.draw_counts(pass)),
+        panels.draw(|pass| panels.debug.draw_counts(pass).expect("it has a stencil")),
         panels.draw(|pass| panels.debug.draw_casters(pass)),
     ];
     say(&format!("{:#?}", panels.volumes.statistics()))?;
