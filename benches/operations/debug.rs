@@ -43,7 +43,9 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
                 .draw_edges(pass, &volumes.renderer, 0, 0)
                 .expect("it is prepared");
         }),
-        ("draw_counts", |debug, pass, _| debug.draw_counts(pass)),
+        ("draw_counts", |debug, pass, _| {
+            debug.draw_counts(pass).expect("it has a stencil");
+        }),
         ("draw_casters", |debug, pass, _| debug.draw_casters(pass)),
     ];
     for (name, view) in views {

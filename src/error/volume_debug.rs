@@ -27,6 +27,11 @@ pub enum VolumeDebugError {
         /// The renderer's.
         renderer: crate::DepthConvention,
     },
+    /// The stencil's counts are asked for, and the buffer has none.
+    #[error(
+        "{0:?} has no stencil whose counts could be shown; count with Counter::Exact and show them by VolumeDebug::draw_exact_counts"
+    )]
+    NoStencil(wgpu::TextureFormat),
     /// The frame is not the one that the renderer was prepared with.
     #[error(
         "the frame has {frame} casters, the renderer was prepared with {renderer}; prepare the renderer with this frame first"

@@ -75,6 +75,8 @@ pub const JOINED: &[&[&str]] = &[
     &["volume_screen"],
     &["volume_screen", "volume_reset"],
     &["volume_screen", "volume_debug"],
+    &["volume_screen", "volume_debug_counts"],
+    &["volume_screen", "volume_debug_counts_samples"],
     &["volume_screen", "volume_join"],
     &["volume_screen", "volume_join_samples"],
     &["volume_screen", "volume_exact", "volume_mark"],

@@ -20,7 +20,7 @@ fn a_pass_that_does_not_fit_is_refused() {
     let (device, _) = bare();
     let ok = VolumeDebugDescriptor::default();
     assert_eq!(new(&device, ok), Ok(()));
-    let depth_stencil_format = wgpu::TextureFormat::Depth32Float;
+    let depth_stencil_format = wgpu::TextureFormat::Depth16Unorm;
     let refused = ScreenPassError::Format(depth_stencil_format);
     let descriptor = VolumeDebugDescriptor {
         depth_stencil_format,

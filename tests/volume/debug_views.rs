@@ -25,7 +25,7 @@ pub struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    fn new(gpu: &'a Gpu, stage: &'a Stage) -> Self {
+    pub fn new(gpu: &'a Gpu, stage: &'a Stage) -> Self {
         Self::with(gpu, stage, DebugColors::default(), true)
     }
 
@@ -125,7 +125,7 @@ fn counts_have_their_colours() {
             ..nested(lamp())
         };
         let shown = Shown::new(&gpu, &stage);
-        let picture = shown.view(|debug, pass| debug.draw_counts(pass));
+        let picture = shown.view(|debug, pass| debug.draw_counts(pass).unwrap());
         let colors = DebugColors::default();
         let of = |count| colors.of_count(count).map_or([0; 4], bytes);
         let counts = Stage {
@@ -158,8 +158,9 @@ fn a_box_is_counted_once_and_a_box_in_a_box_twice() {
         vec![Body::caster(shapes::cube(), at(0.0, 2.2, 0.0))],
     );
     let colors = DebugColors::default();
-    let picture =
-        |stage: &Stage| Shown::new(&gpu, stage).view(|debug, pass| debug.draw_counts(pass));
+    let picture = |stage: &Stage| {
+        Shown::new(&gpu, stage).view(|debug, pass| debug.draw_counts(pass).unwrap())
+    };
     let shown = picture(&one);
     let is = |count| bytes(colors.of_count(count).unwrap());
     assert!(shown.iter().all(|c| *c == [0; 4] || *c == is(1)));
@@ -192,7 +193,7 @@ fn high_and_negative_counts_have_colours_of_their_own() {
         (255, colors.negative),
     ] {
         let stage = sheets(count);
-        let picture = Shown::new(&gpu, &stage).view(|debug, pass| debug.draw_counts(pass));
+        let picture = Shown::new(&gpu, &stage).view(|debug, pass| debug.draw_counts(pass).unwrap());
         let found = picture.iter().filter(|c| **c == bytes(color)).count();
         assert!(found > 500, "{count}: {found}");
         assert_eq!(colors.of_count(count as u8), Some(color));

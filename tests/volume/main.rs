@@ -7,6 +7,7 @@ mod count_bound;
 mod count_errors;
 mod counts;
 mod debug_errors;
+mod debug_exact;
 mod debug_views;
 mod errors;
 mod far_away;

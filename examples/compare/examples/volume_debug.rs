@@ -72,7 +72,7 @@ fn main() -> Result<()> {
         ),
         below(
             "stencil counts",
-            panels.draw(|pass| panels.debug.draw_counts(pass)),
+            panels.draw(|pass| panels.debug.draw_counts(pass).expect("it has a stencil")),
         ),
         below(
             "methods",

@@ -141,7 +141,7 @@ pub struct Args {
           value_parser = clap::value_parser!(u32).range(1..=1_000))]
     pub steps: u32,
 
-    /// Instead, measure how cost grows with triangles, casters, meshes, lights, resolution and map
+    /// Instead, measure how cost grows with triangles, casters, meshes, lights, views, resolution and map
     /// size, each from its least to at most so many times that, but at two amounts at least; all the way where
     /// no number is given.
     #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1000000",

@@ -442,7 +442,7 @@ impl Volumes {
                 self.debug.draw_surfaces(pass, &self.renderer, 0, 0)?;
                 self.debug.draw_edges(pass, &self.renderer, 0, 0)?;
             }
-            DebugView::Counts => self.debug.draw_counts(pass),
+            DebugView::Counts => self.debug.draw_counts(pass)?,
             DebugView::Casters => self.debug.draw_casters(pass),
             DebugView::Cross | DebugView::Tiles => {}
         }

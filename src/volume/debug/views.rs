@@ -3,9 +3,10 @@
 use glam::Mat4;
 use wgpu::util::DeviceExt as _;
 
-use crate::error::{ShadowVolumeError, VolumeDebugError, VolumeRenderError};
+use crate::error::{ScreenPassError, ShadowVolumeError, VolumeDebugError, VolumeRenderError};
 use crate::mesh::CasterMesh;
 use crate::volume::debug::colors::{DebugColors, Swatch};
+use crate::volume::debug::exact_counts::ExactCounts;
 use crate::volume::debug::pipelines::{
     COLOR_BYTES, CountPipelines, Factory, FeedPipelines, color_layout,
 };
@@ -16,14 +17,14 @@ use crate::volume::gpu::draw_pipelines::{Feed, Style};
 use crate::volume::gpu::grown::spread;
 use crate::volume::gpu::layout::bind;
 use crate::volume::light_pass::join::check_color;
-use crate::volume::light_pass::mask::check_target;
-use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::volume::light_pass::mask::{check_samples, check_target};
+use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_depth_alone, has_stencil};
 use crate::volume::plan::cache::position_words;
 use crate::volume::plan::faces::Faces;
 use crate::volume::plan::limits;
 use crate::volume::plan::merged::{BLOCK_BYTES, MergedDraw};
 use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
-use crate::volume::{ShadowVolumeFrame, ShadowVolumeRenderer};
+use crate::volume::{ExactCount, ShadowVolumeFrame, ShadowVolumeRenderer};
 use crate::{Caster, DepthConvention, View};
 
 /// The pass that a [`VolumeDebug`] draws into.
@@ -33,7 +34,8 @@ pub struct VolumeDebugDescriptor<'a> {
     pub label: Option<&'a str>,
     /// Format of the pass's one colour attachment: one that blends. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
-    /// Format of the depth-stencil buffer that the volumes were counted in. Default
+    /// Format of the depth-stencil buffer that the volumes were counted in, or of a depth buffer alone
+    /// (`Depth32Float`, `Depth24Plus`), beside which they were counted exactly. Default
     /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of both, 1 (default) or 4.
@@ -60,7 +62,7 @@ impl Default for VolumeDebugDescriptor<'_> {
 
 /// Debug views of a [`ShadowVolumeRenderer`], drawn over the host's picture.
 ///
-/// All views are drawn into a pass with one colour attachment and the depth-stencil buffer that
+/// All views are drawn into a pass with one colour attachment and the buffer that
 /// holds the scene's depth. Both of its aspects may be read-only. They change the pass's pipeline,
 /// bind groups 0 and 1, index buffer, vertex buffer 0 and stencil reference, nothing else; the
 /// scissor rectangle is the host's. One `VolumeDebug` serves any number of renderers of its device
@@ -74,7 +76,11 @@ pub struct VolumeDebug {
     depth: DepthConvention,
     pulled: Option<FeedPipelines>,
     fed: FeedPipelines,
-    counts: CountPipelines,
+    /// For a buffer that has a stencil.
+    counts: Option<CountPipelines>,
+    exact_counts: Option<ExactCounts>,
+    depth_stencil_format: wgpu::TextureFormat,
+    sample_count: u32,
     colors: wgpu::BindGroup,
     /// Bytes from one colour to the next.
     color_step: u32,
@@ -127,7 +133,11 @@ impl VolumeDebug {
             depth: descriptor.depth,
             pulled: pulls.then(|| FeedPipelines::new(&factory, Feed::Pulled)),
             fed: FeedPipelines::new(&factory, Feed::Records),
-            counts: CountPipelines::new(&factory),
+            counts: has_stencil(descriptor.depth_stencil_format)
+                .then(|| CountPipelines::new(&factory)),
+            exact_counts: ExactCounts::new(device, &label, descriptor),
+            depth_stencil_format: descriptor.depth_stencil_format,
+            sample_count: descriptor.sample_count,
             colors: bind(device, &label, &layout, &[(&colors, COLOR_BYTES)], &[]),
             color_step,
             casters: Vec::new(),
@@ -312,8 +322,13 @@ impl VolumeDebug {
     /// a light pass changes the count.
     ///
     /// Nine triangles that cover the target, each with its own stencil test.
-    pub fn draw_counts(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let counts = &self.counts;
+    ///
+    /// # Errors
+    /// [`VolumeDebugError::NoStencil`] if the buffer has no stencil: see
+    /// [`draw_exact_counts`](Self::draw_exact_counts). Nothing is then drawn.
+    pub fn draw_counts(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), VolumeDebugError> {
+        let no_stencil = VolumeDebugError::NoStencil(self.depth_stencil_format);
+        let counts = self.counts.as_ref().ok_or(no_stencil)?;
         let mut draw = |pipeline, reference: u32, swatch: u32| {
             pass.set_pipeline(pipeline);
             pass.set_stencil_reference(reference);
@@ -326,6 +341,33 @@ impl VolumeDebug {
         for count in 1..=7 {
             draw(&counts.equal, count, first + count - 1);
         }
+        Ok(())
+    }
+
+    /// Colours every sample by its exact count ([`Counter::Exact`](crate::Counter::Exact)), as
+    /// [`draw_counts`](Self::draw_counts) does by the stencil's, but that no count is taken for another:
+    /// all from 8 on are 8 or more, and negative ones, which only a wrong method comes to, are negative. To
+    /// be drawn after the pass that the count was made in. Needs no stencil.
+    ///
+    /// Nine triangles that cover the target.
+    ///
+    /// # Errors
+    /// [`VolumeDebugError::Target`] if the count has another number of samples than the descriptor said.
+    /// Nothing is then drawn.
+    pub fn draw_exact_counts(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        counts: &ExactCount,
+    ) -> Result<(), VolumeDebugError> {
+        let not_here = ScreenPassError::SamplesOnGl {
+            samples: self.sample_count,
+            what: "VolumeDebug::draw_exact_counts",
+        };
+        Ok(self
+            .exact_counts
+            .as_ref()
+            .ok_or(not_here)?
+            .draw(pass, counts)?)
     }
 
     /// Draws the casters of the frame that [`prepare`](Self::prepare) was given, each in the colour
@@ -409,11 +451,11 @@ fn validate(
     device: &wgpu::Device,
     descriptor: &VolumeDebugDescriptor<'_>,
 ) -> Result<(), VolumeDebugError> {
-    check_target(
-        device,
-        descriptor.depth_stencil_format,
-        descriptor.sample_count,
-    )?;
+    let (format, samples) = (descriptor.depth_stencil_format, descriptor.sample_count);
+    match has_depth_alone(format) {
+        true => check_samples(samples)?,
+        false => check_target(device, format, samples)?,
+    }
     check_color(device, descriptor.color_format, descriptor.sample_count)?;
     check_depth(device, descriptor.depth)?;
     // Caster, view and light, and the colour.

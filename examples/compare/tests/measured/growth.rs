@@ -80,6 +80,7 @@ fn series_reach_as_far_as_asked() {
     assert_eq!(ends(Quantity::Casters, 1e6), [1.0, 1e5]);
     assert_eq!(ends(Quantity::Meshes, 1e6), [1.0, 1e4]);
     assert_eq!(ends(Quantity::Lights, 1e6), [1.0, 64.0]);
+    assert_eq!(ends(Quantity::Views, 1e6), [1.0, 16.0]);
     assert_eq!(
         ends(Quantity::Pixels, 1e6),
         [640.0 * 360.0, 3840.0 * 2160.0]
@@ -99,6 +100,7 @@ fn series_reach_as_far_as_asked() {
                 situation.transforms.len()
             }
             Quantity::Lights => situation.lights.len(),
+            Quantity::Views => situation.views as usize,
             Quantity::Pixels => (situation.size[0] * situation.size[1]) as usize,
             Quantity::Texels => (situation.side * situation.side) as usize,
         };
@@ -120,7 +122,8 @@ fn a_short_run_writes_a_page_and_a_plot_for_each_quantity() {
         let name = quantity.name();
         assert_eq!(one["quantity"], name);
         let curves = one["curves"].as_array().unwrap();
-        assert_eq!(curves.len(), if name == "map-size" { 2 } else { 4 });
+        let of_one_technique = ["map-size", "views"].contains(&name);
+        assert_eq!(curves.len(), if of_one_technique { 2 } else { 4 });
         let svg = read(&format!("growth-{name}.svg"));
         assert!(page.contains(&format!("(growth-{name}.svg)")));
         for curve in curves {
