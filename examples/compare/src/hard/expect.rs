@@ -52,13 +52,13 @@ fn anywhere(case: &Case, technique: &Technique, software: bool) -> Expect {
         _ if FINE.iter().any(|fine| fine.1 == technique.name) && !case.fine => {
             return Expect::Nothing;
         }
-        Config::Cube { .. } | Config::Flat { .. } => case.maps,
+        Config::Cube { .. } | Config::Flat { .. } | Config::Atlas { .. } => case.maps,
         Config::Volume(volume) => match (case.volumes, volume.counter) {
             (Expect::Wraps, Counter::Exact) => Expect::Exact,
             (other, _) => other,
         },
         Config::Survey(_) if case.cheap.contains(&technique.name.as_ref()) => Expect::Exact,
-        Config::Peer { .. } | Config::Atlas { .. } | Config::Survey(_) => return Expect::Nothing,
+        Config::Peer { .. } | Config::Survey(_) => return Expect::Nothing,
     };
     let by_name = limits::of(case.name, &technique.name);
     let by_way = match &technique.config {

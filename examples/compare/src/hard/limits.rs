@@ -92,6 +92,10 @@ const VERTICES: &str =
 const TWENTY_FOUR_BITS: &str = "depth is near / distance in steps of 2^-24: with the near plane at 2 cm a step is 0.7 m \
     deep at a distance of 500 m";
 
+const FINE_GRAZING: &str = "texels of a near cascade are a 25th as wide as the usual map's, and as fine as that \
+    derivatives of f32 positions do not tell planes that hold the light's direction but for 1e-5 (nor on a flat map of \
+    8192; with the triangles' own normals none is wrong)";
+
 const SNAPPED: &str = "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L = 1e-5 \
     the sides of a volume whose caster stands on the ground are nearer to the ground than \
     that";
@@ -101,6 +105,25 @@ pub const ON_HARDWARE: [Known; 1] = [known("Grazing light", "volume*", SNAPPED, 
 
 /// All of them.
 pub const ALL: &[Known] = &[
+    known("Grazing light", "atlas-*", FINE_GRAZING, [0.0, 0.13, 9.1]),
+    known(
+        "Light very near a caster",
+        "atlas-*",
+        CLIPPED,
+        [0.06, 0.0, 0.06],
+    ),
+    known(
+        "Light 1e-6 from a tilted caster",
+        "atlas-*",
+        CLIPPED,
+        [0.25, 0.0, 0.41],
+    ),
+    known(
+        "Far from the origin, plain f32",
+        "atlas-*",
+        POSITIONS,
+        [0.0017, 0.00077, 0.39],
+    ),
     known("Grazing light", "flat-hw", ONE_DEPTH, [0.01, 0.00029, 11.5]),
     known(
         "Light very near a caster",

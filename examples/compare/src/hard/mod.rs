@@ -38,7 +38,7 @@ pub const SIZE: [u32; 2] = [320, 240];
 /// Texels along a map's side.
 const SIDE: u32 = 512;
 /// The named techniques that are tried.
-const NAMES: [&str; 16] = [
+const NAMES: [&str; 17] = [
     "cube-hard",
     "cube-2x2",
     "cube-hw",
@@ -48,6 +48,7 @@ const NAMES: [&str; 16] = [
     "flat-2x2",
     "flat-hw",
     "flat-disk",
+    "atlas-2x2",
     "volume",
     "volume-cpu",
     "volume-compute",

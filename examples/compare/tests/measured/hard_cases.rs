@@ -369,7 +369,11 @@ fn frames_around_it_leave_a_picture_as_it_is_alone() {
                     continue;
                 }
                 // A sun's map lies where its casters were, as long as it holds them.
-                let may_lie_elsewhere = matches!(technique.config, Config::Flat { .. });
+                let may_lie_elsewhere = match technique.config {
+                    Config::Flat { .. } => true,
+                    Config::Atlas { .. } => stage.inputs.light.is_directional(),
+                    _ => false,
+                };
                 if case.course == Course::ComeAndGo && may_lie_elsewhere {
                     continue;
                 }
