@@ -158,7 +158,12 @@ suites() {
         home=$(home "$suite")
         filter=
         [ "$home" = "$suite" ] || filter=${suite#"$home"::}::
-        echo "$suite $(sed -n "s/^$home //p" "$out/binaries") $filter"
+        binary=$(sed -n "s/^$home //p" "$out/binaries")
+        if [ -z "$binary" ]; then
+            echo "$suite: $home was not built; see what cargo test --no-run --all-features says" >&2
+            return 1
+        fi
+        echo "$suite $binary $filter"
     done
 }
 
