@@ -54,6 +54,7 @@ fn host() -> Vec<Module> {
             &[&sampled, &masked, &file("masked_lit.wgsl")],
         ),
         Module::new("host-masked-casters", leaves + &file("caster.wgsl")),
+        Module::new("host-depth-bounds", file("depth_bounds.wgsl")),
     ]
 }
 
