@@ -135,7 +135,8 @@ fn shadows_on_{map}_{suffix}(
 }
 
 /// The cascades of a directional light: the first that holds all that the kernel reads, and within the
-/// band before its end the next one, too.
+/// band before its end the next one, too, as far as that holds it as well: one that is fitted tightly to what
+/// is farther away need not hold what is near the eye.
 fn cascades(kernel: Kernel, plane: Plane) -> String {
     let Extra {
         pixel_parameter,
@@ -171,7 +172,11 @@ fn shadows_on_cascades_{suffix}(
         return lit;
     }}
     let other = shadows_light[first.tiles.y + next];
-    return mix(shadows_on_flat_{suffix}(other, position, {arguments}{pixel}), lit, saturate(share));
+    let own = max(share, 1.0 - shadows_cascade_room(other, position) * record.per_blend);
+    if own >= 1.0 {{
+        return lit;
+    }}
+    return mix(shadows_on_flat_{suffix}(other, position, {arguments}{pixel}), lit, saturate(own));
 }}
 "
     )

@@ -1,9 +1,12 @@
 //! Where one cascade ends and the next begins: no worse than beside there, and no texel but a cascade's own.
 
 use crate::atlas_cascades::{EYE, Field, HALF, Sun, TOWARD, inside, sun, view};
+use glam::camera::rh::{proj::directx as proj, view::look_to_mat4};
 use glam::{DVec3, DVec4, Vec3};
 use host::gpu::Gpu;
-use shadows::{AtlasTile, CascadeFit, CascadeSplit, Cascades, Kernel, glam, wgpu};
+use shadows::{
+    AtlasTile, CascadeFit, CascadeSplit, Cascades, DepthConvention, Kernel, View, glam, wgpu,
+};
 
 const SIZE: u32 = 256;
 const POINTS: usize = 250_000;
@@ -137,6 +140,15 @@ fn blends_foreign(module: String) -> String {
     )
 }
 
+/// The same, whether it holds the point or not.
+fn blends_unheld(module: String) -> String {
+    changed(
+        &module,
+        "max(share, 1.0 - shadows_cascade_room(other, position) * record.per_blend)",
+        "share",
+    )
+}
+
 /// Of a kernel, the strips at the ends of the first two cascades.
 fn found(
     gpu: &Gpu,
@@ -210,6 +222,15 @@ fn stored(layer: &[f32], side: u32, tile: &AtlasTile, point: DVec3) -> Option<bo
         .then_some(away > 0.5 * depth_of_texel)
 }
 
+/// The atlas's layers, and how many texels they have along a side.
+fn layers(gpu: &Gpu, texture: &wgpu::Texture) -> (Vec<Vec<f32>>, u32) {
+    let layers = (0..texture.depth_or_array_layers()).map(|layer| {
+        let bytes = gpu.read_texture(texture, layer, wgpu::TextureAspect::DepthOnly);
+        bytemuck::pod_collect_to_vec(&bytes)
+    });
+    (layers.collect(), texture.width())
+}
+
 #[test]
 fn every_point_reads_the_texel_of_its_own_cascade() {
     let Some(gpu) = Gpu::for_test() else { return };
@@ -224,13 +245,7 @@ fn every_point_reads_the_texel_of_its_own_cascade() {
         &field.casters,
     );
     let tiles = drawn.atlas.tiles(0, 0);
-    let texture = drawn.atlas.texture();
-    let side = texture.width();
-    let layers = (0..texture.depth_or_array_layers()).map(|layer| {
-        let bytes = gpu.read_texture(texture, layer, wgpu::TextureAspect::DepthOnly);
-        bytemuck::pod_collect_to_vec(&bytes)
-    });
-    let layers: Vec<Vec<f32>> = layers.collect();
+    let (layers, side) = layers(&gpu, drawn.atlas.texture());
     // As the shader chooses, but for points within rounding of a border.
     let expected = |point: Vec3| {
         let rooms: Vec<f64> = tiles.iter().map(|tile| inside(tile, point) - 1.5).collect();
@@ -256,4 +271,61 @@ fn every_point_reads_the_texel_of_its_own_cascade() {
         let count = foreign(twin);
         assert!(count > 100, "{count}");
     }
+}
+
+/// Tight fits end toward the eye, too: there a cascade's band lies where the next one says nothing.
+#[test]
+fn a_point_that_the_next_cascade_does_not_hold_is_its_own_cascades_alone() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let field = Field::new(&gpu);
+    let ground = Ground::new(&field);
+    let mut drawn = Sun::new(&gpu, Kernel::Hard);
+    // All equally long, 21, and half of that turns into the next one; longer than what is seen is wide.
+    let tight = Cascades {
+        fit: CascadeFit::Tight,
+        split: CascadeSplit::Practical { lambda: 0.0 },
+        ..cascades(0.5)
+    };
+    let narrow = proj::perspective_infinite_reverse(0.3, 1.6, 1.0);
+    let camera = look_to_mat4(EYE - 25.0 * Vec3::X, Vec3::X, Vec3::Y);
+    let view = View::new(narrow * camera, DepthConvention::InfiniteReverse).unwrap();
+    drawn.draw(&gpu, &sun(tight, SIZE), &view, &field.casters);
+    let tiles = drawn.atlas.tiles(0, 0);
+    let (layers, side) = layers(&gpu, drawn.atlas.texture());
+    let is_blocked = |point: Vec3| {
+        let rooms: Vec<f64> = tiles.iter().map(|tile| inside(tile, point) - 1.5).collect();
+        let at = rooms.iter().position(|room| *room > 0.0)?;
+        let texel =
+            2.0 / f64::from(tiles[at].clip_from_world.row(0).truncate().length() * SIZE as f32);
+        // The half of the band in which the next one has the greater part.
+        let is_unheld =
+            rooms[at] < 0.5 * 10.5 / texel && rooms.get(at + 1).is_some_and(|next| *next < -1e-2);
+        let is_sure = rooms[..=at].iter().all(|room| room.abs() > 1e-2);
+        let tile = &tiles[at];
+        let layer = &layers[tile.layer as usize];
+        let known = stored(layer, side, tile, point.as_dvec3());
+        known.filter(|_| is_unheld && is_sure)
+    };
+    let expected: Vec<Option<bool>> = ground
+        .points
+        .iter()
+        .map(|(point, _)| is_blocked(*point))
+        .collect();
+    let blocked = expected.iter().filter(|blocked| **blocked == Some(true));
+    let blocked = blocked.count();
+    let wrong = |change: Change| {
+        let questions = drawn.changed_questions(&gpu, &ground.points, change);
+        let said = drawn.ask(&gpu, &questions);
+        let answers = said.iter().zip(&expected);
+        let own = |blocked: bool| if blocked { 0.0 } else { 1.0 };
+        answers
+            .filter(|(said, expected)| expected.is_some_and(|blocked| **said != own(blocked)))
+            .count()
+    };
+    let (mended, twin) = (wrong(|module| module), wrong(blends_unheld));
+    println!("{blocked} in shadow, {mended} wrong, twin {twin}");
+    assert!(blocked > 100, "{blocked} points");
+    assert_eq!(mended, 0);
+    // The broken twin: beyond the next one's tile all is lit.
+    assert!(twin > blocked / 2, "{twin} of {blocked}");
 }
