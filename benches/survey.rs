@@ -1,8 +1,8 @@
 //! What the cheap techniques cost, in one run.
 //!
-//! - `blob_decals_10000`, `blob_decals_1000`: so many blobs over a floor at 1280x720, a sun of slope 0.05 and a
+//! - `blob_decals_10000_vs_1000`: so many blobs over a floor at 1280x720, a sun of slope 0.05 and a
 //!   reach of 1 m, in one draw: encode and wait for the device. All cover the same part of the picture, so the
-//!   fewer are larger. `blob_decals_10000_vs_1000` is the ratio.
+//!   fewer are larger.
 //! - `planar_draws_10000_vs_1000`: so many boxes in rows onto a floor under a sun, into a stencil of 1280x720;
 //!   `planar_soft_10000_vs_1000`: the same from 4 places of the sun into 512x512 texels, and
 //!   `projected_10000_vs_1000` into a tile of 1024x1024 and its mips, each with its `prepare`, without a cache.

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Every picture and every measured figure of README.md and docs/, anew on this machine.
+# The pictures of README.md and docs/ and the figures between markers there, anew on this machine. Other tables say
+# beside them by which command they were made.
 #
 #   scripts/report.sh             all of them (an hour on two cores)
 #   scripts/report.sh PART...     some: scenes kernels cheap gallery volume-debug volume-start picture models

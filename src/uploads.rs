@@ -46,8 +46,7 @@ pub(crate) struct Uploads {
 
 impl Uploads {
     pub fn new(device: &wgpu::Device) -> Self {
-        let limit = device.limits().max_buffer_size;
-        let limit = limit - limit % wgpu::COPY_BUFFER_ALIGNMENT;
+        let limit = crate::map::largest_buffer(device);
         Self {
             belt: StagingBelt::new(device.clone(), CHUNK.min(limit)),
             limit,

@@ -172,7 +172,9 @@ fn shadows_on_cascades_{suffix}(
         return lit;
     }}
     let other = shadows_light[first.tiles.y + next];
-    let own = max(share, 1.0 - shadows_cascade_room(other, position) * record.per_blend);
+    // Both bands are as wide in the world; each room is in texels of its own.
+    let per_blend = record.per_blend * (record.texels / other.texels);
+    let own = max(share, 1.0 - shadows_cascade_room(other, position) * per_blend);
     if own >= 1.0 {{
         return lit;
     }}

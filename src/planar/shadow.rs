@@ -139,7 +139,6 @@ impl PlanarShadow {
         self.follow_lights(frame);
         self.write_uniforms(device, frame);
         self.make_pipelines(device);
-        self.counts = [frame.lights.len(), frame.planes.len(), frame.views.len()];
         self.statistics = PlanarStatistics {
             not_encoded,
             encoder_dropped,

@@ -3,10 +3,9 @@
 use glam::{DAffine3, DVec3, DVec4, Vec3};
 
 use super::descriptor::{ProjectedCaster, Projector};
-use super::fit::is_in_range;
+use super::fit::casting_bounds;
 use crate::map::FlatFrame;
 use crate::mesh::{CasterMesh, InstanceLayout};
-use crate::scene::CasterBounds;
 
 /// `Instance` in projected_caster.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -65,10 +64,9 @@ pub(super) fn list(
     instances: &mut Vec<Instance>,
     draws: &mut Vec<Draw>,
 ) {
-    let drawn = casters.iter().enumerate().filter(|(_, caster)| {
-        let caster = &caster.caster;
-        caster.mesh.triangle_count() > 0 && is_in_range(light, &CasterBounds::of(caster))
-    });
+    let casts = |caster: &ProjectedCaster| casting_bounds(light, &caster.caster).is_some();
+    let drawn = casters.iter().enumerate();
+    let drawn = drawn.filter(|(_, caster)| casts(caster));
     let rows = Rows::of(frame);
     let mut members: Vec<Member> = drawn
         .map(|(index, caster)| {

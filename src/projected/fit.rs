@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::statistics::ProjectorState;
 use crate::map::{FlatFrame, axes, fit_spot};
 use crate::scene::CasterBounds;
-use crate::{DirectionalLight, Light, SpotLight};
+use crate::{Caster, DirectionalLight, Light, SpotLight};
 
 /// The widest square: the tangent of the angle to each side, 84 degrees.
 const WIDEST: f64 = 10.0;
@@ -17,15 +17,13 @@ const MARGIN: f64 = 1.0;
 /// Rounding of what `f32` holds, as a part of it.
 const ROUNDING: f64 = f32::EPSILON as f64;
 
-/// The frame of a tile of so many texels along a side; its `near` is the distance along the light's direction at
+/// The frame of a tile of so many texels along a side, around casters in range; its `near` is the distance along the light's direction at
 /// which the nearest caster begins.
 pub(super) fn fit(
     light: &Light,
     casters: &[CasterBounds],
     size: u32,
 ) -> Result<FlatFrame, ProjectorState> {
-    let casters = casters.iter().filter(|caster| is_in_range(light, caster));
-    let casters: &[CasterBounds] = &casters.copied().collect::<Vec<_>>();
     let frame = match light {
         Light::Point(light) => around(light.position, light.range, casters, size)?,
         Light::Spot(light) => fit_cone(light, casters, size)?,
@@ -35,9 +33,15 @@ pub(super) fn fit(
     fits.then_some(frame).ok_or(ProjectorState::BeyondF32)
 }
 
-/// Whether any of a caster may be within a light's range. What is beyond has no shadow there; in a tile's picture,
-/// which knows no depth, it would darken what lies before it.
-pub(super) fn is_in_range(light: &Light, caster: &CasterBounds) -> bool {
+/// The bounds of a caster that has a shadow within the light's range; `None` if it is empty or beyond. What is beyond
+/// would darken, in a tile's picture, which knows no depth, what lies before it.
+pub(super) fn casting_bounds(light: &Light, caster: &Caster) -> Option<CasterBounds> {
+    let bounds = (caster.mesh.triangle_count() > 0).then(|| CasterBounds::of(caster))?;
+    is_in_range(light, &bounds).then_some(bounds)
+}
+
+/// Whether any of a caster may be within a light's range.
+fn is_in_range(light: &Light, caster: &CasterBounds) -> bool {
     let (position, range) = match light {
         Light::Point(light) => (light.position, light.range),
         Light::Spot(light) => (light.position, light.range),
@@ -77,8 +81,10 @@ fn around(
     casters: &[CasterBounds],
     size: u32,
 ) -> Result<FlatFrame, ProjectorState> {
-    let casters = casters.iter();
-    let casters: Vec<CasterBounds> = casters.map(|caster| caster.relative_to(position)).collect();
+    let casters: Vec<CasterBounds> = casters
+        .iter()
+        .map(|caster| caster.relative_to(position))
+        .collect();
     let toward = middle(&casters).ok_or(ProjectorState::Empty)?;
     let forward = toward.try_normalize().ok_or(ProjectorState::Surrounded)?;
     let [right, up, forward] = axes(forward);

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::descriptor::{ProjectedCaster, ProjectedFrame, Projector};
-use super::fit::fit;
+use super::fit::{casting_bounds, fit};
 use super::statistics::ProjectorState;
 use super::texture::LEAST_TILE;
 use crate::Light;
@@ -21,7 +21,9 @@ struct Key {
 
 impl Key {
     fn of(projector: &Projector<'_>) -> Self {
-        let casters = projector.casters.iter().filter(|caster| casts(caster));
+        let light = &projector.light;
+        let casts = |caster: &&ProjectedCaster| casting_bounds(light, &caster.caster).is_some();
+        let casters = projector.casters.iter().filter(casts);
         // A sum, as of a map's tiles: see `scene::casters`.
         let sum = casters.fold(0, |sum: u128, caster| {
             let mut digest = Digest::new();
@@ -31,7 +33,7 @@ impl Key {
         });
         let mut digest = Digest::new();
         take(&mut digest, sum);
-        take_light(&mut digest, &projector.light);
+        take_light(&mut digest, light);
         Self {
             digest: digest.finish(),
             size: projector.size,
@@ -61,10 +63,6 @@ fn take_light(digest: &mut Digest, light: &Light) {
             digest.take_f32(&light.toward_light.to_array());
         }
     }
-}
-
-fn casts(caster: &ProjectedCaster) -> bool {
-    caster.caster.mesh.triangle_count() > 0
 }
 
 /// One shadow.
@@ -219,8 +217,8 @@ impl Wanted {
 }
 
 fn entry(key: Key, projector: &Projector<'_>) -> Entry {
-    let casters = projector.casters.iter().filter(|caster| casts(caster));
-    let bounds = casters.map(|caster| CasterBounds::of(&caster.caster));
+    let casters = projector.casters.iter();
+    let bounds = casters.filter_map(|caster| casting_bounds(&projector.light, &caster.caster));
     let bounds: Vec<CasterBounds> = bounds.collect();
     Entry {
         key,

@@ -40,7 +40,8 @@ pub(super) fn beside_edges<'a>(
         })
 }
 
-/// How far, at most, rays at these offsets are from the own one between the light and the plane.
+/// How far, at most, rays at these offsets are from the own one between the light and the plane: infinitely, if one
+/// misses the plane.
 fn beam(rays: &Rays, position: DVec3, to_light: DVec3, across: f64) -> f64 {
     const AROUND: u32 = 16;
     let along = to_light.normalize();
@@ -50,7 +51,7 @@ fn beam(rays: &Rays, position: DVec3, to_light: DVec3, across: f64) -> f64 {
         let length = across / (std::f64::consts::PI / f64::from(AROUND)).cos();
         let (v, u) = angle.sin_cos();
         let met = rays.meet(length * u, length * v);
-        met.map_or(0.0, |met| {
+        met.map_or(f64::INFINITY, |met| {
             (met - position).reject_from_normalized(along).length()
         })
     };

@@ -166,7 +166,8 @@ impl ReferenceImage {
 
     /// Whether the reference says `lit` for all light rays within the radius: on rings at most half
     /// a texel apart, as are the rays on each, the outermost first since it most likely disagrees; then beside
-    /// the edges of casters, whose shadows may be thinner than that.
+    /// the edges of casters, whose shadows may be thinner than that. Not of a light map, which no rays of the light make:
+    /// thinner shadows on it count as interior.
     fn light_agrees(&self, seen: &Seen, lit: bool, radius: Radius) -> bool {
         let light = self.lighting.light.xyz();
         let rays = Rays::new(&radius.map, light, seen.surface.position, seen.normal);
@@ -194,7 +195,7 @@ impl ReferenceImage {
             )
             .all(|place| agrees(place.to_array()))
         };
-        on_rings && beside_edges()
+        on_rings && (matches!(radius.map, MapRays::Surface) || beside_edges())
     }
 
     /// Whether the light reaches a point of the pixel's tangent plane.

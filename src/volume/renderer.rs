@@ -267,8 +267,10 @@ impl ShadowVolumeRenderer {
 
     /// Has the next [`prepare`](Self::prepare) find every volume anew: for a host that has lost what
     /// was recorded in a way that the renderer cannot see, or has written into a mesh's buffer
-    /// without a new revision.
+    /// without a new revision. Until that is encoded [`render`](Self::render) is
+    /// [`VolumeRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
+        (self.prepared, self.encoded) = (false, false);
         self.cache.forget_all();
         self.meshes.forget_all();
         self.renew();

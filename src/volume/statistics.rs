@@ -85,7 +85,8 @@ pub struct VolumeStatistics {
     /// (the sun, all that are turned alike) share theirs.
     pub casters_extracted: u32,
     /// Dispatches that `encode` records: two where compute shaders look for silhouettes and one that makes
-    /// the draws which casters share, however many lights and meshes there are. One more for each buffer that positions of the host lie in
+    /// the draws which casters share, however many lights and meshes there are. One more for each buffer
+    /// that positions of the host lie in
     /// ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and more where
     /// volumes or meshes are too large for one buffer.
     pub dispatches: u32,

@@ -144,9 +144,14 @@ fn blends_foreign(module: String) -> String {
 fn blends_unheld(module: String) -> String {
     changed(
         &module,
-        "max(share, 1.0 - shadows_cascade_room(other, position) * record.per_blend)",
+        "max(share, 1.0 - shadows_cascade_room(other, position) * per_blend)",
         "share",
     )
+}
+
+/// The room in the next cascade is taken to be in texels of this one.
+fn counts_texels_alike(module: String) -> String {
+    changed(&module, " * (record.texels / other.texels)", "")
 }
 
 /// Of a kernel, the strips at the ends of the first two cascades.
@@ -328,4 +333,59 @@ fn a_point_that_the_next_cascade_does_not_hold_is_its_own_cascades_alone() {
     assert_eq!(mended, 0);
     // The broken twin: beyond the next one's tile all is lit.
     assert!(twin > blocked / 2, "{twin} of {blocked}");
+}
+
+/// By its end a cascade has become the next one, however much wider that one's texels are: else the picture would
+/// jump there.
+#[test]
+fn at_its_end_a_cascade_has_turned_into_the_next() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let field = Field::new(&gpu);
+    let ground = Ground::new(&field);
+    let mut drawn = Sun::new(&gpu, Kernel::Hard);
+    let tight = Cascades {
+        fit: CascadeFit::Tight,
+        ..cascades(0.5)
+    };
+    // Half of the 3 and of the 12 units that they are long.
+    let bands = [1.5, 6.0];
+    let view = view(1.0, EYE, Vec3::X);
+    drawn.draw(&gpu, &sun(tight, SIZE), &view, &field.casters);
+    let tiles = drawn.atlas.tiles(0, 0);
+    let (layers, side) = layers(&gpu, drawn.atlas.texture());
+    let next_is_blocked = |point: Vec3| {
+        let room = |tile: &AtlasTile| {
+            let texels = tile.clip_from_world.row(0).truncate().length() * SIZE as f32;
+            (inside(tile, point) - 1.5) * 2.0 / f64::from(texels)
+        };
+        let rooms: Vec<f64> = tiles.iter().map(room).collect();
+        let at = rooms.iter().position(|room| *room > 0.0)?;
+        let band = *bands.get(at)?;
+        let is_at_end = rooms[at] < 0.1 * band && rooms[at + 1] > band;
+        let is_sure = rooms[..=at].iter().all(|room| room.abs() > 1e-3);
+        let next = &tiles[at + 1];
+        let layer = &layers[next.layer as usize];
+        stored(layer, side, next, point.as_dvec3()).filter(|_| is_at_end && is_sure)
+    };
+    let next: Vec<Option<bool>> = ground
+        .points
+        .iter()
+        .map(|(point, _)| next_is_blocked(*point))
+        .collect();
+    let known = next.iter().flatten().count();
+    let others = |change: Change| {
+        let questions = drawn.changed_questions(&gpu, &ground.points, change);
+        let said = drawn.ask(&gpu, &questions);
+        let is_other = |said: f32, blocked: bool| (said - f32::from(!blocked)).abs() > 0.11;
+        said.iter()
+            .zip(&next)
+            .filter(|(said, next)| next.is_some_and(|blocked| is_other(**said, blocked)))
+            .count()
+    };
+    let (mended, twin) = (others(|module| module), others(counts_texels_alike));
+    println!("{known} at an end, {mended} another's, twin {twin}");
+    assert!(known > 1000, "{known} points");
+    assert_eq!(mended, 0);
+    // The broken twin: the next one's texels are taken to be as wide.
+    assert!(twin > 20, "{twin} of {known}");
 }

@@ -31,7 +31,7 @@ fn silent(text: &str) -> (usize, Vec<String>) {
         count += 1;
         let head = lines[..at].iter().rev();
         let mut head = head.take_while(|line| !line.trim().is_empty() && line.trim() != "}");
-        if !head.any(|line| line.contains("#[non_exhaustive]") || line.contains("xhaustive")) {
+        if !head.any(|line| line.contains("#[non_exhaustive]") || line.contains("Exhaustive")) {
             silent.push(name.to_owned());
         }
     }

@@ -416,6 +416,8 @@ fn a_forgotten_encode_and_a_dropped_encoder_are_told_and_mended() {
             (false, false, 0)
         );
         renderer.invalidate();
+        theatre.gpu.run(|encoder| renderer.encode(encoder));
+        assert!(render(&renderer) == not_encoded, "{way:?}: invalid");
         let (counts, told) = theatre.draw(&mut renderer, &frame);
         assert!(counts == right && told.casters_extracted == 12, "{way:?}");
     }

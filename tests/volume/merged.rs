@@ -95,6 +95,35 @@ fn a_thousand_casters_take_a_handful_of_draws() {
     assert!(by_vertices.draws >= 1_000, "{by_vertices:?}");
 }
 
+#[test]
+fn a_draw_is_made_anew_only_where_a_list_was_found_anew() {
+    let (device, queue) = bare();
+    let mut renderer = renderer(&device, Silhouettes::Compute, Method::ZFail);
+    let view = mixed(lamp()).view();
+    let mesh = mesh(&device, &shapes::sphere(4));
+    let mut dispatches = |x: f32, toward_light: Vec3| {
+        let place = Affine3A::from_translation(Vec3::new(x, 0.5, 0.0));
+        let casters = [Caster::new(mesh.clone(), place)];
+        let frame = ShadowVolumeFrame {
+            lights: &[HomogeneousLight::directional(toward_light).into()],
+            views: &[view.into()],
+            casters: &casters,
+            ..Default::default()
+        };
+        renderer.prepare(&device, &queue, &frame).unwrap();
+        let mut encoder = device.create_command_encoder(&Default::default());
+        renderer.encode(&mut encoder);
+        queue.submit([encoder.finish()]);
+        renderer.statistics().dispatches
+    };
+    assert_eq!(dispatches(0.0, Vec3::Y), 3);
+    // A sun finds the same silhouette wherever a caster is moved to, now or frames later.
+    assert_eq!(dispatches(0.1, Vec3::Y), 0);
+    assert_eq!(dispatches(0.1, Vec3::Y), 0);
+    assert_eq!(dispatches(0.2, Vec3::Y), 0);
+    assert_eq!(dispatches(0.2, Vec3::ONE), 3);
+}
+
 /// What the vertex way counts, whose draws have one caster each.
 struct Expected<'a> {
     theatre: &'a Theatre,

@@ -194,7 +194,7 @@ impl PlanarSoftShadow {
     }
 
     /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the texture drawn again. For a host that has
-    /// lost what was recorded in a way that cannot be seen here.
+    /// lost what was recorded in a way that cannot be seen here. What was prepared and not yet encoded is dropped.
     pub fn invalidate(&mut self) {
         self.draws = None;
         self.shown = None;

@@ -295,8 +295,12 @@ impl VolumeCache {
         wanted.dedup();
         let is_wanted = |slot: &Slot| slot.drawn > 0 && !slot.found;
         wanted.retain(|&number| self.get(number).is_some_and(is_wanted));
+        for number in std::mem::take(&mut self.last_found) {
+            if let Some(slot) = self.get_mut(number) {
+                slot.new = false;
+            }
+        }
         if wanted.is_empty() {
-            self.last_found.clear();
             return wanted;
         }
         wanted.sort_by_key(|&number| self.get(number).map(|slot| slot.mesh.id()));
@@ -316,11 +320,7 @@ impl VolumeCache {
                 }
             }
         }
-        for number in std::mem::replace(&mut self.last_found, wanted.clone()) {
-            if let Some(slot) = self.get_mut(number) {
-                slot.new = false;
-            }
-        }
+        self.last_found.clone_from(&wanted);
         wanted
     }
 

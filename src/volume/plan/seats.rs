@@ -32,7 +32,8 @@ impl Seats {
         let mut seats = self.0.iter_mut();
         drawn_as.draws(|draw| {
             let Some(seat) = seats.next() else { return };
-            let (key, seated) = (key(&draw, slot, side_vertices), seated(&draw, slot));
+            let key = key(&draw, slot, side_vertices);
+            let seated = seated(&draw, slot, key.own);
             if let Some(had) = *seat {
                 if merged.keep(had, &key, seated, slot.is_new()) {
                     return;
@@ -70,9 +71,8 @@ fn key(draw: &Draw, slot: &Slot, side_vertices: u32) -> DrawKey {
 }
 
 /// A caster in a draw of its own has nothing but its number.
-fn seated(draw: &Draw, slot: &Slot) -> Seated {
+fn seated(draw: &Draw, slot: &Slot, own: bool) -> Seated {
     let caps = draw.style.faces.are_caps();
-    let own = slot.way == Way::Vertex || caps && slot.mesh.triangle_count() >= OWN_CAPS;
     let member = Member {
         caster: draw.window,
         count: 0,

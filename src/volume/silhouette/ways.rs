@@ -30,8 +30,9 @@ pub enum Silhouettes {
     ///
     /// Weaker than the others in three ways: its work grows with the mesh, not the silhouette; casters
     /// share no draws (their triangles and edges lie in buffers of their own, and without storage buffers
-    /// a vertex knows its caster by what is bound), so there are two to five for each; and where more than two triangles meet in an edge, they are taken in pairs, so that sides may be
-    /// drawn which cancel each other. The picture is the same.
+    /// a vertex knows its caster by what is bound), so there are two to five for each; and where more than
+    /// two triangles meet in an edge, they are taken in pairs, so that sides may be drawn which cancel each
+    /// other. The picture is the same.
     Vertex,
 }
 

@@ -6,7 +6,7 @@ use crate::common::shapes::{cuboid, square};
 use host::gpu::Gpu;
 use shadows::glam::{Affine3A, Vec3};
 use shadows::{
-    Caster, DirectionalLight, ProjectedCaster, ProjectedFrame, ProjectedShadow,
+    Caster, DirectionalLight, PointLight, ProjectedCaster, ProjectedFrame, ProjectedShadow,
     ProjectedShadowDescriptor, Projector,
 };
 
@@ -37,6 +37,26 @@ fn is_right(gpu: &Gpu, shadow: &ProjectedShadow, xs: &[f32]) -> bool {
             .map(|x| [f32::from(u8::from(*x != xs[projector])); 3]);
         seen.into_iter().eq(expected)
     })
+}
+
+#[test]
+fn what_moves_beyond_a_lights_range_has_nothing_drawn_again() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut shadow = shadow(&gpu, 1024);
+    let mesh = at(&gpu, 0.0).caster.mesh;
+    let mut drawn = |xs: [f32; 2]| {
+        let place = |x: f32| Affine3A::from_translation(Vec3::new(x, 1.0, 0.0));
+        let caster = |x: f32| ProjectedCaster::opaque(Caster::new(mesh.clone(), place(x)));
+        let casters = xs.map(caster);
+        let light = PointLight::new(Vec3::Y * 4.0, 8.0);
+        draw(&gpu, &mut shadow, &[Projector::new(light, &casters)]);
+        shadow.statistics().shadows_drawn
+    };
+    assert_eq!(drawn([0.0, 50.0]), 1);
+    assert_eq!(drawn([0.0, 60.0]), 0);
+    assert_eq!(drawn([0.1, 60.0]), 1);
+    // What comes into range is drawn.
+    assert_eq!(drawn([0.1, 1.0]), 1);
 }
 
 #[test]
