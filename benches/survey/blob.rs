@@ -12,7 +12,7 @@ use shadows::{
     DirectionalLight, wgpu,
 };
 
-use crate::sides::{kept_vs_moving, many_vs_few};
+use crate::sides::{kept_vs_moving, many_vs_few, places};
 
 const SIZE: [u32; 2] = [1280, 720];
 
@@ -35,20 +35,10 @@ fn empty() -> Scene {
     scene
 }
 
-/// So many in rows on the floor, of which they leave half.
+/// So many in rows on the floor.
 fn rows(count: usize) -> Vec<Blob> {
-    let row = (count as f32).sqrt();
-    let step = 16.0 / row;
-    let at = |i: usize| {
-        let (x, z) = (
-            (i as f32 % row).floor() + 0.5,
-            (i as f32 / row).floor() + 0.5,
-        );
-        Vec3::new(x * step - 8.0, 0.4 * step, z * step - 8.0)
-    };
-    (0..count)
-        .map(|i| Blob::sphere(at(i), 0.35 * step))
-        .collect()
+    let (places, radius) = places(count);
+    places.map(|place| Blob::sphere(place, radius)).collect()
 }
 
 pub fn decals(gpu: &Gpu, rounds: u32) {

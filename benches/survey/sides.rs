@@ -12,17 +12,24 @@ use crate::shapes::cuboid;
 /// Half the side of the square that casters stand on.
 pub const HALF: f32 = 8.0;
 
-/// So many boxes of one mesh in rows on a square, of which they leave half: the fewer, the larger.
-pub fn rows(gpu: &Gpu, count: usize) -> Vec<Caster> {
+/// Places for so many in rows on a square, and half the side of each, by which they leave half of the square: the
+/// fewer, the larger.
+pub fn places(count: usize) -> (impl Iterator<Item = Vec3>, f32) {
     let row = (count as f32).sqrt();
     let step = 2.0 * HALF / row;
-    let mesh = cuboid(Vec3::splat(0.35 * step)).mesh(&gpu.device);
-    let at = |i: usize| {
+    let at = move |i: usize| {
         let [x, z] = [i as f32 % row, i as f32 / row].map(|at| (at.floor() + 0.5) * step - HALF);
         Vec3::new(x, 0.4 * step, z)
     };
-    (0..count)
-        .map(|i| Caster::new(mesh.clone(), Affine3A::from_translation(at(i))))
+    ((0..count).map(at), 0.35 * step)
+}
+
+/// So many boxes of one mesh at these places.
+pub fn rows(gpu: &Gpu, count: usize) -> Vec<Caster> {
+    let (places, half) = places(count);
+    let mesh = cuboid(Vec3::splat(half)).mesh(&gpu.device);
+    places
+        .map(|place| Caster::new(mesh.clone(), Affine3A::from_translation(place)))
         .collect()
 }
 

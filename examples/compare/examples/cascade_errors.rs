@@ -4,7 +4,7 @@
 //! ```text
 //! cargo run --all-features --example cascade_errors -- --scene valley --size 640x360 TRY..
 //! ```
-//! A try is a name or `name=settings`, see [`Try::parse`]; without one a table of usual ones is made.
+//! A try is its settings, see [`Try::parse`]; there is one at least.
 
 use std::collections::BTreeMap;
 
@@ -43,7 +43,7 @@ struct Try {
 
 impl Try {
     /// `size:1024,count:4,lambda:0.85,fit:tight,distance:900,margin:0.03,blend:0.1,kernel:hard,reach:1,depths:1`,
-    /// or `warp:1,size:2048`, and `depths:1` with that
+    /// or `warp:1,size:2048`, and `depths:1` with that.
     fn parse(text: &str, distance: f32) -> Result<Self> {
         let mut made = Self {
             name: text.into(),
@@ -187,9 +187,8 @@ fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
     gpu.run(|encoder| {
         stage.renderer.draw_ambient(encoder, &stage.scene_gpu);
         atlas.encode_with(encoder, |pass, asked| {
-            if let Some(masked) = &stage.scene_gpu.masked {
-                masked.draw(&stage.scene_gpu, stage.inputs.casters.len(), pass, asked);
-            }
+            let first = stage.inputs.casters.len();
+            stage.scene_gpu.draw_masked(first, pass, asked);
         });
         stage
             .renderer
@@ -497,7 +496,11 @@ fn main() -> Result<()> {
                     "{verdict:?} at {x},{y} {} N.L {facing:.4} cascade {at}",
                     groups[hit.object as usize]
                 ))?;
-                say(&close_up(&stage, &hit, matrix, tile))?;
+                // A close-up takes the map's matrix as affine.
+                match of.warp {
+                    true => say("no close-up: the map is warped")?,
+                    false => say(&close_up(&stage, &hit, matrix, tile))?,
+                }
             }
             if *verdict != Verdict::NotCounted {
                 total.add(*verdict, interior, ratio);
@@ -514,12 +517,14 @@ fn main() -> Result<()> {
         say(&format!("== {}\n   all       {}", of.name, total.line(all)))?;
         for (at, tally) in &mut by_cascade {
             let (matrix, tile) = seen.tiles[*at];
-            let width = 2.0 / matrix.row(0).truncate().length();
-            say(&format!(
-                "   cascade {at} {}, width {width:.1} texel {:.4}",
-                tally.line(all),
-                width / tile as f32
-            ))?;
+            let mut line = format!("   cascade {at} {}", tally.line(all));
+            // A warped map has no one width.
+            if !of.warp {
+                let width = 2.0 / matrix.row(0).truncate().length();
+                let texel = width / tile as f32;
+                line += &format!(", width {width:.1} texel {texel:.4}");
+            }
+            say(&line)?;
         }
         for (group, tally) in &mut by_group {
             if tally.pixels * 200 > all {

@@ -9,10 +9,12 @@
 //! In the last two wrong pixels have a colour: red where light is false, blue where shadow is. Above each
 //! picture stands what it is.
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Result, bail};
 use compare::label::{self, band};
 use compare::shadow::Shadow;
+use compare::sheet::Sheet;
 use compare::stage::Stage;
+use compare::table;
 use host::gpu::Gpu;
 use host::scene::{Camera, courtyard};
 use shadows::glam::Vec3;
@@ -26,7 +28,7 @@ const COLUMNS: u32 = 4;
 const LEVELS: u32 = 48;
 
 /// Tiles in reading order.
-struct Sheet {
+struct Plan {
     tiles: Vec<Tile>,
     /// Texels of a face.
     side: u32,
@@ -84,10 +86,10 @@ fn close_ups(&(name, words): &(&'static str, &'static str)) -> [Tile; COLUMNS as
     })
 }
 
-fn sheet(kind: &str) -> Result<Sheet> {
+fn plan(kind: &str) -> Result<Plan> {
     Ok(match kind {
         // Few texels, so that kernels show.
-        "--kernels" => Sheet {
+        "--kernels" => Plan {
             tiles: of_one_view(
                 CHAINS,
                 &[
@@ -108,7 +110,7 @@ fn sheet(kind: &str) -> Result<Sheet> {
             side: 512,
             errors: false,
         },
-        "--peers" => Sheet {
+        "--peers" => Plan {
             tiles: of_one_view(
                 LINKS,
                 &[
@@ -125,7 +127,7 @@ fn sheet(kind: &str) -> Result<Sheet> {
             side: 1024,
             errors: true,
         },
-        "--difference" => Sheet {
+        "--difference" => Plan {
             tiles: [
                 ("cube-textbook", "textbook"),
                 ("cube-2x2", "map"),
@@ -176,14 +178,13 @@ fn main() -> Result<()> {
     let [kind, path] = args.as_slice() else {
         bail!("say --kernels, --peers or --difference, and the file to write");
     };
-    let sheet = sheet(kind)?;
+    let plan = plan(kind)?;
     let gpu = Gpu::new(None)?;
-    let rows = (sheet.tiles.len() as u32).div_ceil(COLUMNS);
+    let rows = (plan.tiles.len() as u32).div_ceil(COLUMNS);
     let [across, down] = [TILE[0] + GAP, label::ROWS + TILE[1] + GAP];
-    let size = [COLUMNS * across - GAP, rows * down - GAP];
-    let mut pixels = vec![[255; 3]; (size[0] * size[1]) as usize];
+    let mut sheet = Sheet::new([COLUMNS * across - GAP, rows * down - GAP]);
     let mut views = Vec::new();
-    for (place, shown_as) in (0..).zip(&sheet.tiles) {
+    for (place, shown_as) in (0..).zip(&plan.tiles) {
         let view = view_of(&gpu, &mut views, shown_as.camera)?;
         let View {
             stage, reference, ..
@@ -191,28 +192,25 @@ fn main() -> Result<()> {
         let visibility = match shown_as.name {
             "exact" => reference.visibility(),
             "area" => area(reference),
-            name => shown(&gpu, stage, name, sheet.side)?,
+            name => shown(&gpu, stage, name, plan.side)?,
         };
         let colors = [
             band(TILE[0], &shown_as.words),
-            tile(reference, &visibility, sheet.errors)?,
+            tile(reference, &visibility, plan.errors)?,
         ]
         .concat();
         let corner = [place % COLUMNS * across, place / COLUMNS * down];
-        for (y, row) in (0..).zip(colors.chunks_exact(TILE[0] as usize)) {
-            let at = ((corner[1] + y) * size[0] + corner[0]) as usize;
-            pixels[at..at + row.len()].copy_from_slice(row);
-        }
+        sheet.put(&colors, TILE[0], corner);
     }
-    let file = match sheet.errors {
-        true => host::image::rgb_png(size, &pixels)?,
+    let file = match plan.errors {
+        true => host::image::rgb_png(sheet.size, &sheet.pixels)?,
         false => {
-            let grey: Vec<u8> = pixels.iter().map(|pixel| pixel[0]).collect();
-            host::image::grey_png(size, &grey)?
+            let grey: Vec<u8> = sheet.pixels.iter().map(|pixel| pixel[0]).collect();
+            host::image::grey_png(sheet.size, &grey)?
         }
     };
     std::fs::write(path, file)?;
-    let names: Vec<&str> = sheet.tiles.iter().map(|tile| tile.name).collect();
+    let names: Vec<&str> = plan.tiles.iter().map(|tile| tile.name).collect();
     host::terminal::say(&format!("{path}: {}", names.join(", ")))
 }
 
@@ -237,9 +235,7 @@ fn tile(reference: &ReferenceImage, visibility: &[u8], errors: bool) -> Result<V
 }
 
 fn shown(gpu: &Gpu, stage: &Stage, name: &str, side: u32) -> Result<Vec<u8>> {
-    let row = compare::table::ROWS.iter().find(|row| row.name == name);
-    let technique = row.context("no such technique")?.at(side);
-    let mut shadow = Shadow::new(gpu, &stage.renderer, technique)?;
+    let mut shadow = Shadow::new(gpu, &stage.renderer, table::named(name, side)?)?;
     Ok(stage.picture(gpu, &mut shadow, &stage.inputs)?.visibility)
 }
 

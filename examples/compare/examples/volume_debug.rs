@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, Result};
 use clap::Parser;
 use compare::label::{self, band};
+use compare::sheet::Sheet;
 use host::gpu::Gpu;
 use host::image::rgb_png;
 use host::one_light::{OneLight, PrepareOne as _};
@@ -91,8 +92,12 @@ fn below(words: &str, picture: Vec<[u8; 3]>) -> Vec<[u8; 3]> {
 
 /// Writes panels, two in a row.
 fn save(path: &Path, panels: &[Vec<[u8; 3]>]) -> Result<()> {
-    let height = (label::ROWS + SIZE[1]) * panels.len() as u32 / 2;
-    let png = rgb_png([2 * SIZE[0], height], &sheet(panels))?;
+    let [width, height] = [SIZE[0], label::ROWS + SIZE[1]];
+    let mut sheet = Sheet::new([2 * width, height * panels.len() as u32 / 2]);
+    for (place, panel) in (0..).zip(panels) {
+        sheet.put(panel, width, [place % 2 * width, place / 2 * height]);
+    }
+    let png = rgb_png(sheet.size, &sheet.pixels)?;
     std::fs::write(path, png).with_context(|| path.display().to_string())?;
     say(&path.display().to_string())
 }
@@ -223,16 +228,4 @@ fn guardless() -> wgpu::StencilState {
     state.front.pass_op = wgpu::StencilOperation::Keep;
     state.back.pass_op = wgpu::StencilOperation::Keep;
     state
-}
-
-/// Two panels in a row.
-fn sheet(panels: &[Vec<[u8; 3]>]) -> Vec<[u8; 3]> {
-    let [width, height] = [SIZE[0], label::ROWS + SIZE[1]].map(|side| side as usize);
-    let row = |y: usize| {
-        let pair = 2 * (y / height);
-        let from = y % height * width;
-        [pair, pair + 1].map(|panel| &panels[panel][from..from + width])
-    };
-    let height = height * panels.len() / 2;
-    (0..height).flat_map(row).flatten().copied().collect()
 }

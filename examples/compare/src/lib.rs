@@ -17,6 +17,7 @@ pub mod progress;
 pub mod report;
 pub mod scenes;
 pub mod shadow;
+pub mod sheet;
 pub mod snippet;
 pub mod soft;
 pub mod stage;

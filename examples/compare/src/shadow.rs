@@ -308,9 +308,7 @@ impl Shadow {
     ) {
         let first = self.first_masked;
         let masked = |pass: &mut wgpu::RenderPass<'_>, asked: &HostDraw<'_>| {
-            if let Some(masked) = &scene.masked {
-                masked.draw(scene, first, pass, asked);
-            }
+            scene.draw_masked(first, pass, asked);
         };
         match &mut self.means {
             Means::Cube { map, .. } => map.encode_with(encoder, masked),

@@ -1,5 +1,6 @@
 //! The techniques that have a name. A new one is one more row.
 
+use anyhow::{Context as _, Result};
 use shadows::{
     ContactHardening, Counter, CubeShadowMapDescriptor, Kernel, MapKind, Method, PcfDescriptor,
     RandomDisk, ShadowMapDescriptor, ShadowVolumeDescriptor, Silhouettes, VogelDisk,
@@ -35,6 +36,16 @@ impl PartialEq for Row {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
+}
+
+/// The technique of that name, with maps of `side` texels a side or with its row's own size.
+///
+/// # Errors
+/// If there is none.
+pub fn named(name: &str, side: u32) -> Result<Technique> {
+    let row = ROWS.iter().find(|row| row.name == name);
+    let row = row.with_context(|| format!("{name} is no technique"))?;
+    Ok(row.at(side))
 }
 
 const fn usual(name: &'static str, config: fn(u32) -> Config) -> Row {

@@ -54,8 +54,7 @@ impl Config {
         match self {
             Self::Cube { .. } => light != LightKind::Directional,
             Self::Flat { .. } => light != LightKind::Point,
-            Self::Volume(_) | Self::Atlas { .. } => true,
-            Self::Survey(survey) => survey.applies_to(light),
+            Self::Volume(_) | Self::Atlas { .. } | Self::Survey(_) => true,
             Self::Peer { peer, .. } => match peer.light {
                 PeerLight::Point => light == LightKind::Point,
                 PeerLight::Spot => light == LightKind::Spot,
@@ -83,8 +82,7 @@ impl Config {
                 "flat shadow maps need a spot or directional light, and this one is a point \
                  (--light-kind makes it another)"
             }
-            Self::Volume(_) | Self::Atlas { .. } => "",
-            Self::Survey(survey) => survey.limit(),
+            Self::Volume(_) | Self::Atlas { .. } | Self::Survey(_) => "",
             Self::Peer { peer, .. } => match peer.light {
                 PeerLight::Point => "it is for point lights, and this one is none",
                 PeerLight::Spot => "it is for spots, and this light is none (--light-kind spot)",

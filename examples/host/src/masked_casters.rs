@@ -89,7 +89,7 @@ impl MaskedCasters {
 
     /// Draws what is asked for into its tile's pass, for a frame in whose casters [`casters`](Self::casters)
     /// begin at the place `first`.
-    pub fn draw(
+    pub(super) fn draw(
         &self,
         scene: &SceneGpu,
         first: usize,

@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result, ensure};
 use shadows::glam::{Mat3, Mat4, Vec3};
 use shadows::mesh::{Adjacency, MeshKind};
 use shadows::wgpu::{self, util::DeviceExt as _};
-use shadows::{Caster, CasterMesh};
+use shadows::{Caster, CasterMesh, HostDraw};
 
 use super::gpu::Gpu;
 use super::masked_casters::MaskedCasters;
@@ -109,6 +109,14 @@ impl SceneGpu {
     /// Whether any mesh has a mask.
     pub fn has_masks(&self) -> bool {
         self.meshes.iter().any(|mesh| mesh.mask.is_some())
+    }
+
+    /// Draws those casters that have a mask into a tile's pass, as far as they are asked for; among the frame's
+    /// casters they begin at the place `first`.
+    pub fn draw_masked(&self, first: usize, pass: &mut wgpu::RenderPass<'_>, asked: &HostDraw<'_>) {
+        if let Some(masked) = &self.masked {
+            masked.draw(self, first, pass, asked);
+        }
     }
 }
 

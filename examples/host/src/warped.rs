@@ -4,6 +4,8 @@
 use shadows::glam::{DMat4, DVec3, DVec4, Mat4, Vec3, Vec4Swizzles as _};
 use shadows::mesh::Bounds;
 
+use super::scene;
+
 /// What the camera sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
@@ -34,14 +36,14 @@ pub fn warped(toward_light: Vec3, seen: &Seen, bounds: &Bounds) -> Option<Mat4> 
     let up = back.cross(right);
     let light_from_world = rows([right, up, back]);
     let lit = |point: &DVec3| light_from_world.transform_point3(*point);
-    let (low, high) = extent(body.iter().map(lit));
-    let depth = high.y - low.y;
+    let extent = scene::Bounds::of(body.iter().map(lit));
+    let depth = extent.size().y;
     // How far the warp's own eye is before the body: the error is then the same at both of its ends.
     // The paper's n_opt.
     let near = camera.near;
     let distance = (near + (near * (near + depth * sine)).sqrt()) / sine.max(1e-6);
     let eye = lit(&camera.eye);
-    let start = DVec3::new(eye.x, low.y - distance, eye.z);
+    let start = DVec3::new(eye.x, extent.min.y - distance, eye.z);
     let (first, last) = (distance, distance + depth);
     let warp = DMat4::from_cols(
         DVec4::X,
@@ -54,10 +56,10 @@ pub fn warped(toward_light: Vec3, seen: &Seen, bounds: &Bounds) -> Option<Mat4> 
         let clip = warped_from_world * point.extend(1.0);
         clip.xyz() / clip.w
     };
-    let (low, high) = extent(body.iter().copied().map(through));
+    let extent = scene::Bounds::of(body.iter().copied().map(through));
     // Casters beside the body cast nothing on it; those before it lie on lines of the same x, y and w.
     let depths = casters(&light_from_world, bounds, start, [first, last]);
-    Some((fit(low, high, depths) * warped_from_world).as_mat4())
+    Some((fit(&extent, depths) * warped_from_world).as_mat4())
 }
 
 fn rows(axes: [DVec3; 3]) -> DMat4 {
@@ -65,21 +67,11 @@ fn rows(axes: [DVec3; 3]) -> DMat4 {
     DMat4::from_cols(x, y, z, DVec4::W).transpose()
 }
 
-fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    points.fold(empty, |(low, high), point| {
-        (low.min(point), high.max(point))
-    })
-}
-
 /// Least and greatest warped depth of what lies over the body, toward the light positive.
 fn casters(light_from_world: &DMat4, bounds: &Bounds, start: DVec3, ends: [f64; 2]) -> [f64; 2] {
-    let (low, high) = extent(
-        corners(bounds)
-            .iter()
-            .map(|c| light_from_world.transform_point3(*c)),
-    );
-    let depths = [low.z - start.z, high.z - start.z];
+    let lit = corners(bounds).map(|corner| light_from_world.transform_point3(corner));
+    let lit = scene::Bounds::of(lit.into_iter());
+    let depths = [lit.min.z - start.z, lit.max.z - start.z];
     let all = depths.iter().flat_map(|depth| ends.map(|end| depth / end));
     all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], depth| {
         [low.min(depth), high.max(depth)]
@@ -87,11 +79,11 @@ fn casters(light_from_world: &DMat4, bounds: &Bounds, start: DVec3, ends: [f64; 
 }
 
 /// To -1 to 1 across, 0 to 1 away from the light.
-fn fit(low: DVec3, high: DVec3, [far, near]: [f64; 2]) -> DMat4 {
+fn fit(extent: &scene::Bounds, [far, near]: [f64; 2]) -> DMat4 {
     let margin = 1e-4 * (near - far);
     let (far, near) = (far - margin, near + margin);
-    let size = 1.001 * (high - low);
-    let middle = 0.5 * (high + low);
+    let size = 1.001 * extent.size();
+    let middle = extent.centre();
     let scale = DVec3::new(2.0 / size.x, 2.0 / size.y, -1.0 / (near - far));
     let offset = DVec3::new(
         -middle.x * scale.x,

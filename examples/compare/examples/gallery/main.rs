@@ -14,11 +14,11 @@ mod scenes;
 
 use std::f32::consts::TAU;
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Result, bail};
 use compare::animation::animated_png;
 use compare::lamps::Lamps;
 use compare::stage::Stage;
-use compare::technique::Technique;
+use compare::table;
 use host::gpu::Gpu;
 use host::image::rgb_png;
 use host::renderer::Look;
@@ -61,13 +61,8 @@ fn shaded(gpu: &Gpu, scene: Scene, size: [u32; 2]) -> Result<Vec<[u8; 3]>> {
         ..Default::default()
     };
     let stage = Stage::with_look(gpu, scene, size, look)?;
-    let mut lamps = Lamps::new(gpu, &stage, &technique("atlas-5x5", SIDE)?)?;
+    let mut lamps = Lamps::new(gpu, &stage, &table::named("atlas-5x5", SIDE)?)?;
     Ok(lamps.picture(gpu, &stage)?.shaded)
-}
-
-fn technique(name: &str, side: u32) -> Result<Technique> {
-    let row = compare::table::ROWS.iter().find(|row| row.name == name);
-    Ok(row.context("no such technique")?.at(side))
 }
 
 fn sun(gpu: &Gpu) -> Result<Vec<u8>> {

@@ -4,14 +4,14 @@ use anyhow::Result;
 use compare::animation::animated_png;
 use compare::label::{self, band};
 use compare::shadow::Shadow;
+use compare::sheet::Sheet;
 use compare::stage::Stage;
+use compare::table;
 use compare::temporal::{Path, references, watch_with};
 use host::gpu::Gpu;
 use host::scene::{Camera, courtyard};
 use shadows::glam::vec3;
 use shadows::reference::{Class, ReferenceImage};
-
-use super::technique;
 
 /// A technique's part of the picture, each of its pixels shown as a square of `ZOOM`, and the gap to the next.
 const TILE: [u32; 2] = [156, 104];
@@ -42,7 +42,7 @@ pub fn frames(gpu: &Gpu) -> Result<Vec<u8>> {
     let references = references(gpu, &mut stage, Path::Camera, STEPS)?;
     let mut shown = Vec::new();
     for (name, words) in SHOWN {
-        let mut shadow = Shadow::new(gpu, &stage.renderer, technique(name, SIDE)?)?;
+        let mut shadow = Shadow::new(gpu, &stage.renderer, table::named(name, SIDE)?)?;
         let mut steps = Vec::new();
         watch_with(gpu, &mut stage, Path::Camera, &references, |stage, _| {
             let picture = stage.picture(gpu, &mut shadow, &stage.inputs)?;
@@ -111,14 +111,10 @@ fn size() -> [u32; 2] {
 }
 
 fn beside(tiles: &[Vec<[u8; 3]>]) -> Vec<[u8; 3]> {
-    let [width, height] = size();
-    let across = (ZOOM * TILE[0]) as usize;
-    let mut pixels = vec![[255; 3]; (width * height) as usize];
-    for (tile, left) in tiles.iter().zip((0..).step_by(across + GAP as usize)) {
-        for (y, row) in tile.chunks_exact(across).enumerate() {
-            let at = y * width as usize + left;
-            pixels[at..at + row.len()].copy_from_slice(row);
-        }
+    let across = ZOOM * TILE[0];
+    let mut sheet = Sheet::new(size());
+    for (place, tile) in (0..).zip(tiles) {
+        sheet.put(tile, across, [place * (across + GAP), 0]);
     }
-    pixels
+    sheet.pixels
 }

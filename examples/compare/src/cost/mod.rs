@@ -17,7 +17,7 @@ use crate::output::File;
 use crate::progress::progress;
 use crate::shadow::Shadow;
 use crate::stage::Stage;
-use crate::table::{self, ROWS};
+use crate::table;
 use crate::technique::{Config, Technique};
 use host::gpu::{Gpu, describe};
 use host::peers::PEERS;
@@ -113,13 +113,12 @@ fn entries(counts: &Counts, light: LightKind, side: u32) -> Result<Vec<Entry>> {
             module: visibility_module_with_normals,
         });
     }
-    let textbook = ROWS.iter().find(|row| row.name == "cube-textbook");
-    if let (LightKind::Point, Some(row)) = (light, textbook) {
+    if light == LightKind::Point {
         let name = "cube-linear/textbook".to_owned();
         entries.push(Entry {
             count: counts.of(&name)?,
             name,
-            config: row.at(side).config,
+            config: table::named("cube-textbook", side)?.config,
             module: visibility_module,
         });
     }

@@ -13,9 +13,10 @@ use shadows::{
 use super::cases::mesh::split_square;
 use super::situation::{Situation, at, lamp, sun};
 use super::table::Refusal;
-use super::{SIZE, named, small};
+use super::{SIDE, SIZE, small};
 use crate::shadow::{Shadow, ShadowInputs};
 use crate::stage::Stage;
+use crate::table::named;
 use crate::technique::Technique;
 use host::gpu::Gpu;
 use host::random::Random;
@@ -32,7 +33,7 @@ pub fn refusals(gpu: &Gpu) -> Result<Vec<Refusal>> {
     all.extend(sizes(gpu));
     all.extend(small::maps(gpu)?);
     for name in ["cube-2x2", "flat-2x2", "volume"] {
-        let technique = named(name)?;
+        let technique = named(name, SIDE)?;
         all.extend(frames(gpu, &technique)?);
         all.extend(degenerate(gpu, &technique)?);
     }

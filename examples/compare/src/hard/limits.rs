@@ -4,7 +4,7 @@
 //! but at most one point above it: a technique that loses most of a shadow has no room for more. It
 //! is 0 where that kind of error did not occur.
 
-pub use super::cheap::CHEAP;
+use super::cheap;
 
 /// Why a technique cannot be right, and the bound of its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,9 +17,13 @@ pub struct Limit {
 
 /// The limit of a technique on a case, if one is known.
 pub fn of(case: &str, technique: &str) -> Option<Limit> {
-    let mut all = ALL.iter().chain(CHEAP);
-    let row = all.find(|row| row.is_of(case, technique))?;
+    let row = all().find(|row| row.is_of(case, technique))?;
     Some(row.limit)
+}
+
+/// Those of every technique, but for hardware's own.
+pub fn all() -> impl Iterator<Item = Known> {
+    ALL.iter().copied().chain(cheap::limits())
 }
 
 /// The limit on hardware, if one is known there that software drivers have not.

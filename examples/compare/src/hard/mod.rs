@@ -17,7 +17,7 @@ pub mod trial;
 
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::Result;
 use shadows::{CubeShadowMapDescriptor, wgpu};
 
 use self::cases::Case;
@@ -27,7 +27,7 @@ use self::trial::Trial;
 use crate::date;
 use crate::output::{self, File};
 use crate::progress::progress;
-use crate::table::{ROWS, volume};
+use crate::table::{named, volume};
 use crate::technique::{Config, Technique};
 use host::gpu::{Gpu, describe};
 use host::image::rgb_png;
@@ -58,7 +58,7 @@ const NAMES: [&str; 17] = [
     "volume-textbook",
 ];
 /// The cheap and baked ones, where a case names them.
-const CHEAP: [&str; 5] = ["planar", "planar-soft", "projected", "blob", "baked"];
+const CHEAP_NAMES: [&str; 5] = ["planar", "planar-soft", "projected", "blob", "baked"];
 /// With a map of 16 bits; only where that is what is tried.
 const SIXTEEN_BITS: &str = "cube-2x2-16-bit";
 /// With finer maps, so many texels along a side; only where that is what is tried.
@@ -122,24 +122,13 @@ fn command(dir: &Path, rounds: u32) -> String {
     format!("cargo run --release --example compare -- --hard-cases --rounds {rounds} --out {dir}")
 }
 
-/// A technique of the table.
-fn named(name: &str) -> Result<Technique> {
-    at(name, SIDE)
-}
-
-/// The same with another size of map.
-fn at(name: &str, side: u32) -> Result<Technique> {
-    let row = ROWS.iter().find(|row| row.name == name);
-    let row = row.with_context(|| format!("{name} is no technique"))?;
-    Ok(row.at(side))
-}
-
 /// All that are tried.
 ///
 /// # Errors
 /// If one has no row in the table of techniques.
 pub fn techniques() -> Result<Vec<Technique>> {
-    let mut all: Vec<Technique> = NAMES.into_iter().map(named).collect::<Result<_>>()?;
+    let of_this_side = |name| named(name, SIDE);
+    let mut all: Vec<Technique> = NAMES.into_iter().map(of_this_side).collect::<Result<_>>()?;
     if let Config::Cube { map, sampler } = crate::table::cube(SIDE, Default::default()) {
         let format = wgpu::TextureFormat::Depth16Unorm;
         all.push(Technique {
@@ -153,11 +142,11 @@ pub fn techniques() -> Result<Vec<Technique>> {
     for (name, fine, side) in FINE {
         all.push(Technique {
             name: fine.into(),
-            ..at(name, side)?
+            ..named(name, side)?
         });
     }
-    for name in CHEAP {
-        all.push(named(name)?);
+    for name in CHEAP_NAMES {
+        all.push(of_this_side(name)?);
     }
     Ok(all)
 }

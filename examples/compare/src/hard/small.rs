@@ -4,11 +4,12 @@ use anyhow::{Result, ensure};
 use shadows::glam::DVec3;
 use shadows::reference::{Class, ReferenceImage};
 
+use super::SIZE;
 use super::situation::{Situation, at, lamp, sun};
 use super::table::Refusal;
-use super::{SIZE, at as technique_at};
 use crate::shadow::Shadow;
 use crate::stage::Stage;
+use crate::table::named;
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 use host::random::Random;
@@ -32,7 +33,7 @@ const NAMES: [&str; 6] = [
 pub fn maps(gpu: &Gpu) -> Result<Vec<Refusal>> {
     let mut all = Vec::new();
     for (name, side) in NAMES.into_iter().flat_map(|name| [(name, 1), (name, 2)]) {
-        let technique = technique_at(name, side)?;
+        let technique = named(name, side)?;
         all.push(Refusal {
             what: format!("{name}: a map of {side}x{side}"),
             outcome: tried(gpu, &technique),

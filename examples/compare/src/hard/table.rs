@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::outcome::Outcome;
 use super::seams::FACTOR;
-use super::{CHEAP, causes};
+use super::{CHEAP_NAMES, causes};
 
 /// Pictures side by side on the sheet.
 const COLUMNS: usize = 6;
@@ -93,7 +93,7 @@ impl Table {
 
     /// The cheap techniques, on the cases on which they are tried; or all others on all cases.
     fn results(&self, text: &mut String, cheap: bool) {
-        let is_shown = |at: &usize| CHEAP.contains(&self.techniques[*at].as_str()) == cheap;
+        let is_shown = |at: &usize| CHEAP_NAMES.contains(&self.techniques[*at].as_str()) == cheap;
         let shown: Vec<usize> = (0..self.techniques.len()).filter(is_shown).collect();
         let names: Vec<&str> = shown.iter().map(|&at| &*self.techniques[at]).collect();
         let _ = writeln!(text, "| Case | {} |", names.join(" | "));

@@ -14,7 +14,7 @@ use shadows::wgpu;
 use crate::shadow::{Cost, ShadowInputs};
 use host::gpu::Gpu;
 use host::renderer::{LitPipeline, Look, Renderer};
-use host::scene::{LightKind, Scene};
+use host::scene::Scene;
 use host::scene_gpu::SceneGpu;
 
 pub use baked::Baked;
@@ -107,24 +107,6 @@ impl Survey {
             Self::Projected(_) | Self::Blob(Blobs::Asked) => true,
             Self::Blob(Blobs::Decals) => look.samples == 1,
             Self::Baked(_) => baked::knows(look),
-        }
-    }
-
-    /// Whether it can shadow this kind of light.
-    pub fn applies_to(&self, _light: LightKind) -> bool {
-        match self {
-            Self::Planar | Self::PlanarSoft { .. } => true,
-            Self::Projected(_) => true,
-            Self::Blob(_) | Self::Baked(_) => true,
-        }
-    }
-
-    /// Why it cannot shadow the lights that it does not apply to.
-    pub fn limit(&self) -> &'static str {
-        match self {
-            Self::Planar | Self::PlanarSoft { .. } => "",
-            Self::Projected(_) => "",
-            Self::Blob(_) | Self::Baked(_) => "",
         }
     }
 

@@ -4,11 +4,12 @@ use anyhow::Result;
 use serde_json::{Value, json};
 use shadows::reference::Interior;
 use shadows::{
-    DirectionalLight, Light, ProjectedCaster, ProjectedFrame, ProjectedShadow,
-    ProjectedShadowDescriptor, Projector, ProjectorState, wgpu,
+    ProjectedCaster, ProjectedFrame, ProjectedShadow, ProjectedShadowDescriptor, Projector,
+    ProjectorState, wgpu,
 };
 
 use super::SurveyShadow;
+use super::planar::light;
 use crate::shadow::{Cost, ShadowInputs};
 use host::gpu::Gpu;
 use host::renderer::{LitPipeline, Renderer, ShadowAccess};
@@ -98,16 +99,6 @@ impl Projected {
 struct AtWork {
     shadow: ProjectedShadow,
     of: Projected,
-}
-
-fn light(inputs: &ShadowInputs) -> Light {
-    match inputs.spot_light() {
-        Some(spot) => spot.into(),
-        None if inputs.light.is_directional() => {
-            DirectionalLight::new(inputs.light.xyzw().truncate()).into()
-        }
-        None => inputs.point_light().into(),
-    }
 }
 
 impl SurveyShadow for AtWork {

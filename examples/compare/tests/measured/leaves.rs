@@ -82,8 +82,7 @@ fn casters(stage: &Stage) -> Vec<Caster> {
 }
 
 fn draw_masked(stage: &Stage, pass: &mut wgpu::RenderPass<'_>, asked: &HostDraw<'_>) {
-    let masked = stage.scene_gpu.masked.as_ref().unwrap();
-    masked.draw(&stage.scene_gpu, 1, pass, asked);
+    stage.scene_gpu.draw_masked(1, pass, asked);
 }
 
 /// What a spot's map shows, with the host's casters drawn into it or without.

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use shadows::reference::Interior;
 use shadows::reference::bake::{BakeDescriptor, BakedLight, Emitter, LightMap};
 use shadows::wgpu::util::DeviceExt as _;
-use shadows::{Light, glam, wgpu};
+use shadows::{Light, wgpu};
 
 use self::reading::{FORMAT, Reading, Vertex, bind, group_layout, texture};
 use super::planar::light;
@@ -32,9 +32,6 @@ fn host_visibility(at: HostReceiver) -> f32 {
     return textureLoad(baked, vec2i(at.pixel), 0).r;
 }
 ";
-
-/// Between objects' matrices, in bytes.
-const STRIDE: u64 = 256;
 
 /// How the map is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +94,7 @@ impl Baked {
         let visible = visible.create_view(&Default::default());
         let layout = group_layout(gpu, &[(texture(false), wgpu::ShaderStages::FRAGMENT)]);
         let resource = wgpu::BindingResource::TextureView(&visible);
-        let group = bind(gpu, &layout, &[resource]);
+        let group = bind(&gpu.device, &layout, &[resource]);
         let access = ShadowAccess {
             module: Some(LIT),
             layout: Some(&layout),
@@ -154,7 +151,7 @@ struct AtWork {
 struct Map {
     light: Light,
     frame: wgpu::Buffer,
-    group: wgpu::BindGroup,
+    texture: wgpu::TextureView,
     vertices: wgpu::Buffer,
     /// Of each object the end of its vertices.
     ends: Vec<u32>,
@@ -166,7 +163,7 @@ impl SurveyShadow for AtWork {
     fn prepare(&mut self, gpu: &Gpu, inputs: &ShadowInputs) -> Result<()> {
         let light = light(inputs);
         if self.map.as_ref().is_none_or(|map| map.light != light) {
-            self.map = Some(Map::new(gpu, &self.reading, self.of, light, inputs)?);
+            self.map = Some(Map::new(gpu, self.of, light, &inputs.scene)?);
         }
         let map = self.map.as_ref().context("it was just made")?;
         let matrix = inputs.view.clip_from_world();
@@ -175,8 +172,9 @@ impl SurveyShadow for AtWork {
         Ok(())
     }
 
-    fn generate(&mut self, host: &Renderer, _: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
+    fn generate(&mut self, host: &Renderer, scene: &SceneGpu, encoder: &mut wgpu::CommandEncoder) {
         let Some(map) = &self.map else { return };
+        let group = self.reading.bind(&map.frame, scene, &map.texture);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("baked"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -199,7 +197,7 @@ impl SurveyShadow for AtWork {
         pass.set_vertex_buffer(0, map.vertices.slice(..));
         let mut first = 0;
         for (object, &end) in (0..).zip(&map.ends) {
-            pass.set_bind_group(0, &map.group, &[object * STRIDE as u32]);
+            pass.set_bind_group(0, &group, &[object * scene.object_stride]);
             pass.draw(first..end, 0..1);
             first = end;
         }
@@ -233,14 +231,7 @@ impl SurveyShadow for AtWork {
 }
 
 impl Map {
-    fn new(
-        gpu: &Gpu,
-        reading: &Reading,
-        of: Baked,
-        light: Light,
-        inputs: &ShadowInputs,
-    ) -> Result<Self> {
-        let scene = &*inputs.scene;
+    fn new(gpu: &Gpu, of: Baked, light: Light, scene: &Scene) -> Result<Self> {
         let start = Instant::now();
         let (unwrapping, baked) = of.bake(scene, light)?;
         let texels = f64::from(of.texels).powi(2);
@@ -250,12 +241,6 @@ impl Map {
             filled_percent: 100.0 * unwrapping.layout.covered_texels() as f64 / texels,
         };
         let (vertices, ends) = vertices(&unwrapping);
-        let mut matrices = vec![0_u8; scene.objects.len() * STRIDE as usize];
-        let slots = matrices.chunks_exact_mut(STRIDE as usize);
-        for (slot, object) in slots.zip(&scene.objects) {
-            let matrix = glam::Mat4::from(object.transform);
-            slot[..64].copy_from_slice(bytemuck::bytes_of(&matrix));
-        }
         let buffer = |contents: &[u8], usage| {
             let descriptor = wgpu::util::BufferInitDescriptor {
                 label: Some("baked"),
@@ -266,13 +251,11 @@ impl Map {
         };
         let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let frame = buffer(&[0; 64], uniform);
-        let objects = buffer(&matrices, uniform);
-        let (view, bytes) = upload(gpu, &baked);
-        let group = reading.bind(gpu, [&frame, &objects], &view);
+        let (texture, bytes) = upload(gpu, &baked);
         Ok(Self {
             light,
             frame,
-            group,
+            texture,
             vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
             ends,
             bake,

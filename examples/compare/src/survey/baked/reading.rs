@@ -4,6 +4,7 @@ use shadows::wgpu;
 
 use host::gpu::Gpu;
 use host::renderer::Renderer;
+use host::scene_gpu::SceneGpu;
 
 const READ: &str = include_str!("baked.wgsl");
 
@@ -17,6 +18,8 @@ pub type Vertex = [f32; 5];
 pub struct Reading {
     pub pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
+    linear: wgpu::Sampler,
+    device: wgpu::Device,
 }
 
 impl Reading {
@@ -77,24 +80,30 @@ impl Reading {
             multiview_mask: None,
             cache: None,
         });
-        Self { pipeline, layout }
-    }
-
-    /// The frame's matrix, the objects' matrices and the map.
-    pub fn bind(
-        &self,
-        gpu: &Gpu,
-        [frame, objects]: [&wgpu::Buffer; 2],
-        map: &wgpu::TextureView,
-    ) -> wgpu::BindGroup {
-        let linear = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        let linear = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("light map"),
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             ..Default::default()
         });
+        Self {
+            pipeline,
+            layout,
+            linear,
+            device: device.clone(),
+        }
+    }
+
+    /// The frame's matrix, the host's objects and the map.
+    pub fn bind(
+        &self,
+        frame: &wgpu::Buffer,
+        scene: &SceneGpu,
+        map: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        // An object's matrix is the first of what the host tells its shaders of it.
         let one = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: objects,
+            buffer: &scene.object_uniforms,
             offset: 0,
             size: wgpu::BufferSize::new(64),
         });
@@ -102,9 +111,9 @@ impl Reading {
             frame.as_entire_binding(),
             one,
             wgpu::BindingResource::TextureView(map),
-            wgpu::BindingResource::Sampler(&linear),
+            wgpu::BindingResource::Sampler(&self.linear),
         ];
-        bind(gpu, &self.layout, &resources)
+        bind(&self.device, &self.layout, &resources)
     }
 }
 
@@ -140,7 +149,7 @@ pub fn group_layout(
 
 /// Resources from binding 0 on.
 pub fn bind(
-    gpu: &Gpu,
+    device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     resources: &[wgpu::BindingResource<'_>],
 ) -> wgpu::BindGroup {
@@ -151,7 +160,7 @@ pub fn bind(
             resource: resource.clone(),
         })
         .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("baked"),
         layout,
         entries: &entries,
