@@ -19,8 +19,8 @@ pub enum MapKind {
     Atlas,
 }
 
-/// Which kinds of light the receivers of an atlas are for. Those of the others are dark to them, and leave no
-/// code in their shaders.
+/// Which kinds of light the receivers of an atlas support. Lights of other kinds appear dark, and add no code
+/// to the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightKinds {
     /// Point lights.
@@ -63,16 +63,17 @@ impl Default for LightKinds {
     }
 }
 
-/// Which kinds of light a sampler of flat maps serves. One for a single kind costs less (docs/shader-cost.md).
+/// Which kinds of light a sampler of flat maps supports. Supporting a single kind costs less
+/// (docs/shader-cost.md).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FlatLights {
-    /// Spots and directional lights, whichever the map is prepared for.
+    /// Spots and directional lights, according to what the map was prepared for.
     #[default]
     Any,
-    /// Spots. A map that is prepared for a directional light is dark to them.
+    /// Spots only. With a map prepared for a directional light, everything is dark.
     Spot,
-    /// Directional lights. A map that is prepared for a spot is dark to them.
+    /// Directional lights only. With a map prepared for a spot, everything is dark.
     Directional,
 }
 
@@ -86,7 +87,7 @@ impl FlatLights {
     }
 }
 
-/// A map, of whichever kind.
+/// A map of any kind.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum AnyMap<'a> {
