@@ -37,17 +37,17 @@ use crate::volume::descriptor::ShadowVolumeDescriptor;
 use crate::volume::frame::Situation;
 use crate::{HomogeneousLight, View};
 
-/// Which of a volume's faces are counted.
+/// Which faces of a volume are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// z-pass for each caster for which it is proven right in this frame, z-fail for the others.
+    /// z-pass for each caster for which it is proven correct in this frame, z-fail for the others.
     #[default]
     Auto,
-    /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
-    /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    /// z-pass for all casters, for comparison. **Incorrect whenever a caster lies between the near rectangle
+    /// and the light**: part or all of the screen is then inverted.
     ZPass,
-    /// z-fail for all casters: always right, and more to fill.
+    /// z-fail for all casters: always correct, but with more fill.
     ZFail,
 }
 
@@ -55,11 +55,11 @@ pub enum Method {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Caps {
-    /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the
-    /// silhouette for a point light outside the caster's bounds; the full cap inside.
+    /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the silhouette
+    /// for a point light outside the caster's bounds; the full cap for one inside.
     #[default]
     AsNeeded,
-    /// The light cap once more at infinity, triangle by triangle.
+    /// The light cap repeated at infinity, triangle by triangle.
     Full,
 }
 
@@ -69,10 +69,10 @@ pub enum Caps {
 pub enum Extrusion {
     /// To infinity.
     Infinite,
-    /// Past the frame's `range` or its `receivers`, for less to fill: every shadow is complete
-    /// within the range and on the receivers, and beyond them, where the light must have no effect
-    /// or nothing is, there may be none. Casters around the light, and lights without a range where
-    /// the receivers are not known, have infinite volumes all the same.
+    /// Just past the light's `range` or the frame's `receivers`, to save fill: every shadow is complete
+    /// within the range and on the receivers; beyond them, where the light has no effect or there is nothing,
+    /// it may be missing. Casters around the light, and lights without a range in frames without `receivers`,
+    /// still have infinite volumes.
     #[default]
     ToRange,
 }
