@@ -8,7 +8,7 @@ use super::{BiasError, CascadeError, CasterError, LightError, TileSizeError};
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ShadowAtlasError {
-    /// Layers that no tiles fill, or that the device does not have.
+    /// The size of layers is not a power of two, or out of the device's range.
     #[error("layer_size = {size} is out of range; pass a power of two from {least} to {limit}")]
     LayerSize {
         /// Texels along a side.
@@ -28,13 +28,13 @@ pub enum ShadowAtlasError {
         /// Bytes of a layer.
         layer: u64,
     },
-    /// The format is none that an atlas can have.
+    /// Atlases do not support the format.
     #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
     Format(wgpu::TextureFormat),
     /// The reach of the kernels is out of range.
     #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
     Reach(crate::Radius),
-    /// A budget of no tile at all.
+    /// A budget of zero tiles.
     #[error("max_tiles_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
     Budget,
     /// The bias is out of range.
@@ -64,7 +64,7 @@ pub enum ShadowAtlasError {
         /// What is wrong with them.
         source: CascadeError,
     },
-    /// A picture without pixels.
+    /// A view's picture has no pixels.
     #[error("view {index} fills a picture of {width} x {height} pixels; pass at least 1 x 1")]
     Pixels {
         /// Its place in the frame.
@@ -84,7 +84,7 @@ pub enum ShadowAtlasError {
     },
     /// The receivers' bounds are out of range.
     #[error(
-        "receivers from {min:?} to {max:?} are no box; pass finite corners, min no greater than max"
+        "receivers from {min:?} to {max:?} are not a box; pass finite corners, min no greater than max"
     )]
     Receivers {
         /// The corner with the least coordinates.
@@ -92,12 +92,12 @@ pub enum ShadowAtlasError {
         /// The corner with the greatest coordinates.
         max: [f32; 3],
     },
-    /// The tiles do not fit, each as small as it may be.
+    /// The tiles do not fit, even with each as small as allowed.
     #[error(transparent)]
     Space(TileSizeError),
     /// More lights than shaders of the device can read.
     #[error(
-        "{records} records of lights, one for each light, view and cascade, are out of range; the device's shaders read {limit}"
+        "{records} records of lights, one for each light, view and cascade, are out of range; shaders of this device can read {limit}"
     )]
     TooManyLights {
         /// Records needed.
@@ -108,7 +108,7 @@ pub enum ShadowAtlasError {
     /// More lights than one buffer of the device can hold the matrices of: 256 bytes for each of the 8 tiles that a
     /// light may have.
     #[error(
-        "{lights} lights, directional ones counted once for each view, need {size} bytes for their tiles' matrices, {limit} are possible in one buffer (max_buffer_size); pass fewer lights, or ask for more when the device is created"
+        "{lights} lights, directional ones counted once for each view, need {size} bytes for their tiles' matrices, {limit} are allowed in one buffer (max_buffer_size); pass fewer lights, or ask for more when the device is created"
     )]
     TooManyMatrices {
         /// Lights, a directional one once for each view.
@@ -133,7 +133,7 @@ pub enum ShadowAtlasError {
     },
     /// A light or a caster is so far away that a directional light's matrix is not finite.
     #[error(
-        "light {index}: its matrix is not finite in f32; a caster or the receivers are too far away, too large or too small: place all nearer the origin"
+        "light {index}: its matrix is not finite in f32; a caster or the receivers are too far away, too large or too small: move the scene nearer to the origin"
     )]
     BeyondF32 {
         /// The light's place in the frame.

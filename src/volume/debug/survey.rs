@@ -31,8 +31,8 @@ pub struct VolumeSurvey {
     pub light_cap_fill: f64,
     /// The same for dark caps.
     pub dark_cap_fill: f64,
-    /// Casters that were taken for their bounding boxes, because their positions lie in a buffer of
-    /// the host's: of them the numbers above are estimates, and may be off by any factor.
+    /// Casters that were approximated by their bounding boxes, because their positions lie in a buffer of the
+    /// host. For them, the numbers above are rough estimates, which may be off by any factor.
     pub casters_by_bounds: u32,
 }
 
