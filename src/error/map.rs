@@ -206,7 +206,9 @@ pub enum PcfError {
         given: crate::MapKind,
     },
     /// The map's encoding is not what the sampler's shader expects.
-    #[error("the map holds {map:?} depths, the sampler reads {sampler:?}; use the same encoding for both")]
+    #[error(
+        "the map holds {map:?} depths, the sampler reads {sampler:?}; use the same encoding for both"
+    )]
     Encoding {
         /// What the map holds.
         map: crate::DepthEncoding,

@@ -9,7 +9,9 @@ use super::names::names;
 #[non_exhaustive]
 pub enum MeshError {
     /// The number of indices is not a multiple of three.
-    #[error("{count} indices are not a multiple of {per_triangle}; pass {per_triangle} per triangle")]
+    #[error(
+        "{count} indices are not a multiple of {per_triangle}; pass {per_triangle} per triangle"
+    )]
     IndexCount {
         /// Length of the list that was passed.
         count: usize,

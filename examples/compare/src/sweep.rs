@@ -307,7 +307,10 @@ fn write_report(out: &mut String, survey: &Surveyed, wishes: &Wishes) -> std::fm
     }
     let front = survey.front();
     writeln!(out, "![Time and error](speed-vs-error.svg)\n\n## Front\n")?;
-    writeln!(out, "Configurations that no other beats in both time and error.\n")?;
+    writeln!(
+        out,
+        "Configurations that no other beats in both time and error.\n"
+    )?;
     write_table(out, &front)?;
     let all = by_time(survey);
     writeln!(out, "\n## All, by time\n")?;

@@ -181,34 +181,34 @@ impl Quantity {
         };
         match self {
             Self::Triangles => Situation {
-                 caster: shapes::sphere(size),
-                 transforms: around(),
+                caster: shapes::sphere(size),
+                transforms: around(),
                 ..common
             },
             Self::Casters => Situation {
-                 transforms: grid(size),
+                transforms: grid(size),
                 ..common
             },
             Self::Meshes => Situation {
-                 transforms: grid(size),
-                 distinct: true,
+                transforms: grid(size),
+                distinct: true,
                 ..common
             },
             Self::Lights => Situation {
-                 lights: circle(size),
-                 side: 256,
+                lights: circle(size),
+                side: 256,
                 ..common
             },
             Self::Views => Situation {
-                 views: size,
+                views: size,
                 ..common
             },
             Self::Pixels => Situation {
-                 size: [size * 16 / 9, size],
+                size: [size * 16 / 9, size],
                 ..common
             },
             Self::Texels => Situation {
-                 side: size,
+                side: size,
                 ..common
             },
         }
