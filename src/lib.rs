@@ -186,6 +186,7 @@ pub use {glam, wgpu};
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
 /// [first]: https://docs.rs/crate/shadows/latest/source/examples/first_shadow.rs
+/// [front]: crate#a-complete-host
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}
