@@ -8,7 +8,7 @@ use glam::{DVec3, Mat4, Vec4Swizzles};
 
 use super::caster_edges::beside_edges;
 use super::geometry::SurfacePoint;
-use super::image::{Class, Lighting, ReferenceImage, Seen};
+use super::image::{Class, ReferenceImage, Seen};
 use super::map_rays::{MapRays, Rays};
 use crate::error::ReferenceError;
 
@@ -173,10 +173,7 @@ impl ReferenceImage {
         let rays = Rays::new(&radius.map, light, seen.surface.position, seen.normal);
         let agrees = |[u, v]: [f64; 2]| {
             let position = rays.meet(u, v);
-            position.is_some_and(|position| match self.class_at(seen, position) {
-                Class::OutOfRange if !lit => !self.unblocked_at(seen, position),
-                class => (class == Class::Lit) == lit,
-            })
+            position.is_some_and(|position| self.lit_at(seen, position) == lit)
         };
         let rings = (2.0 * radius.texels).ceil();
         let on_rings = (1..=rings as u32).rev().all(|ring| {
@@ -201,31 +198,19 @@ impl ReferenceImage {
         on_rings && (matches!(radius.map, MapRays::Surface) || beside_edges())
     }
 
-    /// What a point of the pixel's tangent plane would show.
-    fn class_at(&self, seen: &Seen, position: DVec3) -> Class {
-        let surface = self.surface_at(seen, position);
-        self.lighting.class(&self.geometry, &surface, seen.side)
-    }
-
-    /// Whether nothing is between such a point and the light, be it out of range: a shadow that ends there has
-    /// its edge there, which a map has, too.
-    fn unblocked_at(&self, seen: &Seen, position: DVec3) -> bool {
-        let surface = self.surface_at(seen, position);
-        let anywhere = Lighting::moved_to(self.lighting.light);
-        anywhere.class(&self.geometry, &surface, seen.side) == Class::Lit
-    }
-
-    fn surface_at(&self, seen: &Seen, position: DVec3) -> SurfacePoint {
+    /// Whether the light reaches a point of the pixel's tangent plane.
+    fn lit_at(&self, seen: &Seen, position: DVec3) -> bool {
         let light = self.lighting.light.xyz();
         let size = seen
             .surface
             .size
             .max(light.abs().max(position.abs()).max_element());
-        SurfacePoint {
+        let surface = SurfacePoint {
             position,
             size,
             ..seen.surface
-        }
+        };
+        self.lighting.class(&self.geometry, &surface, seen.side) == Class::Lit
     }
 }
 

@@ -165,41 +165,6 @@ fn the_map_interior_is_as_far_from_the_edge_as_the_kernel_reaches() {
 }
 
 #[test]
-fn a_shadows_edge_beyond_the_range_is_an_edge() {
-    // The shadow ends at 2 from the middle. The light does so at 1.95, before any of the shadow's edge, or not at all.
-    let seen = |roof: f32, range: Option<f32>| {
-        let (ground, roof) = (
-            ground(),
-            rectangle(Vec2::splat(-roof), Vec2::splat(roof), 2.0),
-        );
-        let scene = ReferenceScene::new(&[ground.object(false), roof.object(true)]).unwrap();
-        let light = HomogeneousLight::point(Vec3::new(0.0, 4.0, 0.0));
-        let view = downward(EYE, 7.5);
-        scene.render(&view, SIDE, SIDE, light, range).unwrap()
-    };
-    let map = Interior::Map {
-        face_size: 64,
-        kernel_radius: 0.0,
-    };
-    let range = Some((16.0_f32 + 1.95 * 1.95).sqrt());
-    let [ending, endless, wide] = [seen(1.0, range), seen(1.0, None), seen(1.5, range)];
-    assert_eq!(ending.count(Class::Lit) + wide.count(Class::Lit), 0);
-    let inside = [&ending, &endless, &wide].map(|image| interior(image, map));
-    let in_shadow = ending.classes().map(|class| class == Class::Shadowed);
-    let in_shadow: Vec<usize> = (0..)
-        .zip(in_shadow)
-        .filter(|own| own.1)
-        .map(|own| own.0)
-        .collect();
-    assert!(in_shadow.iter().all(|&i| inside[0][i] <= inside[1][i]));
-    // Of a shadow that goes on beyond the range the same pixels are in the interior.
-    let near = |i: &&usize| inside[2][**i] && !inside[1][**i];
-    let near: Vec<_> = in_shadow.iter().filter(near).collect();
-    assert!(near.len() > 20, "{}", near.len());
-    assert!(near.iter().all(|&&i| !inside[0][i]));
-}
-
-#[test]
 fn a_shadow_and_a_gap_that_are_thinner_than_a_texel_are_edges() {
     // A hair that hangs where no pixel's own ray meets its shadow, and a roof with a slit there.
     let z = 0.1013_f32;
