@@ -3,6 +3,7 @@
 mod atlas;
 mod blob;
 mod cascades;
+mod debug_pass;
 mod light;
 #[cfg(feature = "reference")]
 mod light_map;
@@ -20,6 +21,7 @@ mod volume_debug;
 pub use atlas::ShadowAtlasError;
 pub use blob::{BlobRenderError, BlobShadowError};
 pub use cascades::CascadeError;
+pub use debug_pass::DebugPassError;
 pub use light::{LightError, ViewError};
 #[cfg(feature = "reference")]
 pub use light_map::LightMapError;

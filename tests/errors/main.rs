@@ -5,6 +5,7 @@ mod atlas_matrices;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_errors;
+mod debug_pass;
 mod flat_errors;
 mod found_by_fuzzing;
 mod pcf_errors;

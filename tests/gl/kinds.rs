@@ -243,7 +243,7 @@ fn a_cube_view_is_refused_and_nothing_else() {
     let Some(gpu) = gl() else { return };
     let (device, queue) = (&gpu.device, &gpu.queue);
     let sampler = PcfSampler::new(device, queue, &PcfDescriptor::default()).unwrap();
-    let cross = CubeCross::new(device, &CubeCrossDescriptor::default());
+    let cross = CubeCross::new(device, &CubeCrossDescriptor::default()).unwrap();
     let map = cube(&gpu);
     assert_eq!(map.view().unwrap_err(), CubeShadowMapError::CubeView);
     sampler.bind_group(device, &map).unwrap();

@@ -150,11 +150,11 @@ impl Shadows {
         };
         let sampler = sampler(gpu, settings, MapKind::Cube)?;
         let cross = CubeCrossDescriptor {
-            format: window,
+            color_format: window,
             ..Default::default()
         };
         let map = CubeShadowMap::new(&gpu.device, &map)?;
-        let cross = CubeCross::new(&gpu.device, &cross);
+        let cross = CubeCross::new(&gpu.device, &cross)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
             means: Means::Cube(Box::new(Cube {
@@ -198,7 +198,7 @@ impl Shadows {
         let atlas = ShadowAtlas::new(&gpu.device, &atlas)?;
         let sampler = sampler(gpu, settings, MapKind::Atlas)?;
         let debug = AtlasDebugDescriptor {
-            format: window,
+            color_format: window,
             ..Default::default()
         };
         Ok(Self {
@@ -208,7 +208,7 @@ impl Shadows {
                 atlas,
                 sampler,
                 size: settings.size,
-                debug: AtlasDebug::new(&gpu.device, &debug),
+                debug: AtlasDebug::new(&gpu.device, &debug)?,
             })),
         })
     }
