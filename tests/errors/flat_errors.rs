@@ -176,17 +176,17 @@ fn a_sampler_refuses_the_other_kind_of_map() {
         };
         PcfSampler::new(&device, &queue, &descriptor).unwrap()
     };
-    let for_cubes = sampler(MapKind::Cube);
+    let for_cubes = sampler(MapKind::CUBE);
     let expected = PcfError::Map {
-        made_for: MapKind::Cube,
-        given: MapKind::Flat,
+        made_for: MapKind::CUBE,
+        given: MapKind::FLAT,
     };
     assert_eq!(for_cubes.bind_group(&device, &flat).unwrap_err(), expected);
     assert!(for_cubes.bind_group(&device, &cube).is_ok());
-    let for_flats = sampler(MapKind::Flat);
+    let for_flats = sampler(MapKind::FLAT);
     let expected = PcfError::Map {
-        made_for: MapKind::Flat,
-        given: MapKind::Cube,
+        made_for: MapKind::FLAT,
+        given: MapKind::CUBE,
     };
     assert_eq!(for_flats.bind_group(&device, &cube).unwrap_err(), expected);
     assert!(for_flats.bind_group(&device, &flat).is_ok());

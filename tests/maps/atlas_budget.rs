@@ -96,7 +96,7 @@ fn oldest(atlas: &ShadowAtlas) -> u32 {
 /// What is seen of a light at some points.
 fn seen(gpu: &Gpu, atlas: &ShadowAtlas, light: usize, points: &[(Vec3, Vec3)]) -> Vec<f32> {
     let reader = PcfDescriptor {
-        map: MapKind::Atlas,
+        map: MapKind::ATLAS,
         ..Default::default()
     };
     ask(gpu, atlas, &reader, light, points)
@@ -430,7 +430,7 @@ impl Seen {
             let unlike = |points: &[_]| {
                 let reader = PcfDescriptor {
                     kernel,
-                    map: MapKind::Atlas,
+                    map: MapKind::ATLAS,
                     ..Default::default()
                 };
                 let of =

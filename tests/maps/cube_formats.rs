@@ -7,8 +7,8 @@ use crate::receivers::{ask, visibility};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Bias, Caster, CasterSides, CubeShadowMapDescriptor, DepthEncoding, Kernel, PcfDescriptor,
-    PointLight, glam, wgpu,
+    Bias, Caster, CasterSides, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
+    PcfDescriptor, PointLight, glam, wgpu,
 };
 use wgpu::TextureFormat::{Depth16Unorm, Depth24Plus, Depth32Float};
 
@@ -99,7 +99,7 @@ fn every_encoding_in_every_format_shadows_what_rays_do() {
             let narrow = |kernel: &Kernel| !matches!(kernel, Kernel::ContactHardening(_));
             let read = Kernel::ALL
                 .into_iter()
-                .filter(|kernel| kernel.reads(encoding));
+                .filter(|kernel| kernel.reads(MapKind::Cube(encoding)));
             for kernel in read.filter(narrow) {
                 let seen = visibility(&gpu, &map, kernel, &shell.points);
                 assert_eq!(
@@ -200,7 +200,7 @@ fn the_textbook_method_is_a_preset() {
     assert_eq!(map.statistics().faces_rendered, 6);
     assert_eq!(map.statistics().triangles, 6 * 60 * 12);
     let reader = PcfDescriptor {
-        encoding: DepthEncoding::LinearDistance,
+        map: MapKind::Cube(DepthEncoding::LinearDistance),
         textbook: true,
         ..Default::default()
     };

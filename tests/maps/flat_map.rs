@@ -196,7 +196,7 @@ fn outside(
 ) -> Vec<f32> {
     let descriptor = PcfDescriptor {
         kernel,
-        map: MapKind::Flat,
+        map: MapKind::FLAT,
         ..Default::default()
     };
     let border = include_str!("../../shaders/flat_edge_border.wgsl");
@@ -236,7 +236,7 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
         // The broken twin: every texel taken for one inside, at the nearest place that is.
         let descriptor = PcfDescriptor {
             kernel,
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         let clamped = ask_changed(
@@ -304,7 +304,7 @@ fn coarser_formats_show_no_acne_either() {
                 // The broken twin: no step of the format.
                 let descriptor = PcfDescriptor {
                     kernel,
-                    map: MapKind::Flat,
+                    map: MapKind::FLAT,
                     ..Default::default()
                 };
                 let map = AnyMap::Flat(&map);

@@ -8,7 +8,7 @@ use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, FlatLight, Kernel,
-    PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, glam,
+    MapKind, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, glam,
     wgpu::{Features, TextureFormat},
 };
 
@@ -274,7 +274,7 @@ fn a_tiny_near_plane_costs_floats_not_a_digit() {
     for kernel in Kernel::ALL {
         for kind in [float, linear]
             .into_iter()
-            .filter(|kind| kernel.reads(kind.0))
+            .filter(|kind| kernel.reads(MapKind::Cube(kind.0)))
         {
             let [tiny, large] = [None, Some(large)].map(|near| {
                 let map = cube(&gpu, &lamp, near, kind);

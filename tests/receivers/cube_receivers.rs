@@ -6,8 +6,8 @@ use crate::receivers::{ask_changed, visibility};
 use glam::{Affine3A, DVec3, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, PcfDescriptor,
-    PointLight, Radius, glam, wgpu::TextureFormat,
+    Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
+    PcfDescriptor, PointLight, Radius, glam, wgpu::TextureFormat,
 };
 
 fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster]) -> CubeShadowMap {
@@ -134,7 +134,7 @@ fn no_acne_in_any_format_however_far_the_light_reaches() {
                 let map = crate::cubes::fresh(&gpu, &descriptor, plane.light, casters);
                 let reader = PcfDescriptor {
                     kernel,
-                    encoding,
+                    map: MapKind::Cube(encoding),
                     ..Default::default()
                 };
                 let seen = ask_changed(&gpu, (&map).into(), &reader, 0, &plane.points, change);

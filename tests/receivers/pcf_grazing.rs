@@ -340,7 +340,7 @@ fn a_disk_by_a_row_above_the_ground_is_compared_with_the_receivers_own_distance(
     for kernel in disks {
         let descriptor = PcfDescriptor {
             kernel,
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         let lit = |own: &str| {

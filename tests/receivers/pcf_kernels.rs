@@ -239,7 +239,7 @@ fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
                 search_taps: 32,
                 taps: 64,
             }),
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         let (points, exact) = under_a_square(half.into(), height.into(), light_size.into());

@@ -158,7 +158,7 @@ fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
         &gpu.queue,
         &PcfDescriptor {
             kernel: of.kernel,
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..Default::default()
         },
     )?;

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, PlanarSoftShadowDescriptor,
+    CubeShadowMapDescriptor, Kernel, MapKind, PcfDescriptor, PlanarSoftShadowDescriptor,
     ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
@@ -142,23 +142,13 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         label: _,
         kernel: filter,
         map,
-        encoding,
         textbook,
-        flat_lights,
-        light_kinds: _, // of atlases, which are not swept
         gather,
     } = sampler;
     Literal::new("sampler", "PcfDescriptor")
         .written("kernel", &kernel(*filter), *filter == default.kernel)
-        .field("map", "MapKind::", map, &default.map)
-        .field("encoding", "DepthEncoding::", encoding, &default.encoding)
+        .written("map", &kind(*map), *map == default.map)
         .field("textbook", "", textbook, &default.textbook)
-        .field(
-            "flat_lights",
-            "FlatLights::",
-            flat_lights,
-            &default.flat_lights,
-        )
         .field("gather", "Gather::", gather, &default.gather)
         .finish()
 }
@@ -206,6 +196,20 @@ fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
 }
 
 const FORMAT: &str = "wgpu::TextureFormat::";
+
+/// A kind of map as Rust has it. Atlases are not swept.
+fn kind(kind: MapKind) -> String {
+    let names = [
+        (MapKind::FLAT, "MapKind::FLAT"),
+        (MapKind::ATLAS, "MapKind::ATLAS"),
+    ];
+    match names.iter().find(|(named, _)| *named == kind) {
+        Some((_, name)) => (*name).to_owned(),
+        None => format!("MapKind::{kind:?}")
+            .replace("Cube(", "Cube(DepthEncoding::")
+            .replace("Flat(", "Flat(FlatLights::"),
+    }
+}
 
 /// A kernel's `Debug` with the paths that Rust needs.
 fn kernel(kernel: Kernel) -> String {

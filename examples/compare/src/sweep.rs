@@ -9,8 +9,8 @@ use anyhow::{Context as _, Result};
 use serde_json::json;
 use shadows::reference::{Candidate, ReferenceImage};
 use shadows::{
-    Bias, Caps, CasterSides, DepthEncoding, Extrusion, Kernel, Method, ShadowVolumeDescriptor,
-    Silhouettes, wgpu,
+    Bias, Caps, CasterSides, DepthEncoding, Extrusion, Kernel, MapKind, Method,
+    ShadowVolumeDescriptor, Silhouettes, wgpu,
 };
 
 use crate::args::Techniques;
@@ -130,7 +130,7 @@ fn changed(
 
 fn encode(config: &mut Config, encoding: DepthEncoding, format: Option<wgpu::TextureFormat>) {
     if let Config::Cube { map, sampler } = config {
-        (map.encoding, sampler.encoding) = (encoding, encoding);
+        (map.encoding, sampler.map) = (encoding, MapKind::Cube(encoding));
         map.format = format.unwrap_or(map.format);
     }
 }

@@ -148,7 +148,7 @@ impl Shadows {
             reach: settings.kernel.radius(),
             ..Default::default()
         };
-        let sampler = sampler(gpu, settings, MapKind::Cube)?;
+        let sampler = sampler(gpu, settings, MapKind::CUBE)?;
         let cross = CubeCrossDescriptor {
             format: window,
             ..Default::default()
@@ -174,7 +174,7 @@ impl Shadows {
             ..Default::default()
         };
         let map = ShadowMap::new(&gpu.device, &map)?;
-        let sampler = sampler(gpu, settings, MapKind::Flat)?;
+        let sampler = sampler(gpu, settings, MapKind::FLAT)?;
         let group = sampler.bind_group(&gpu.device, &map)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
@@ -196,7 +196,7 @@ impl Shadows {
             ..Default::default()
         };
         let atlas = ShadowAtlas::new(&gpu.device, &atlas)?;
-        let sampler = sampler(gpu, settings, MapKind::Atlas)?;
+        let sampler = sampler(gpu, settings, MapKind::ATLAS)?;
         let debug = AtlasDebugDescriptor {
             format: window,
             ..Default::default()

@@ -97,7 +97,7 @@ impl Shadow {
         };
         let sampler = PcfDescriptor {
             kernel: Kernel::Hard,
-            encoding: map.encoding,
+            map: MapKind::Cube(map.encoding),
             textbook: true,
             ..Default::default()
         };
@@ -130,7 +130,7 @@ impl Shadow {
             ..Default::default()
         };
         let map = Box::new(ShadowMap::new(&gpu.device, &map)?);
-        let sampler = sampler(gpu, maps.kernel, MapKind::Flat)?;
+        let sampler = sampler(gpu, maps.kernel, MapKind::FLAT)?;
         let group = sampler.bind_group(&gpu.device, &*map)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
@@ -139,7 +139,7 @@ impl Shadow {
     }
 
     fn atlas(gpu: &Gpu, renderer: &Renderer, maps: &Maps) -> Result<Self> {
-        let sampler = sampler(gpu, maps.kernel, MapKind::Atlas)?;
+        let sampler = sampler(gpu, maps.kernel, MapKind::ATLAS)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
             means: Means::Atlas(Box::new(Atlas::new(gpu, maps, sampler)?)),

@@ -60,7 +60,7 @@ let map = CubeShadowMapDescriptor {
 };
 let sampler = PcfDescriptor {
     kernel: Kernel::Hard,
-    encoding: DepthEncoding::LinearDistance,
+    map: MapKind::Cube(DepthEncoding::LinearDistance),
     textbook: true,
     ..Default::default()
 };
@@ -73,7 +73,7 @@ let map = CubeShadowMapDescriptor {
     ..Default::default()
 };
 let sampler = PcfDescriptor {
-    encoding: DepthEncoding::LinearDistance,
+    map: MapKind::Cube(DepthEncoding::LinearDistance),
     ..Default::default()
 };
 Config::Cube { map, sampler }
@@ -101,7 +101,7 @@ let map = ShadowMapDescriptor {
 };
 let sampler = PcfDescriptor {
     kernel: Kernel::RandomDisk(RandomDisk { radius: Radius::Texels(3.0), around: 8, rings: 4, size: 8, early_out: false }),
-    map: MapKind::Flat,
+    map: MapKind::FLAT,
     ..Default::default()
 };
 Config::Flat { map, sampler }
