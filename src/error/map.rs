@@ -16,6 +16,21 @@ pub struct BiasError {
     pub value: f32,
 }
 
+/// What can be wrong with [`MapSettings`](crate::MapSettings).
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MapSettingsError {
+    /// The format is none that a map can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
+}
+
 /// What can be wrong with a [`CubeShadowMap`](crate::CubeShadowMap).
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -28,9 +43,9 @@ pub enum CubeShadowMapError {
         /// The largest that works.
         limit: u32,
     },
-    /// The bias is out of range.
+    /// The settings are out of range.
     #[error(transparent)]
-    Bias(#[from] BiasError),
+    Settings(#[from] MapSettingsError),
     /// The light is out of range.
     #[error(transparent)]
     Light(#[from] LightError),
@@ -47,12 +62,6 @@ pub enum CubeShadowMapError {
         /// Bytes allowed.
         limit: u64,
     },
-    /// The format is none that a map can have.
-    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
-    Format(wgpu::TextureFormat),
-    /// The reach of the kernels is out of range.
-    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
-    Reach(crate::Radius),
     /// A slope-scaled bias where the fragment shader writes the depth.
     #[error(
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
@@ -97,21 +106,15 @@ pub enum ShadowMapError {
         /// The largest that works.
         limit: u32,
     },
-    /// The bias is out of range.
+    /// The settings are out of range.
     #[error(transparent)]
-    Bias(#[from] BiasError),
+    Settings(#[from] MapSettingsError),
     /// The light is out of range.
     #[error(transparent)]
     Light(#[from] LightError),
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
-    /// The format is none that a map can have.
-    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
-    Format(wgpu::TextureFormat),
-    /// The reach of the kernels is out of range.
-    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
-    Reach(crate::Radius),
     /// A directional light's map has not as many texels to spare as kernels reach.
     #[error(
         "kernels that reach {reach} texels need a map of more: a directional light's is made wider by that and one more on each side, at most by half, so pass a size of at least {}, not {size}, or a smaller reach",
@@ -212,7 +215,7 @@ pub enum PcfError {
     Gather,
     /// A kernel that reaches farther than the map was made for.
     #[error(
-        "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `reach: Radius::{kernel:?}` or more of that unit, or the sampler with a narrower kernel"
+        "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `MapSettings::reach: Radius::{kernel:?}` or more of that unit, or the sampler with a narrower kernel"
     )]
     Reach {
         /// The kernel's radius.

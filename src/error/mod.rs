@@ -23,7 +23,7 @@ pub use cascades::CascadeError;
 pub use light::{LightError, ViewError};
 #[cfg(feature = "reference")]
 pub use light_map::LightMapError;
-pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
+pub use map::{BiasError, CubeShadowMapError, MapSettingsError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
 pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
 pub use projected::ProjectedShadowError;

@@ -7,4 +7,5 @@ mod common;
 mod cube_errors;
 mod flat_errors;
 mod found_by_fuzzing;
+mod map_settings;
 mod pcf_errors;

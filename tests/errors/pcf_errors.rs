@@ -4,7 +4,8 @@ use crate::common::noop;
 use shadows::error::PcfError;
 use shadows::{
     ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
-    PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor, VogelDisk,
+    MapSettings, PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor,
+    VogelDisk,
 };
 
 fn make(kernel: Kernel) -> Result<PcfSampler, PcfError> {
@@ -226,7 +227,10 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
     let cube = |reach| {
         let descriptor = CubeShadowMapDescriptor {
             size: 16,
-            reach,
+            settings: MapSettings {
+                reach,
+                ..Default::default()
+            },
             ..Default::default()
         };
         CubeShadowMap::new(&device, &descriptor).unwrap()
@@ -234,7 +238,10 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
     let flat = |reach| {
         let descriptor = ShadowMapDescriptor {
             size: 16,
-            reach,
+            settings: MapSettings {
+                reach,
+                ..Default::default()
+            },
             ..Default::default()
         };
         ShadowMap::new(&device, &descriptor).unwrap()
@@ -248,8 +255,8 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
             };
             PcfSampler::new(&device, &queue, &descriptor).unwrap()
         };
-        let usual = CubeShadowMapDescriptor::default().reach;
-        assert_eq!(usual, ShadowMapDescriptor::default().reach);
+        let usual = CubeShadowMapDescriptor::default().settings.reach;
+        assert_eq!(usual, ShadowMapDescriptor::default().settings.reach);
         let (cube, flat) = (cube(reach.unwrap_or(usual)), flat(reach.unwrap_or(usual)));
         let results = [
             of(MapKind::CUBE).bind_group(&device, &cube).map(drop),

@@ -4,8 +4,8 @@ use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::mesh::Bounds;
 use shadows::{
     AnyMap, Bias, Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
-    DepthEncoding, FlatLight, Kernel, MapKind, PcfDescriptor, PcfSampler, PointLight, ShadowFrame,
-    ShadowMap, ShadowMapDescriptor, SpotLight,
+    DepthEncoding, FlatLight, Kernel, MapKind, MapSettings, PcfDescriptor, PcfSampler, PointLight,
+    ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
 };
 
 use crate::common::own_pass::OwnPass;
@@ -49,7 +49,10 @@ impl Ground {
         let descriptor = CubeShadowMapDescriptor {
             size: SIZE,
             encoding,
-            bias,
+            settings: MapSettings {
+                bias,
+                ..Default::default()
+            },
             ..Default::default()
         };
         crate::cubes::fresh(gpu, &descriptor, self.light, &[self.caster(gpu)])

@@ -7,13 +7,16 @@ use glam::{Affine3A, DVec3, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
-    PcfDescriptor, PointLight, Radius, glam, wgpu::TextureFormat,
+    MapSettings, PcfDescriptor, PointLight, Radius, glam, wgpu::TextureFormat,
 };
 
 fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster]) -> CubeShadowMap {
     let descriptor = CubeShadowMapDescriptor {
         size,
-        bias,
+        settings: MapSettings {
+            bias,
+            ..Default::default()
+        },
         ..Default::default()
     };
     crate::cubes::fresh(gpu, &descriptor, *light, casters)
@@ -125,8 +128,11 @@ fn no_acne_in_any_format_however_far_the_light_reaches() {
             let dark = |bias, kernel, change: fn(String) -> String| {
                 let descriptor = CubeShadowMapDescriptor {
                     size,
-                    bias,
-                    format,
+                    settings: MapSettings {
+                        bias,
+                        format,
+                        ..Default::default()
+                    },
                     encoding,
                     ..Default::default()
                 };

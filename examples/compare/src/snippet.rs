@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, MapKind, PcfDescriptor, PlanarSoftShadowDescriptor,
-    ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, MapKind, MapSettings, PcfDescriptor,
+    PlanarSoftShadowDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -65,6 +65,25 @@ impl Literal {
         self
     }
 
+    /// What maps of all kinds have in common, in a literal of its own.
+    fn settings(self, settings: &MapSettings) -> Self {
+        let default = MapSettings::default();
+        let MapSettings {
+            format,
+            bias: set_back,
+            sides,
+            reach,
+        } = settings;
+        let Self { text, fields, .. } = Self::new("settings", "MapSettings")
+            .field("format", FORMAT, format, &default.format)
+            .field("bias", "", set_back, &default.bias)
+            .field("sides", "CasterSides::", sides, &default.sides)
+            .field("reach", "Radius::", reach, &default.reach);
+        let fields = fields.replace("    ", "        ");
+        let literal = format!("{text} {{\n{fields}        ..Default::default()\n    }}");
+        self.written("settings", &literal, *settings == default)
+    }
+
     fn finish(self) -> String {
         let Self { name, text, fields } = self;
         match fields.is_empty() {
@@ -81,24 +100,18 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
     let CubeShadowMapDescriptor {
         label: _,
         size,
-        bias: set_back,
         encoding,
-        format,
-        reach,
+        settings,
         cull_casters,
         cache,
-        sides,
         static_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
         .field("size", "", size, &default.size)
-        .field("bias", "", set_back, &default.bias)
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
-        .field("format", FORMAT, format, &default.format)
-        .field("reach", "Radius::", reach, &default.reach)
+        .settings(settings)
         .field("cull_casters", "", cull_casters, &default.cull_casters)
         .field("cache", "", cache, &default.cache)
-        .field("sides", "CasterSides::", sides, &default.sides)
         .field(
             "static_layers",
             "StaticLayers::",
@@ -113,25 +126,19 @@ fn flat(map: &ShadowMapDescriptor<'_>) -> String {
     let ShadowMapDescriptor {
         label: _,
         size,
-        format,
-        bias: set_back,
-        sides,
+        settings,
         unclipped_depth,
-        reach,
         cache,
     } = map;
     Literal::new("map", "ShadowMapDescriptor")
         .field("size", "", size, &default.size)
-        .field("format", FORMAT, format, &default.format)
-        .field("bias", "", set_back, &default.bias)
-        .field("sides", "CasterSides::", sides, &default.sides)
+        .settings(settings)
         .field(
             "unclipped_depth",
             "",
             unclipped_depth,
             &default.unclipped_depth,
         )
-        .field("reach", "Radius::", reach, &default.reach)
         .field("cache", "", cache, &default.cache)
         .finish()
 }

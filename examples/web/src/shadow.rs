@@ -79,8 +79,7 @@ impl Shadow {
     fn cube(gpu: &Gpu, renderer: &Renderer, maps: &Maps) -> Result<Self> {
         let map = CubeShadowMapDescriptor {
             size: maps.size,
-            bias: maps.bias,
-            reach: maps.kernel.radius(),
+            settings: maps.settings(),
             ..Default::default()
         };
         let sampler = PcfDescriptor {
@@ -125,8 +124,7 @@ impl Shadow {
     fn flat(gpu: &Gpu, renderer: &Renderer, maps: &Maps) -> Result<Self> {
         let map = ShadowMapDescriptor {
             size: maps.size,
-            bias: maps.bias,
-            reach: maps.kernel.radius(),
+            settings: maps.settings(),
             ..Default::default()
         };
         let map = Box::new(ShadowMap::new(&gpu.device, &map)?);

@@ -52,10 +52,13 @@ Config::Cube { map, sampler }
 ("cube-textbook 512", {
 let map = CubeShadowMapDescriptor {
     size: 512,
-    bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0, position_ulps: 0.0 },
     encoding: DepthEncoding::LinearDistance,
+    settings: MapSettings {
+        bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0, position_ulps: 0.0 },
+        sides: CasterSides::Both,
+        ..Default::default()
+    },
     cull_casters: false,
-    sides: CasterSides::Both,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -69,7 +72,10 @@ Config::Cube { map, sampler }
 ("cube-2x2 1024, linear 16 bits", {
 let map = CubeShadowMapDescriptor {
     encoding: DepthEncoding::LinearDistance,
-    format: wgpu::TextureFormat::Depth16Unorm,
+    settings: MapSettings {
+        format: wgpu::TextureFormat::Depth16Unorm,
+        ..Default::default()
+    },
     ..Default::default()
 };
 let sampler = PcfDescriptor {
@@ -80,7 +86,10 @@ Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, fourfold bias", {
 let map = CubeShadowMapDescriptor {
-    bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0, position_ulps: 4.0 },
+    settings: MapSettings {
+        bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0, position_ulps: 4.0 },
+        ..Default::default()
+    },
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();
@@ -88,7 +97,10 @@ Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, far sides", {
 let map = CubeShadowMapDescriptor {
-    sides: CasterSides::Far,
+    settings: MapSettings {
+        sides: CasterSides::Far,
+        ..Default::default()
+    },
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();
