@@ -215,7 +215,7 @@ pub enum PcfError {
     Gather,
     /// A kernel that reaches farther than the map was made for.
     #[error(
-        "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `MapSettings::reach: Radius::{kernel:?}` or more of that unit, or the sampler with a narrower kernel"
+        "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `reach: Radius::{kernel:?}` or more of that unit in its settings, or the sampler with a narrower kernel"
     )]
     Reach {
         /// The kernel's radius.
