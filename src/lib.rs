@@ -236,9 +236,9 @@ pub use map::{
     AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,
     AtlasView, Bias, CascadeFit, CascadeSplit, Cascades, CasterSides, CubeCross,
     CubeCrossDescriptor, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
-    CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw, LocalLight, ShadowAtlas,
-    ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
+    CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw, LocalLight, MapSettings,
+    ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    ShadowMapStatistics, StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{

@@ -25,7 +25,7 @@ pub use debug_pass::DebugPassError;
 pub use light::{LightError, ViewError};
 #[cfg(feature = "reference")]
 pub use light_map::LightMapError;
-pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
+pub use map::{BiasError, CubeShadowMapError, MapSettingsError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
 pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
 pub use projected::ProjectedShadowError;

@@ -1,6 +1,7 @@
 //! The kernels, and the WGSL that each of them needs.
 
 use super::disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
+use super::map_kind::MapKind;
 use super::weights::Weights;
 use crate::DepthEncoding;
 use crate::error::PcfError;
@@ -141,10 +142,10 @@ impl Kernel {
         self.parameters().is_some()
     }
 
-    /// Whether it reads maps of that encoding: [`HardwareBilinear`](Self::HardwareBilinear) reads only
+    /// Whether it reads such maps: [`HardwareBilinear`](Self::HardwareBilinear) reads only
     /// [`MajorAxis`](DepthEncoding::MajorAxis), of which a plane's depths are linear over a face.
-    pub fn reads(self, encoding: DepthEncoding) -> bool {
-        self != Self::HardwareBilinear || encoding == DepthEncoding::MajorAxis
+    pub fn reads(self, map: MapKind) -> bool {
+        self != Self::HardwareBilinear || map.encoding() == DepthEncoding::MajorAxis
     }
 
     /// The name of its function for cube maps in WGSL. For flat maps, `flat` takes the place of

@@ -54,12 +54,17 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// Where depth is not 0 at infinity, units of the last place of the depth there are added to those
     /// of the depth itself: by the near plane of standard depth the latter are far too small.
     pub cap_bias_ulps: u32,
-    /// Which faces count, those before the visible point or those behind it. Default
-    /// [`Method::Auto`].
+    /// Which faces count, those before the visible point or those behind it. Default [`Method::Auto`];
+    /// [`Method::ZFail`] for casters that the host does not draw.
     pub method: Method,
-    /// How z-fail closes volumes at their far end. Default [`Caps::AsNeeded`].
+    /// How z-fail closes volumes at their far end. Default [`Caps::AsNeeded`]; the other gives the same picture
+    /// for more work, for measuring what that is worth.
+    #[doc(hidden)]
     pub caps: Caps,
-    /// How far volumes reach. Default [`Extrusion::ToRange`].
+    /// How far volumes reach. Default [`Extrusion::ToRange`]. Volumes of a light without a range, where the
+    /// receivers are not known, are infinite: that is what a host says who wants them so. `Infinite` is for
+    /// measuring what ending them is worth.
+    #[doc(hidden)]
     pub extrusion: Extrusion,
     /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
     pub start_from: StartFrom,

@@ -4,7 +4,7 @@
 //! they lie *behind* the visible point, so that the eye may be inside a volume and the near plane may
 //! cut it, as long as the volume is closed and reaches to infinity (Everitt and Kilgard, "Practical
 //! and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering", 2002). Where a caster
-//! provably needs less, less is drawn of its volume: see [`Method`], [`Caps`] and [`Extrusion`].
+//! provably needs less, less is drawn of its volume: see [`Method`] and `docs/numerics.md`.
 //!
 //! The volume is the boundary of a chain of light caps, whose coefficients are decided once for
 //! each triangle and stored; an edge is extruded as often as that chain's boundary runs through it

@@ -8,4 +8,5 @@ mod cube_errors;
 mod debug_pass;
 mod flat_errors;
 mod found_by_fuzzing;
+mod map_settings;
 mod pcf_errors;

@@ -216,7 +216,7 @@ fn atlases_of_any_number_of_lights_are_read_as_a_map_of_one() {
             ..Default::default()
         };
         let many = PcfDescriptor {
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..one.clone()
         };
         let right = ask(&gpu, &cube(&gpu), &one, 0, &points);

@@ -10,7 +10,7 @@ use crate::pcf::{host, samplers, textbooks};
 use naga::{
     AddressSpace, Block, Expression, Function, Handle, LocalVariable, Module, Span, Statement,
 };
-use shadows::{FlatLights, MapKind, PcfDescriptor, PcfSampler};
+use shadows::{MapKind, PcfDescriptor, PcfSampler};
 
 /// What a value depends on; the later takes in the earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -221,7 +221,7 @@ fn receivers_of_maps_have_none() {
         let wgsl = sampler.wgsl_module(0) + &host(&descriptor);
         assert_none(&format!("{descriptor:?}"), &wgsl);
         // What decides by the light is the same for receivers of one kind, which folds away.
-        if descriptor.map == MapKind::Flat && descriptor.flat_lights == FlatLights::Any {
+        if descriptor.map == MapKind::FLAT {
             let from = "let away = select(1.0, local.x, spot);";
             let to = "var away = 1.0; if spot { away = local.x; }";
             assert_found(&wgsl, from, to, "shadows_flat_spot(light)");

@@ -440,14 +440,14 @@ impl Technique {
                 json!({
                     "face_texels": map.size,
                     "encoding": format!("{:?}", map.encoding),
-                    "format": format!("{:?}", map.format),
+                    "format": format!("{:?}", map.settings.format),
                     "cache": map.cache,
                 }),
-                (sampler, map.bias),
+                (sampler, map.settings.bias),
             ),
             Config::Flat { map, sampler } => (
                 json!({ "map_texels": map.size, "cache": map.cache }),
-                (sampler, map.bias),
+                (sampler, map.settings.bias),
             ),
             Config::Atlas {
                 size,

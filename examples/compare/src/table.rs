@@ -200,7 +200,7 @@ fn cube_textbook(side: u32) -> Config {
     Config::Cube {
         sampler: PcfDescriptor {
             kernel: Kernel::Hard,
-            encoding: map.encoding,
+            map: MapKind::Cube(map.encoding),
             textbook: true,
             ..Default::default()
         },
@@ -218,7 +218,7 @@ pub fn flat(side: u32, kernel: Kernel) -> Config {
         },
         sampler: PcfDescriptor {
             kernel,
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         },
     }
@@ -231,7 +231,7 @@ fn atlas(size: u32, kernel: Kernel) -> Config {
         kept: false,
         sampler: PcfDescriptor {
             kernel,
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..Default::default()
         },
     }

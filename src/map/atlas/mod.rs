@@ -15,7 +15,7 @@ use super::plan::{
     follow, longest_wait,
 };
 use super::statistics::{TileState, TileStatistics};
-use super::{Cascades, CasterSides, DepthBounds, StaticLayers};
+use super::{Cascades, DepthBounds, MapSettings, StaticLayers};
 use crate::clock::Clock;
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
@@ -111,13 +111,13 @@ impl ShadowAtlas {
         descriptor: &ShadowAtlasDescriptor<'_>,
     ) -> Result<Self, ShadowAtlasError> {
         descriptor.validate(device)?;
-        let &ShadowAtlasDescriptor {
-            layer_size,
-            bias,
+        let layer_size = descriptor.layer_size;
+        let MapSettings {
             format,
+            bias,
+            sides,
             reach,
-            ..
-        } = descriptor;
+        } = descriptor.settings;
         let label = match descriptor.label {
             Some(label) => format!("shadows atlas {label}"),
             None => "shadows atlas".to_owned(),
@@ -129,7 +129,7 @@ impl ShadowAtlas {
                 layer_size,
                 format,
                 slope_scale: bias.slope_scale,
-                sides: descriptor.sides,
+                sides,
             },
         );
         Ok(Self {
@@ -276,7 +276,7 @@ impl ShadowAtlas {
     /// once for its static casters and once for the others ([`StaticLayers`](crate::StaticLayers)).
     ///
     /// Viewport and scissor are set, and must stay. The pass has no colour target, one sample and a depth
-    /// target of the atlas's [`format`](ShadowAtlasDescriptor::format); compare with `Greater`, write
+    /// target of the atlas's [`format`](MapSettings::format); compare with `Greater`, write
     /// depth, and let vertices be at [`clip_from_world`](HostDraw::clip_from_world) times their position,
     /// with `unclipped_depth` where the device has
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), so that what is nearer than the near
@@ -362,7 +362,7 @@ impl ShadowAtlas {
         tiles.filter_map(tile).collect()
     }
 
-    /// The texture of all tiles, of [`ShadowAtlasDescriptor::format`]; one texel while no light casts.
+    /// The texture of all tiles, of [`MapSettings::format`]; one texel while no light casts.
     pub fn texture(&self) -> &wgpu::Texture {
         self.gpu.texture().texture()
     }

@@ -46,12 +46,15 @@ pub enum Method {
     Auto,
     /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
     /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    #[doc(hidden)]
     ZPass,
-    /// z-fail for all casters: always right, and more to fill.
+    /// z-fail for all casters: always right, for those too that the host does not draw
+    /// ([`ShadowVolumeFrame::casters`](crate::ShadowVolumeFrame::casters)), and more to fill.
     ZFail,
 }
 
 /// How z-fail closes a volume at its far end.
+#[doc(hidden)] // for measuring alone, as the field that it is of
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Caps {
@@ -64,6 +67,7 @@ pub enum Caps {
 }
 
 /// How far volumes reach.
+#[doc(hidden)] // for measuring alone, as the field that it is of
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Extrusion {

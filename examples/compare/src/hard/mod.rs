@@ -18,7 +18,7 @@ pub mod trial;
 use std::path::Path;
 
 use anyhow::Result;
-use shadows::{CubeShadowMapDescriptor, wgpu};
+use shadows::{CubeShadowMapDescriptor, MapSettings, wgpu};
 
 use self::cases::Case;
 use self::expect::{is_software, way};
@@ -134,7 +134,13 @@ pub fn techniques() -> Result<Vec<Technique>> {
         all.push(Technique {
             name: SIXTEEN_BITS.into(),
             config: Config::Cube {
-                map: CubeShadowMapDescriptor { format, ..map },
+                map: CubeShadowMapDescriptor {
+                    settings: MapSettings {
+                        format,
+                        ..map.settings
+                    },
+                    ..map
+                },
                 sampler,
             },
         });
