@@ -8,6 +8,7 @@ mod light;
 mod light_map;
 mod map;
 mod mesh;
+mod multiview;
 mod names;
 mod planar;
 mod projected;
@@ -25,6 +26,7 @@ pub use light::{LightError, ViewError};
 pub use light_map::LightMapError;
 pub use map::{BiasError, CubeShadowMapError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
+pub use multiview::MultiviewError;
 pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
 pub use projected::ProjectedShadowError;
 #[cfg(feature = "reference")]

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::CasterError;
 use super::LightError;
+use super::MultiviewError;
 use super::names::names;
 
 /// What can be wrong when a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) is made or
@@ -76,6 +77,9 @@ pub enum ShadowVolumeError {
     /// A caster.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// Views that are to be drawn together.
+    #[error(transparent)]
+    Multiview(#[from] MultiviewError),
     /// The volume of one caster does not fit the device's buffers.
     #[error(
         "caster {index}: its {what} need {size} bytes in one buffer, {limit} are possible; split the mesh or ask for higher buffer limits"
@@ -168,6 +172,11 @@ pub enum VolumeRenderError {
         /// Views of the frame.
         views: usize,
     },
+    /// What draws into one view a pass is asked to show the volumes of several.
+    #[error(
+        "this renderer draws {0} views a pass (multiview_mask), and debug views and surveys are of one; prepare a renderer without a mask for them"
+    )]
+    Multiview(usize),
 }
 
 /// What can be wrong with a [`ShadowMask`](crate::ShadowMask), a

@@ -1,5 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
+use std::num::NonZeroU32;
+
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
 use crate::volume::decide::method::{Caps, Extrusion, Method};
@@ -7,6 +9,7 @@ use crate::volume::gpu::counter;
 use crate::volume::light_pass::targets::{
     DEPTH_STENCIL, bytes_a_sample, has_depth_alone, has_stencil, is_drawable,
 };
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::limits;
 use crate::volume::{Counter, Silhouettes, StartFrom};
 
@@ -29,6 +32,21 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of the pass, 1 (default) or 4. The stencil counts each sample by itself.
     pub sample_count: u32,
+    /// The layers that a pass draws into all at once, a bit each, each layer with a view of its own: the
+    /// pass's own [`multiview_mask`](wgpu::RenderPassDescriptor::multiview_mask), for both eyes of a
+    /// headset. Default `None`: a pass draws one view.
+    ///
+    /// The frame's [`views`](crate::ShadowVolumeFrame::views) are then those of one pass after another, as
+    /// many as the mask has bits, from the lowest on; and where a view is named by its place, it is the
+    /// pass that is named: 0 is that of the first views. What is decided for a caster is decided for all
+    /// views of a pass together, so that it is right in each.
+    ///
+    /// Needs [`MULTIVIEW`](wgpu::Features::MULTIVIEW) and a
+    /// [`max_multiview_view_count`](wgpu::Limits::max_multiview_view_count) of as many layers, both of which
+    /// [`Support`](crate::Support) asks for; a mask with gaps also
+    /// [`SELECTIVE_MULTIVIEW`](wgpu::Features::SELECTIVE_MULTIVIEW). The pass's attachments are views of
+    /// the dimension `D2Array`.
+    pub multiview_mask: Option<NonZeroU32>,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,
     /// Formats of the pass's colour attachments, which are left as they are. Default none.
@@ -85,6 +103,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             label: None,
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            multiview_mask: None,
             depth: DepthConvention::default(),
             color_formats: &[],
             cap_bias_ulps: 16,
@@ -131,7 +150,12 @@ impl ShadowVolumeDescriptor<'_> {
             return Err(ShadowVolumeError::FormatFeature(format));
         }
         check_depth(device, self.depth)?;
+        self.multiview().validate(device)?;
         self.validate_colors(device)
+    }
+
+    pub(crate) fn multiview(&self) -> Multiview {
+        Multiview(self.multiview_mask)
     }
 
     fn validate_colors(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
@@ -177,7 +201,7 @@ pub(crate) fn check_depth(
     })
 }
 
-fn check_feature(
+pub(crate) fn check_feature(
     device: &wgpu::Device,
     feature: wgpu::Features,
     needed_by: impl FnOnce() -> String,

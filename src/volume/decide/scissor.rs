@@ -23,6 +23,13 @@ pub(crate) fn of_sphere(view: &View, centre: DVec3, radius: f64, target: [u32; 2
     Some([x, y, width, height])
 }
 
+/// The smallest rectangle that holds two others.
+pub(crate) fn around(a: Rect, b: Rect) -> Rect {
+    let [x, y] = [0, 1].map(|axis| a[axis].min(b[axis]));
+    let [right, bottom] = [0, 1].map(|axis| (a[axis] + a[axis + 2]).max(b[axis] + b[axis + 2]));
+    [x, y, right - x, bottom - y]
+}
+
 /// Bounds of `row . p / w . p` over a sphere, in clip space; all of it where the sphere reaches the
 /// plane w = 0; `None` behind that.
 fn bounds(row: DVec4, w: DVec4, centre: DVec3, radius: f64) -> Option<[f64; 2]> {
