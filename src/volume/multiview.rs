@@ -38,8 +38,16 @@ impl Multiview {
     }
 
     /// How many layers there are at least, up to the last that is drawn into.
-    fn layers(self) -> u32 {
+    pub fn layers(self) -> u32 {
         self.0.map_or(1, |mask| u32::BITS - mask.leading_zeros())
+    }
+
+    /// Of the views of textures that a pass draws into.
+    pub fn dimension(self) -> wgpu::TextureViewDimension {
+        match self.0 {
+            None => wgpu::TextureViewDimension::D2,
+            Some(_) => wgpu::TextureViewDimension::D2Array,
+        }
     }
 
     /// The layers that are drawn into.
@@ -80,15 +88,23 @@ impl Multiview {
         }
     }
 
+    /// What it takes to draw so.
+    pub fn features(self) -> wgpu::Features {
+        use wgpu::Features as F;
+        match self.0.map(NonZeroU32::get) {
+            None => F::empty(),
+            // wgpu's Metal back end has no others.
+            Some(mask) if mask.trailing_ones() == mask.count_ones() => F::MULTIVIEW,
+            Some(_) => F::MULTIVIEW | F::SELECTIVE_MULTIVIEW,
+        }
+    }
+
     /// Whether a device draws so.
     pub fn validate(self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
         let Some(mask) = self.0 else { return Ok(()) };
-        // Metal, too, has masks without gaps alone.
-        let feature = match mask.get().trailing_ones() == mask.get().count_ones() {
-            true => wgpu::Features::MULTIVIEW,
-            false => wgpu::Features::MULTIVIEW | wgpu::Features::SELECTIVE_MULTIVIEW,
-        };
-        check_feature(device, feature, || format!("multiview_mask {mask:#b}"))?;
+        check_feature(device, self.features(), || {
+            format!("multiview_mask {mask:#b}")
+        })?;
         check_one(
             "max_multiview_view_count",
             self.layers().into(),
@@ -158,7 +174,10 @@ mod tests {
         let mut of_two = [0; 64];
         (of_two[0], of_two[2], of_two[32], of_two[34]) = (1, 2, 3, 4);
         assert_eq!(numbers(0b101), of_two);
-        assert_eq!([of(0).layers(), of(1).layers(), of(0b101).layers()], [1, 1, 3]);
+        assert_eq!(
+            [of(0).layers(), of(1).layers(), of(0b101).layers()],
+            [1, 1, 3]
+        );
     }
 
     #[test]

@@ -355,7 +355,8 @@ impl VolumeDebug {
     /// Nine triangles that cover the target.
     ///
     /// # Errors
-    /// [`VolumeDebugError::Target`] if the count has another number of samples than the descriptor said.
+    /// [`VolumeDebugError::Target`] if the count has another number of samples than the descriptor said, or
+    /// is of several views.
     /// Nothing is then drawn.
     pub fn draw_exact_counts(
         &self,

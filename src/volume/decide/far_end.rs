@@ -207,8 +207,8 @@ mod tests {
     use glam::{Vec3, camera::rh};
 
     use super::*;
-    use crate::mesh::Bounds;
     use crate::DepthConvention;
+    use crate::mesh::Bounds;
 
     const BOX: Bounds = Bounds {
         min: Vec3::new(-10.0, 0.0, -8.0),

@@ -30,6 +30,7 @@
 
 use glam::{DVec4, Vec4Swizzles as _};
 
+use crate::HomogeneousLight;
 use crate::volume::StartFrom;
 use crate::volume::decide::far_end::{Ends, FarEnd};
 use crate::volume::decide::hull::Hull;
@@ -39,7 +40,6 @@ use crate::volume::decide::sight::{Sight, origins};
 use crate::volume::decide::world_box::WorldBox;
 use crate::volume::descriptor::ShadowVolumeDescriptor;
 use crate::volume::frame::Situation;
-use crate::HomogeneousLight;
 
 /// Which of a volume's faces are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -110,8 +110,7 @@ impl Options {
         let range = of.range.filter(|_| !of.light.is_directional())?;
         let centre = of.light.0.xyz().as_dvec3();
         let views = of.views.iter();
-        let rects =
-            views.filter_map(|view| scissor::of_sphere(view, centre, range.into(), target));
+        let rects = views.filter_map(|view| scissor::of_sphere(view, centre, range.into(), target));
         Some((rects.reduce(scissor::around).unwrap_or_default(), target))
     }
 }

@@ -62,7 +62,10 @@ impl Sight {
 
 /// The points from which rays start, such that all others are between them.
 pub(crate) fn origins(view: &View, near_plane: NearPlane) -> Vec<DVec4> {
-    let mut points = view.near_corners().map(|corner| corner.extend(1.0)).to_vec();
+    let mut points = view
+        .near_corners()
+        .map(|corner| corner.extend(1.0))
+        .to_vec();
     if near_plane.ends_faces() {
         return points;
     }

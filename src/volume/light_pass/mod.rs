@@ -3,5 +3,6 @@
 pub(crate) mod exact_count;
 pub(crate) mod join;
 pub(crate) mod mask;
+pub(crate) mod read;
 pub(crate) mod screen;
 pub(crate) mod targets;
