@@ -165,8 +165,8 @@ fn a_pass_that_was_not_prepared_and_tools_of_one_view_are_refused() {
 #[test]
 fn light_passes_of_several_views_are_refused_where_they_do_not_fit() {
     let blends = wgpu::Features::FLOAT32_BLENDABLE;
-    let (device, _) = device(blends | wgpu::Features::MULTIVIEW, 4);
-    let (bare, _) = noop(FLOAT | blends, wgpu::Limits::defaults());
+    let (device, _queue) = device(blends | wgpu::Features::MULTIVIEW, 4);
+    let (bare, _queue_of_bare) = noop(FLOAT | blends, wgpu::Limits::defaults());
     let exact = |mask: u32| ExactCountDescriptor {
         size: [64; 2],
         multiview_mask: NonZeroU32::new(mask),
