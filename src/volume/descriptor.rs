@@ -32,20 +32,25 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of the pass, 1 (default) or 4. The stencil counts each sample by itself.
     pub sample_count: u32,
-    /// The layers that a pass draws into all at once, a bit each, each layer with a view of its own: the
-    /// pass's own [`multiview_mask`](wgpu::RenderPassDescriptor::multiview_mask), for both eyes of a
-    /// headset. Default `None`: a pass draws one view.
+    /// The layers of its attachments that a pass draws into at once, a bit and a view each: the pass's own
+    /// [`multiview_mask`](wgpu::RenderPassDescriptor::multiview_mask), as for both eyes of a headset. Default
+    /// `None`: a pass draws one view.
     ///
-    /// The frame's [`views`](crate::ShadowVolumeFrame::views) are then those of one pass after another, as
-    /// many as the mask has bits, from the lowest on; and where a view is named by its place, it is the
-    /// pass that is named: 0 is that of the first views. What is decided for a caster is decided for all
-    /// views of a pass together, so that it is right in each.
+    /// With a mask the frame's [`views`](crate::ShadowVolumeFrame::views) come in sets, one after another: as
+    /// many as the mask has bits, the first of a set for the lowest layer. Whatever takes the index of a
+    /// view, such as [`render`](crate::ShadowVolumeRenderer::render), then takes that of a set.
+    ///
+    /// A set shares its draws, so what is decided for a caster is what is right in each view: it is counted
+    /// in front of the visible surfaces only where that is proven for all, left out only where all leave it
+    /// out, and so on. That suits eyes side by side; views that look apart take less fill in passes of their
+    /// own.
     ///
     /// Needs [`MULTIVIEW`](wgpu::Features::MULTIVIEW) and a
     /// [`max_multiview_view_count`](wgpu::Limits::max_multiview_view_count) of as many layers, both of which
     /// [`Support`](crate::Support) asks for; a mask with gaps also
-    /// [`SELECTIVE_MULTIVIEW`](wgpu::Features::SELECTIVE_MULTIVIEW). The pass's attachments are views of
-    /// the dimension `D2Array`.
+    /// [`SELECTIVE_MULTIVIEW`](wgpu::Features::SELECTIVE_MULTIVIEW). The attachments are views of the dimension
+    /// `D2Array`. Mesa's software driver needs to be newer than 22.3, which draws clipped triangles of one
+    /// view into another (25.0 does not).
     pub multiview_mask: Option<NonZeroU32>,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,

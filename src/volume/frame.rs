@@ -131,7 +131,7 @@ pub struct ShadowVolumeFrame<'a> {
     /// keeps its place and does not move keeps all of its volumes.
     pub lights: &'a [VolumeLight],
     /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen. With a
-    /// [`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask) those of one pass after another.
+    /// [`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask) sets of views, one after another.
     pub views: &'a [VolumeView],
     /// Bounds in world space of everything that is to be shadowed: all surfaces in the passes' depth
     /// buffers, those of casters included. Volumes then end just behind these bounds, and casters that

@@ -202,4 +202,33 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn each_back_end_that_draws_so_has_them_in_its_language() {
+        use naga::back::{hlsl, msl, spv};
+        for feed in [Feed::Pulled, Feed::Records] {
+            let source = feed.source(DepthConvention::InfiniteReverse, NearPlane::Clipped);
+            let module = naga::front::wgsl::parse_str(&of(0b11).source(source)).unwrap();
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::MULTIVIEW);
+            let info = validator.validate(&module).unwrap();
+            let mut text = String::new();
+            let options = hlsl::Options {
+                shader_model: hlsl::ShaderModel::V6_1,
+                special_constants_binding: Some(Default::default()),
+                ..Default::default()
+            };
+            hlsl::Writer::new(&mut text, &options, &Default::default())
+                .write(&module, &info, None)
+                .unwrap();
+            assert!(text.contains("SV_ViewID"), "{text}");
+            let options = msl::Options {
+                lang_version: (2, 2),
+                ..Default::default()
+            };
+            let (text, _) =
+                msl::write_string(&module, &info, &options, &Default::default()).unwrap();
+            assert!(text.contains("amplification_id"), "{text}");
+            spv::write_vec(&module, &info, &Default::default(), None).unwrap();
+        }
+    }
 }

@@ -281,8 +281,8 @@ impl ShadowVolumeRenderer {
     }
 
     /// Records the stencil draws of one light in one view, by their places in the frame, into the
-    /// host's pass, which must have the formats and the sample count of the descriptor, a stencil of
-    /// 0 and the scene's depth in that view (which may be read-only). With
+    /// host's pass, which must have the formats, the sample count and the multiview mask of the descriptor,
+    /// a stencil of 0 and the scene's depth in that view (which may be read-only). With
     /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame

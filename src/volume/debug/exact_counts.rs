@@ -10,7 +10,7 @@ use crate::volume::debug::views::VolumeDebugDescriptor;
 use crate::volume::gpu::buffers::window;
 use crate::volume::gpu::grown::spread;
 use crate::volume::gpu::layout::{bind as bind_uniform, uniform};
-use crate::volume::light_pass::mask::check_readable_samples;
+use crate::volume::light_pass::checks::check_readable_samples;
 use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
 use crate::volume::multiview::Multiview;

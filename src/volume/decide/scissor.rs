@@ -138,6 +138,12 @@ mod tests {
     }
 
     #[test]
+    fn two_rectangles_are_in_the_one_around_them() {
+        assert_eq!(around([2, 9, 3, 4], [4, 1, 10, 2]), [2, 1, 12, 12]);
+        assert_eq!(around([0, 0, 8, 8], [2, 3, 1, 1]), [0, 0, 8, 8]);
+    }
+
+    #[test]
     fn what_is_behind_or_beside_covers_nothing() {
         let view = &views()[0];
         assert_eq!(

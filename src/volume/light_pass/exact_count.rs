@@ -4,9 +4,11 @@ use std::num::NonZeroU32;
 
 use crate::error::ScreenPassError;
 use crate::volume::gpu::counter::{FEATURE, FORMAT};
+use crate::volume::light_pass::checks::{
+    check_buffer, check_layers, check_readable, check_samples, check_size, check_target,
+};
 use crate::volume::light_pass::join::bind;
-use crate::volume::light_pass::mask::{check_buffer, check_samples, check_size, check_target};
-use crate::volume::light_pass::read::{Read, check_layers, check_readable};
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_depth_alone, has_stencil};
 use crate::volume::multiview::Multiview;

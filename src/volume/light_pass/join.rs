@@ -3,8 +3,8 @@
 use std::num::NonZeroU32;
 
 use crate::error::ScreenPassError;
-use crate::volume::light_pass::mask::check_target;
-use crate::volume::light_pass::read::{Read, check_layers, check_readable};
+use crate::volume::light_pass::checks::{check_layers, check_readable, check_target};
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, is_drawable};
 use crate::volume::multiview::Multiview;

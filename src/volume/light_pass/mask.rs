@@ -5,10 +5,14 @@ use std::num::NonZeroU32;
 use crate::error::ScreenPassError;
 use crate::gl;
 use crate::volume::gpu::counter::{self, Counter};
+use crate::volume::light_pass::checks::{
+    check_buffer, check_layers, check_multiview, check_range, check_readable_samples,
+    check_samples, check_size, check_target,
+};
 use crate::volume::light_pass::exact_count::ExactCount;
-use crate::volume::light_pass::read::{Read, check, check_layers};
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
-use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_stencil};
+use crate::volume::light_pass::targets::DEPTH_STENCIL;
 use crate::volume::multiview::Multiview;
 use crate::wgsl::{EXACT, EXACT_LAYERS, EXACT_SAMPLES};
 
@@ -111,7 +115,7 @@ impl ShadowMask {
         let [width, height] = descriptor.size;
         check_size(descriptor.size, &limits)?;
         let multiview = Multiview(descriptor.multiview_mask);
-        check(device, multiview, descriptor.sample_count, "ShadowMask")?;
+        check_multiview(device, multiview, descriptor.sample_count, "ShadowMask")?;
         let most = most_layers(device, &limits) / multiview.layers();
         check_range("number of lights", descriptor.lights, most)?;
         let (samples, by_stencil) = (
@@ -359,25 +363,6 @@ fn most_layers(device: &wgpu::Device, limits: &wgpu::Limits) -> u32 {
     }
 }
 
-/// Whether a depth-stencil buffer has the width, height, samples and format that were announced.
-pub(crate) fn check_buffer(
-    buffer: &wgpu::TextureView,
-    needed: [u32; 3],
-    needed_format: wgpu::TextureFormat,
-) -> Result<(), ScreenPassError> {
-    let buffer = buffer.texture();
-    let found = [buffer.width(), buffer.height(), buffer.sample_count()];
-    if found == needed && buffer.format() == needed_format {
-        return Ok(());
-    }
-    Err(ScreenPassError::Buffer {
-        found,
-        found_format: buffer.format(),
-        needed,
-        needed_format,
-    })
-}
-
 /// What passes draw into: the layer of a light, or those of its views.
 fn layer_of(
     texture: &wgpu::Texture,
@@ -392,57 +377,4 @@ fn layer_of(
         array_layer_count: Some(multiview.layers()),
         ..Default::default()
     })
-}
-
-/// A target's width and height.
-pub(crate) fn check_size(
-    [width, height]: [u32; 2],
-    limits: &wgpu::Limits,
-) -> Result<(), ScreenPassError> {
-    check_range("width", width, limits.max_texture_dimension_2d)?;
-    check_range("height", height, limits.max_texture_dimension_2d)
-}
-
-pub(crate) fn check_range(
-    what: &'static str,
-    value: u32,
-    limit: u32,
-) -> Result<(), ScreenPassError> {
-    if (1..=limit).contains(&value) {
-        return Ok(());
-    }
-    Err(ScreenPassError::Range { what, value, limit })
-}
-
-/// Whether shaders can read targets of so many samples.
-pub(crate) fn check_readable_samples(
-    device: &wgpu::Device,
-    samples: u32,
-    what: &'static str,
-) -> Result<(), ScreenPassError> {
-    match samples > 1 && gl::is_gl(device) {
-        true => Err(ScreenPassError::SamplesOnGl { samples, what }),
-        false => Ok(()),
-    }
-}
-
-/// The pass's depth-stencil format and sample count.
-pub(crate) fn check_target(
-    device: &wgpu::Device,
-    format: wgpu::TextureFormat,
-    samples: u32,
-) -> Result<(), ScreenPassError> {
-    let usable = device.features().contains(format.required_features());
-    if !has_stencil(format) || !usable {
-        return Err(ScreenPassError::Format(format));
-    }
-    check_samples(samples)
-}
-
-/// The pass's sample count.
-pub(crate) fn check_samples(samples: u32) -> Result<(), ScreenPassError> {
-    match samples {
-        1 | 4 => Ok(()),
-        _ => Err(ScreenPassError::SampleCount(samples)),
-    }
 }

@@ -1,5 +1,6 @@
 //! What a host's light passes need: masks, exact counts, pictures joined.
 
+pub(crate) mod checks;
 pub(crate) mod exact_count;
 pub(crate) mod join;
 pub(crate) mod mask;
