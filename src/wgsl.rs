@@ -9,7 +9,9 @@
 /// has that word for outputs alone, and naga writes it wherever it stands.
 pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 
-/// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
+/// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow. Of a mask
+/// of several views, `light` is the layer: see
+/// [`ShadowMaskDescriptor::multiview_mask`](crate::ShadowMaskDescriptor::multiview_mask).
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
 /// Any of this crate's WGSL as a module for naga_oil, which hosts name by `path`, e.g.
@@ -35,6 +37,11 @@ pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
 /// `shadows_exact_lit_samples(counts, pixel)`, a bit for each sample, to be a fragment shader's
 /// `@builtin(sample_mask)`.
 pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
+
+/// Reads an [`ExactCount`](crate::ExactCount) of several views in a pass that draws them:
+/// `shadows_exact_visibility_of(counts, pixel, layer)`, 1 lit, 0 in shadow; the layer is the fragment's
+/// `@builtin(view_index)`.
+pub const EXACT_LAYERS: &str = include_str!("../shaders/volume_exact_layers.wgsl");
 
 /// Reads a [`PlanarSoftShadow`](crate::PlanarSoftShadow) through bindings of your own:
 /// `shadows_planar_soft(counts, linear, rectangle, world)`, 1 lit, 0 in shadow.

@@ -9,6 +9,7 @@ mod light;
 mod light_map;
 mod map;
 mod mesh;
+mod multiview;
 mod names;
 mod planar;
 mod projected;
@@ -27,6 +28,7 @@ pub use light::{LightError, ViewError};
 pub use light_map::LightMapError;
 pub use map::{BiasError, CubeShadowMapError, MapSettingsError, PcfError, ShadowMapError};
 pub use mesh::{CasterError, CasterMeshError, MeshError};
+pub use multiview::MultiviewError;
 pub use planar::{PlanarRenderError, PlanarShadowError, PlanarSoftShadowError};
 pub use projected::ProjectedShadowError;
 #[cfg(feature = "reference")]

@@ -1,5 +1,7 @@
 //! What the host says about its passes and its frame, and what it gets to know.
 
+use std::num::NonZeroU32;
+
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
 use crate::volume::decide::method::{Caps, Extrusion, Method};
@@ -7,6 +9,7 @@ use crate::volume::gpu::counter;
 use crate::volume::light_pass::targets::{
     DEPTH_STENCIL, bytes_a_sample, has_depth_alone, has_stencil, is_drawable,
 };
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::limits;
 use crate::volume::{Counter, Silhouettes, StartFrom};
 
@@ -29,6 +32,26 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of the pass, 1 (default) or 4. The stencil counts each sample by itself.
     pub sample_count: u32,
+    /// The layers of its attachments that a pass draws into at once, a bit and a view each: the pass's own
+    /// [`multiview_mask`](wgpu::RenderPassDescriptor::multiview_mask), as for both eyes of a headset. Default
+    /// `None`: a pass draws one view.
+    ///
+    /// With a mask the frame's [`views`](crate::ShadowVolumeFrame::views) come in sets, one after another: as
+    /// many as the mask has bits, the first of a set for the lowest layer. Whatever takes the index of a
+    /// view, such as [`render`](crate::ShadowVolumeRenderer::render), then takes that of a set.
+    ///
+    /// A set shares its draws, so what is decided for a caster is what is right in each view: it is counted
+    /// in front of the visible surfaces only where that is proven for all, left out only where all leave it
+    /// out, and so on. That suits eyes side by side; views that look apart take less fill in passes of their
+    /// own.
+    ///
+    /// Needs [`MULTIVIEW`](wgpu::Features::MULTIVIEW) and a
+    /// [`max_multiview_view_count`](wgpu::Limits::max_multiview_view_count) of as many layers, both of which
+    /// [`Support`](crate::Support) asks for; a mask with gaps also
+    /// [`SELECTIVE_MULTIVIEW`](wgpu::Features::SELECTIVE_MULTIVIEW). The attachments are views of the dimension
+    /// `D2Array`. Mesa's software driver needs to be newer than 22.3, which draws clipped triangles of one
+    /// view into another (25.0 does not).
+    pub multiview_mask: Option<NonZeroU32>,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,
     /// Formats of the pass's colour attachments, which are left as they are. Default none.
@@ -90,6 +113,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             label: None,
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            multiview_mask: None,
             depth: DepthConvention::default(),
             color_formats: &[],
             cap_bias_ulps: 16,
@@ -136,7 +160,12 @@ impl ShadowVolumeDescriptor<'_> {
             return Err(ShadowVolumeError::FormatFeature(format));
         }
         check_depth(device, self.depth)?;
+        self.multiview().validate(device)?;
         self.validate_colors(device)
+    }
+
+    pub(crate) fn multiview(&self) -> Multiview {
+        Multiview(self.multiview_mask)
     }
 
     fn validate_colors(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
@@ -182,7 +211,7 @@ pub(crate) fn check_depth(
     })
 }
 
-fn check_feature(
+pub(crate) fn check_feature(
     device: &wgpu::Device,
     feature: wgpu::Features,
     needed_by: impl FnOnce() -> String,

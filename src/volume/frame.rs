@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::Bounds;
 use crate::scene::CasterFilter;
+use crate::volume::multiview::Multiview;
 use crate::{
     Caster, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight, View,
 };
@@ -129,7 +130,8 @@ pub struct ShadowVolumeFrame<'a> {
     /// The lights that shine in this frame. A light is known by its place in this list: one that
     /// keeps its place and does not move keeps all of its volumes.
     pub lights: &'a [VolumeLight],
-    /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen.
+    /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen. With a
+    /// [`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask) sets of views, one after another.
     pub views: &'a [VolumeView],
     /// Bounds in world space of everything that is to be shadowed: all surfaces in the passes' depth
     /// buffers, those of casters included. Volumes then end just behind these bounds, and casters that
@@ -146,8 +148,12 @@ pub struct ShadowVolumeFrame<'a> {
 }
 
 impl ShadowVolumeFrame<'_> {
-    /// Whether lights, views and receivers are sound, for passes of this convention.
-    pub(crate) fn validate(&self, depth: DepthConvention) -> Result<(), ShadowVolumeError> {
+    /// Whether lights, views and receivers are sound, for passes of this convention and these views.
+    pub(crate) fn validate(
+        &self,
+        depth: DepthConvention,
+        multiview: Multiview,
+    ) -> Result<(), ShadowVolumeError> {
         for VolumeView { view, target_size } in self.views {
             if view.depth() != depth {
                 return Err(ShadowVolumeError::Depth {
@@ -159,6 +165,7 @@ impl ShadowVolumeFrame<'_> {
                 return Err(ShadowVolumeError::TargetSize(size));
             }
         }
+        multiview.check(self.views)?;
         for VolumeLight { light, range, .. } in self.lights {
             light.validate()?;
             if let Some(range) = *range
@@ -176,26 +183,33 @@ impl ShadowVolumeFrame<'_> {
         Ok(())
     }
 
-    /// One light and one view of it.
-    pub(crate) fn situation(&self, light: usize, view: usize) -> Option<Situation> {
+    /// One light, and the views of it that are drawn together: those of the pass of this number.
+    pub(crate) fn situation(
+        &self,
+        multiview: Multiview,
+        light: usize,
+        pass: usize,
+    ) -> Option<Situation> {
+        let views = self.views.chunks(multiview.views()).nth(pass)?;
         Some(Situation {
             light: self.lights.get(light)?.light,
             range: self.lights.get(light)?.range,
             filter: self.lights.get(light)?.filter(),
-            view: self.views.get(view)?.view,
-            target_size: self.views.get(view)?.target_size,
+            views: views.iter().map(|told| told.view).collect(),
+            target_size: views.first()?.target_size,
             receivers: self.receivers,
         })
     }
 }
 
-/// One light and one view of a frame: all that the choices for a caster depend on, beside the caster.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One light and one view of a frame, or those that are drawn together: all that the choices for a caster
+/// depend on, beside the caster.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Situation {
     pub light: HomogeneousLight,
     pub range: Option<f32>,
     pub filter: CasterFilter,
-    pub view: View,
+    pub views: Vec<View>,
     pub target_size: Option<[u32; 2]>,
     pub receivers: Option<Bounds>,
 }

@@ -17,6 +17,7 @@ mod descriptor;
 mod frame;
 mod gpu;
 pub(crate) mod light_pass;
+mod multiview;
 mod plan;
 mod renderer;
 mod silhouette;

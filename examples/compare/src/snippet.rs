@@ -166,6 +166,7 @@ fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
         label: _,
         depth_stencil_format: _,
         sample_count,
+        multiview_mask: _,
         depth: _,
         color_formats: _,
         cap_bias_ulps,

@@ -18,9 +18,9 @@
 
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-use crate::HomogeneousLight;
 use crate::volume::decide::world_box::{WorldBox, displacement, rounding};
 use crate::volume::frame::Situation;
+use crate::{HomogeneousLight, View};
 
 /// Where far vertices go: see `far_point` in volume_extrude.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub(crate) struct Ends {
     receivers: Option<[DVec3; 2]>,
     /// Where rays start.
     origins: Vec<DVec4>,
-    /// How far the viewer is from the world's origin.
+    /// How far the viewer is from the world's origin, or the farthest of several.
     eye: f64,
 }
 
@@ -58,7 +58,7 @@ const ROOM: f64 = 1e-3;
 impl Ends {
     pub fn new(of: &Situation, origins: Vec<DVec4>) -> Self {
         let range = of.range.filter(|_| !of.light.is_directional());
-        let corners = of.view.near_corners().into_iter();
+        let corners = of.views.iter().flat_map(View::near_corners);
         let eye = corners.map(DVec3::length).fold(0.0, f64::max);
         let receivers = of.receivers.map(|bounds| {
             let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
@@ -207,8 +207,8 @@ mod tests {
     use glam::{Vec3, camera::rh};
 
     use super::*;
+    use crate::DepthConvention;
     use crate::mesh::Bounds;
-    use crate::{DepthConvention, View};
 
     const BOX: Bounds = Bounds {
         min: Vec3::new(-10.0, 0.0, -8.0),
@@ -224,7 +224,7 @@ mod tests {
             light,
             range: Some(200.0),
             filter: CasterFilter::ALL,
-            view,
+            views: vec![view],
             target_size: None,
             receivers: Some(BOX),
         };
@@ -308,7 +308,7 @@ mod tests {
                 light,
                 range: None,
                 filter: CasterFilter::ALL,
-                view,
+                views: vec![view],
                 target_size: None,
                 receivers: Some(Bounds {
                     min: -level,
