@@ -31,6 +31,7 @@ use crate::volume::StartFrom;
 use crate::volume::decide::far_end::{Ends, FarEnd};
 use crate::volume::decide::hull::Hull;
 use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::decide::reach::Reach;
 use crate::volume::decide::scissor::{self, Rect};
 use crate::volume::decide::world_box::WorldBox;
 use crate::volume::descriptor::ShadowVolumeDescriptor;
@@ -69,8 +70,8 @@ pub enum Caps {
 pub enum Extrusion {
     /// To infinity.
     Infinite,
-    /// Past the frame's `range` or its `receivers`, for less to fill: every shadow is complete
-    /// within the range and on the receivers, and beyond them, where the light must have no effect
+    /// Past the light's range, its cone or the frame's `receivers`, for less to fill: every shadow is complete
+    /// within them and on the receivers, and beyond them, where the light must have no effect
     /// or nothing is, there may be none. Casters around the light, and lights without a range where
     /// the receivers are not known, have infinite volumes all the same.
     #[default]
@@ -103,9 +104,8 @@ impl Options {
     /// What of the target is drawn to, and the target's size; `None` for all of it.
     pub fn scissor(&self, of: &Situation) -> Option<(Rect, [u32; 2])> {
         let target = of.target_size.filter(|_| self.culling)?;
-        let range = of.range.filter(|_| !of.light.is_directional())?;
-        let centre = of.light.0.xyz().as_dvec3();
-        let rect = scissor::of_sphere(&of.view, centre, range.into(), target);
+        let (centre, radius) = Reach::new(of).ball()?;
+        let rect = scissor::of_sphere(&of.view, centre, radius, target);
         Some((rect.unwrap_or_default(), target))
     }
 }
@@ -163,7 +163,9 @@ pub(crate) struct Rules {
     receiving: Option<Hull>,
     /// Of a view that clips both; positive between them.
     near_and_far: Option<[DVec4; 2]>,
+    /// And something there that may be shadowed.
     light_reaches_view: bool,
+    reach: Reach,
 }
 
 impl Rules {
@@ -171,8 +173,8 @@ impl Rules {
         let light = of.light.0.as_dvec4();
         let view = &of.view;
         let origins = origins(view, options.near);
-        let ends = Ends::new(of, origins.clone());
-        let range = ends.range;
+        let reach = Reach::new(of);
+        let ends = Ends::new(of, &reach, origins.clone());
         let receiving = ends
             .receivers()
             .map(|box_| Hull::new(&with(&box_, unit(light))));
@@ -180,7 +182,8 @@ impl Rules {
         // Endless: a far plane hides little, and its corners are badly known in f32 matrices.
         frustum.extend(view.sight_lines().map(|d| d.normalize().extend(0.0)));
         let seen = Hull::new(&frustum);
-        let light_reaches_view = range.is_none_or(|range| !seen.misses_sphere(light.xyz(), range));
+        let is_seen = |(centre, radius)| !seen.misses_sphere(centre, radius);
+        let light_reaches_view = reach.ball().is_none_or(is_seen) && !ends.reaches_nothing;
         frustum.push(unit(light));
         Self {
             options,
@@ -192,6 +195,7 @@ impl Rules {
             light_reaches_view,
             origins,
             ends,
+            reach,
         }
     }
 
@@ -200,8 +204,7 @@ impl Rules {
         if !self.options.culling {
             return None;
         }
-        let beyond = |range| world.distance(self.light.0.xyz().as_dvec3()) > range;
-        if self.ends.range.is_some_and(beyond) {
+        if self.reach.misses(world) {
             return Some(Skip::OutOfRange);
         }
         let nowhere = self
