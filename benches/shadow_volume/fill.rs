@@ -1,6 +1,6 @@
 //! What volumes fill, in screens of 1280 x 720: each pixel as often as faces cover it, whether the depth test
 //! then counts them or not. Counted by [`ShadowVolumeRenderer::survey`], so that machine and driver make no
-//! difference.
+//! difference; beside it the time of the stencil pass, all lights in one.
 //!
 //! A line for each scene: with volumes without end, with ends at the lights' range alone, with the scene's
 //! bounds as receivers besides, and with z-fail forced. The scenes: those built in, of the town by night the
@@ -9,9 +9,10 @@
 
 use host::gpu::Gpu;
 use host::random::Random;
-use host::renderer;
+use host::renderer::{self, Renderer};
 use host::scene::{self, Cone, Light, LightKind, Mesh, Object, Scene, Time, homogeneous};
 use host::scene_gpu::SceneGpu;
+use host::timer::Timer;
 use shadows::glam::{Affine3A, Quat, Vec3, Vec4};
 use shadows::mesh::Bounds;
 use shadows::{
@@ -20,6 +21,9 @@ use shadows::{
 };
 
 use super::SIZE;
+use super::shared::median;
+
+const ROUNDS: usize = 5;
 
 /// Lights of the town.
 const LIGHTS: usize = 16;
@@ -60,7 +64,7 @@ fn lit(scene: &Scene, kind: LightKind, name: &str) -> Scene {
 }
 
 fn measure(gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
-    let scene_gpu = SceneGpu::new(gpu, scene)?;
+    let stage = Stage::new(gpu, scene)?;
     let bounds = scene.bounds();
     let receivers = Bounds {
         min: bounds.min.as_vec3(),
@@ -81,7 +85,7 @@ fn measure(gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
             target_size: Some(SIZE),
         }],
         receivers: Some(receivers),
-        casters: &scene_gpu.casters,
+        casters: &stage.scene.casters,
     };
     let unbounded = ShadowVolumeFrame {
         receivers: None,
@@ -108,9 +112,14 @@ fn measure(gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
         ("the same, z-fail alone", &zfail, &frame),
         ("the same, spots as lamps", &auto, &without_cones),
     ] {
-        let [sides, caps, drawn] = filled(gpu, descriptor, frame)?;
+        let Filled {
+            sides,
+            caps,
+            volumes,
+            time,
+        } = stage.fill(descriptor, frame)?;
         println!(
-            "  {name}: {:.2} screens ({caps:.2} of them caps), {drawn} volumes",
+            "  {name}: {:.2} screens ({caps:.2} of them caps), {volumes} volumes, {time:.1} ms",
             sides + caps
         );
     }
@@ -129,30 +138,77 @@ fn told(light: &Light) -> VolumeLight {
     }
 }
 
-/// Screens of sides and of caps, and how many volumes have any.
-fn filled(
-    gpu: &Gpu,
-    descriptor: &ShadowVolumeDescriptor<'_>,
-    frame: &ShadowVolumeFrame<'_>,
-) -> anyhow::Result<[f64; 3]> {
-    let mut renderer = ShadowVolumeRenderer::new(
-        &gpu.device,
-        &ShadowVolumeDescriptor {
-            depth_stencil_format: gpu.support.depth_stencil_format(),
+/// What a scene is drawn with.
+struct Stage<'a> {
+    gpu: &'a Gpu,
+    timer: Timer,
+    host: Renderer,
+    scene: SceneGpu,
+}
+
+/// What volumes come to.
+struct Filled {
+    /// In screens.
+    sides: f64,
+    caps: f64,
+    volumes: u32,
+    /// Of the stencil pass, in milliseconds.
+    time: f64,
+}
+
+impl<'a> Stage<'a> {
+    fn new(gpu: &'a Gpu, scene: &Scene) -> anyhow::Result<Self> {
+        let scene_gpu = SceneGpu::new(gpu, scene)?;
+        let host = Renderer::new(gpu, SIZE, scene, &scene_gpu)?;
+        gpu.run(|encoder| host.draw_ambient(encoder, &scene_gpu));
+        Ok(Self {
+            gpu,
+            timer: Timer::new(gpu),
+            host,
+            scene: scene_gpu,
+        })
+    }
+
+    fn fill(
+        &self,
+        descriptor: &ShadowVolumeDescriptor<'_>,
+        frame: &ShadowVolumeFrame<'_>,
+    ) -> anyhow::Result<Filled> {
+        let gpu = self.gpu;
+        let descriptor = ShadowVolumeDescriptor {
+            depth_stencil_format: self.host.depth_stencil_format(),
             depth: renderer::DEPTH,
             ..descriptor.clone()
-        },
-    )?;
-    renderer.prepare(&gpu.device, &gpu.queue, frame)?;
-    let [mut sides, mut caps] = [0.0; 2];
-    for light in 0..frame.lights.len() {
-        let survey = renderer.survey(light, 0, SIZE)?;
-        sides += survey.side_fill;
-        caps += survey.light_cap_fill + survey.dark_cap_fill;
+        };
+        let mut volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
+        volumes.prepare(&gpu.device, &gpu.queue, frame)?;
+        gpu.run(|encoder| volumes.encode(encoder));
+        let [mut sides, mut caps] = [0.0; 2];
+        let pixels = f64::from(SIZE[0] * SIZE[1]);
+        for light in 0..frame.lights.len() {
+            let survey = volumes.survey(light, 0, SIZE)?;
+            sides += survey.side_fill / pixels;
+            caps += (survey.light_cap_fill + survey.dark_cap_fill) / pixels;
+        }
+        let times = (0..ROUNDS).map(|_| self.time(&volumes, frame.lights.len()));
+        Ok(Filled {
+            sides,
+            caps,
+            volumes: volumes.statistics().casters_drawn,
+            time: median(times),
+        })
     }
-    let drawn = renderer.statistics().casters_drawn;
-    let pixels = f64::from(SIZE[0] * SIZE[1]);
-    Ok([sides / pixels, caps / pixels, drawn.into()])
+
+    /// All lights in one pass.
+    fn time(&self, volumes: &ShadowVolumeRenderer, lights: usize) -> f64 {
+        self.timer.time(self.gpu, |encoder| {
+            let mut pass = self.host.begin_stencil_pass(encoder);
+            for light in 0..lights {
+                volumes.reset(&mut pass);
+                volumes.render(&mut pass, light, 0).expect("it is encoded");
+            }
+        })
+    }
 }
 
 /// A hundred tufts of a hundred needles each, closed and thinner than a pixel where they are far.
