@@ -178,7 +178,7 @@ impl<'a> Stage<'a> {
         let descriptor = ShadowVolumeDescriptor {
             depth_stencil_format: self.host.depth_stencil_format(),
             depth: renderer::DEPTH,
-            ..descriptor.clone()
+            ..*descriptor
         };
         let mut volumes = ShadowVolumeRenderer::new(&gpu.device, &descriptor)?;
         volumes.prepare(&gpu.device, &gpu.queue, frame)?;

@@ -58,7 +58,11 @@ impl Reach {
     fn is_beside(&self, cone: Cone, world: &WorldBox) -> bool {
         let toward = world.centre() - self.light;
         let across = toward.reject_from_normalized(cone.axis);
-        let across = (across.try_normalize()).unwrap_or_else(|| cone.axis.any_orthonormal_vector());
+        // What rounding leaves of a middle on the axis points anywhere.
+        let across = match across.length() > 1e-6 * toward.length() {
+            true => across.normalize(),
+            false => cone.axis.any_orthonormal_vector(),
+        };
         let (sin, cos) = cone.half_angle.sin_cos();
         let outward = cos * across - sin * cone.axis;
         world.nearest(outward) > outward.dot(self.light)
