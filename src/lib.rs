@@ -260,6 +260,6 @@ pub use volume::{
     Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
     LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
     ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
-    VolumeDebug, VolumeDebugDescriptor, VolumeLight, VolumePipelines, VolumeStatistics,
+    VolumeCone, VolumeDebug, VolumeDebugDescriptor, VolumeLight, VolumePipelines, VolumeStatistics,
     VolumeSurvey, VolumeView,
 };

@@ -2,6 +2,8 @@
 
 use std::num::NonZeroU32;
 
+use glam::Vec3;
+
 use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::Bounds;
 use crate::scene::CasterFilter;
@@ -9,6 +11,27 @@ use crate::volume::multiview::Multiview;
 use crate::{
     Caster, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight, View,
 };
+
+/// Where a spot shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeCone {
+    /// From the light along the cone's middle, in world space, of any length but 0.
+    pub direction: Vec3,
+    /// From the direction to the cone's side, in radians; greater than 0, less than pi / 2.
+    pub half_angle: f32,
+}
+
+impl VolumeCone {
+    fn validate(&self) -> Result<(), LightError> {
+        if !self.direction.is_finite() || self.direction == Vec3::ZERO {
+            return Err(LightError::SpotDirection(self.direction.to_array()));
+        }
+        match self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
+            true => Ok(()),
+            false => Err(LightError::HalfAngle(self.half_angle)),
+        }
+    }
+}
 
 /// A light, as far as shadow volumes need it.
 ///
@@ -24,6 +47,10 @@ pub struct VolumeLight {
     /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
     /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
     pub range: Option<f32>,
+    /// The cone into which a point light shines, if it is a spot: casters wholly beside it are skipped,
+    /// volumes end and draws are clipped where the cone does. Outside of it may be shadow or none: the
+    /// host's light pass leaves it dark. `None`, the default: all around. Directional lights ignore it.
+    pub cone: Option<VolumeCone>,
     /// The casters whose shadows it casts are on any of these layers, a bit each ([`Caster::layers`]).
     /// Default all.
     pub layers: u32,
@@ -39,6 +66,7 @@ impl VolumeLight {
         Self {
             light,
             range,
+            cone: None,
             layers,
             owner,
         }
@@ -54,6 +82,14 @@ impl VolumeLight {
     pub fn owned_by(self, owner: NonZeroU32) -> Self {
         Self {
             owner: Some(owner),
+            ..self
+        }
+    }
+
+    /// The same, shining into a cone: of what is outside of it no shadow is promised, and none is paid for.
+    pub fn with_cone(self, cone: VolumeCone) -> Self {
+        Self {
+            cone: Some(cone),
             ..self
         }
     }
@@ -78,9 +114,12 @@ impl From<PointLight> for VolumeLight {
 }
 
 impl From<SpotLight> for VolumeLight {
-    /// Shining all around: what is outside the cone is for the host's light pass to leave dark.
+    /// What is outside the cone is for the host's light pass to leave dark.
     fn from(light: SpotLight) -> Self {
-        Self::new(light.homogeneous(), Some(light.range))
+        Self::new(light.homogeneous(), Some(light.range)).with_cone(VolumeCone {
+            direction: light.direction,
+            half_angle: light.half_angle,
+        })
     }
 }
 
@@ -166,8 +205,12 @@ impl ShadowVolumeFrame<'_> {
             }
         }
         multiview.check(self.views)?;
-        for VolumeLight { light, range, .. } in self.lights {
+        for VolumeLight {
+            light, range, cone, ..
+        } in self.lights
+        {
             light.validate()?;
+            cone.as_ref().map_or(Ok(()), VolumeCone::validate)?;
             if let Some(range) = *range
                 && !(range.is_finite() && range > 0.0)
             {
@@ -194,6 +237,7 @@ impl ShadowVolumeFrame<'_> {
         Some(Situation {
             light: self.lights.get(light)?.light,
             range: self.lights.get(light)?.range,
+            cone: self.lights.get(light)?.cone,
             filter: self.lights.get(light)?.filter(),
             views: views.iter().map(|told| told.view).collect(),
             target_size: views.first()?.target_size,
@@ -208,6 +252,7 @@ impl ShadowVolumeFrame<'_> {
 pub(crate) struct Situation {
     pub light: HomogeneousLight,
     pub range: Option<f32>,
+    pub cone: Option<VolumeCone>,
     pub filter: CasterFilter,
     pub views: Vec<View>,
     pub target_size: Option<[u32; 2]>,

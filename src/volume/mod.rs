@@ -29,7 +29,7 @@ pub use debug::views::{VolumeDebug, VolumeDebugDescriptor};
 pub use decide::method::{Caps, Extrusion, Method};
 pub use decide::start::StartFrom;
 pub use descriptor::ShadowVolumeDescriptor;
-pub use frame::{ShadowVolumeFrame, VolumeLight, VolumeView};
+pub use frame::{ShadowVolumeFrame, VolumeCone, VolumeLight, VolumeView};
 pub use gpu::counter::Counter;
 pub use gpu::pipelines::VolumePipelines;
 pub use light_pass::exact_count::{ExactCount, ExactCountDescriptor};

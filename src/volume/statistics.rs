@@ -17,7 +17,7 @@ pub enum CasterState {
     /// Left out: its transform leaves no area of it that the light sees. It is flattened to a line or a
     /// point, or to a plane that holds the light.
     EdgeOn,
-    /// Left out: it is beyond the light's range.
+    /// Left out: it is beyond the light's range, or beside its cone.
     OutOfRange,
     /// Left out: nothing that it could shadow is in view.
     OutOfView,
@@ -70,7 +70,7 @@ pub struct VolumeStatistics {
     /// scale 0 on two axes or all, and those flattened to a plane that holds the light. (Flattened to
     /// any other plane, a caster casts what is left of it.)
     pub skipped_edge_on: u32,
-    /// Casters left out because they are beyond the light's range.
+    /// Casters left out because they are beyond the light's range, or beside its cone.
     pub skipped_out_of_range: u32,
     /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,

@@ -14,7 +14,7 @@ const STRUCTS: [(&str, &str); 6] = [
 ];
 
 /// As many as there are. Raise it only for what a host has a reason to set.
-const MOST: usize = 31;
+const MOST: usize = 32;
 
 /// The fields of a struct that are public and not hidden.
 fn fields(text: &str, name: &str) -> Vec<String> {

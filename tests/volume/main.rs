@@ -32,6 +32,7 @@ mod random;
 mod receivers;
 mod screen;
 mod singular;
+mod spots;
 mod stage;
 mod start_from;
 mod survey;

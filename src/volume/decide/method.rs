@@ -35,6 +35,7 @@ use crate::volume::StartFrom;
 use crate::volume::decide::far_end::{Ends, FarEnd};
 use crate::volume::decide::hull::Hull;
 use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::decide::reach::Reach;
 use crate::volume::decide::scissor::{self, Rect};
 use crate::volume::decide::sight::{Sight, origins};
 use crate::volume::decide::world_box::WorldBox;
@@ -77,8 +78,8 @@ pub enum Caps {
 pub enum Extrusion {
     /// To infinity.
     Infinite,
-    /// Past the frame's `range` or its `receivers`, for less to fill: every shadow is complete
-    /// within the range and on the receivers, and beyond them, where the light must have no effect
+    /// Past the light's range, its cone or the frame's `receivers`, for less to fill: every shadow is complete
+    /// within them and on the receivers, and beyond them, where the light must have no effect
     /// or nothing is, there may be none. Casters around the light, and lights without a range where
     /// the receivers are not known, have infinite volumes all the same.
     #[default]
@@ -111,10 +112,9 @@ impl Options {
     /// What of the target is drawn to, and the target's size; `None` for all of it.
     pub fn scissor(&self, of: &Situation) -> Option<(Rect, [u32; 2])> {
         let target = of.target_size.filter(|_| self.culling)?;
-        let range = of.range.filter(|_| !of.light.is_directional())?;
-        let centre = of.light.0.xyz().as_dvec3();
+        let (centre, radius) = Reach::new(of).ball()?;
         let views = of.views.iter();
-        let rects = views.filter_map(|view| scissor::of_sphere(view, centre, range.into(), target));
+        let rects = views.filter_map(|view| scissor::of_sphere(view, centre, radius, target));
         Some((rects.reduce(scissor::around).unwrap_or_default(), target))
     }
 }
@@ -168,6 +168,7 @@ pub(crate) struct Rules {
     sights: Vec<Sight>,
     /// From the receivers to the light: what misses it shadows none of them.
     receiving: Option<Hull>,
+    reach: Reach,
 }
 
 impl Rules {
@@ -175,8 +176,9 @@ impl Rules {
         let light = unit(of.light.0.as_dvec4());
         let views = of.views.iter();
         let origins: Vec<_> = views.flat_map(|view| origins(view, options.near)).collect();
-        let ends = Ends::new(of, origins.clone());
-        let sight = |view| Sight::new(view, options.near, light, ends.range);
+        let reach = Reach::new(of);
+        let ends = Ends::new(of, &reach, origins.clone());
+        let sight = |view| Sight::new(view, options.near, light, reach.ball());
         let receiving = ends.receivers().map(|box_| Hull::new(&with(&box_, light)));
         Self {
             options,
@@ -185,6 +187,7 @@ impl Rules {
             receiving,
             origins,
             ends,
+            reach,
         }
     }
 
@@ -193,15 +196,15 @@ impl Rules {
         if !self.options.culling {
             return None;
         }
-        let beyond = |range| world.distance(self.light.0.xyz().as_dvec3()) > range;
-        if self.ends.range.is_some_and(beyond) {
+        if self.reach.misses(world) {
             return Some(Skip::OutOfRange);
         }
         let nowhere = self
             .receiving
             .as_ref()
             .is_some_and(|hull| hull.misses(world));
-        if nowhere || self.sights.iter().all(|sight| sight.misses_shadow(world)) {
+        let unseen = nowhere || self.ends.reaches_nothing;
+        if unseen || self.sights.iter().all(|sight| sight.misses_shadow(world)) {
             return Some(Skip::OutOfView);
         }
         None

@@ -20,13 +20,19 @@ pub(crate) struct Sight {
 }
 
 impl Sight {
-    /// Of a light, a direction of length 1, that reaches as far as its range.
-    pub fn new(view: &View, near_plane: NearPlane, light: DVec4, range: Option<f64>) -> Self {
+    /// Of a light, a direction of length 1, that reaches no more than a ball of this centre and radius.
+    pub fn new(
+        view: &View,
+        near_plane: NearPlane,
+        light: DVec4,
+        reached: Option<(DVec3, f64)>,
+    ) -> Self {
         let mut frustum: Vec<DVec4> = view.near_corners().map(|c| c.extend(1.0)).to_vec();
         // Endless: a far plane hides little, and its corners are badly known in f32 matrices.
         frustum.extend(view.sight_lines().map(|d| d.normalize().extend(0.0)));
         let seen = Hull::new(&frustum);
-        let light_reaches_view = range.is_none_or(|range| !seen.misses_sphere(light.xyz(), range));
+        let is_seen = |(centre, radius)| !seen.misses_sphere(centre, radius);
+        let light_reaches_view = reached.is_none_or(is_seen);
         frustum.push(light);
         let mut near = origins(view, near_plane);
         near.push(light);
