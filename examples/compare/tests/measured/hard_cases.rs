@@ -2,6 +2,7 @@
 
 use shadows::reference::{Class, Interior, ReferenceImage};
 
+use compare::hard::atlas::play;
 use compare::hard::cases::{self, Case, Course, mesh};
 use compare::hard::causes;
 use compare::hard::expect::{Expect, expected, is_software};
@@ -110,6 +111,20 @@ fn twins<'a>(gpu: &Gpu, case: &Case, techniques: &'a [Technique]) -> Vec<(&'a st
                     let visibility = drawn(&reference, light);
                     let frame = situation.frame(technique, &mut shadow, &visibility);
                     outcome.add(judge("", &reference, &frame, expect).unwrap());
+                }
+            }
+        }
+    }
+    let frames = case.frames.map(|frames| frames(&mut Random(0)));
+    for frames in frames.unwrap_or_default() {
+        let truth = frames.truth().unwrap();
+        for (technique, outcomes) in &mut tried {
+            for shown in play(gpu, &frames, technique, |module| module).unwrap() {
+                let [frame, view, light] = shown.at;
+                for (all, outcome) in [255, 0].into_iter().zip(&mut *outcomes) {
+                    let visibility = drawn(&truth[frame][view][light], all);
+                    let found = shown.judge("", &truth, &visibility, expects(technique));
+                    outcome.add(found.unwrap());
                 }
             }
         }

@@ -21,7 +21,7 @@ pub struct Frames {
     pub scene: Scene,
     pub atlas: ShadowAtlasDescriptor<'static>,
     pub frames: Vec<Frame>,
-    /// What must be so in a judged frame at least, and its name: else nothing was tried.
+    /// What must be so in one of the frames, and its name: else nothing was tried.
     pub came_about: Option<(&'static str, fn(&AtlasStatistics) -> bool)>,
 }
 
@@ -31,7 +31,7 @@ pub struct Frame {
     pub lights: Vec<Lamp>,
     /// At least one.
     pub views: Vec<Seen>,
-    /// By how much every caster is away from its place; none where it is judged.
+    /// By how much every other caster is away from its place; none where it is judged.
     pub moved: Vec3,
     /// Whether its pictures are compared with the truth.
     pub judged: bool,

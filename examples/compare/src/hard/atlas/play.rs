@@ -75,12 +75,12 @@ pub fn play(
     let mut judged = 0;
     for frame in &frames.frames {
         player.prepare(frame)?;
+        let statistics = player.atlas.statistics();
+        came_about |= frames.came_about.is_some_and(|(_, came)| came(&statistics));
         if !frame.judged {
             gpu.run(|encoder| player.atlas.encode(encoder));
             continue;
         }
-        let statistics = player.atlas.statistics();
-        came_about |= frames.came_about.is_some_and(|(_, came)| came(&statistics));
         shown.extend(player.pictures(frame, judged)?);
         judged += 1;
     }
@@ -130,12 +130,10 @@ impl<'a> Player<'a> {
 
     fn prepare(&mut self, frame: &Frame) -> Result<()> {
         let lights: Vec<AtlasLight> = frame.lights.iter().map(Lamp::of_atlas).collect();
-        let moved = |caster: &Caster| {
-            let mut caster = caster.clone();
+        let mut casters: Vec<Caster> = self.scene.casters.clone();
+        for caster in casters.iter_mut().skip(1).step_by(2) {
             caster.world_from_object.translation += Vec3A::from(frame.moved);
-            caster
-        };
-        let casters: Vec<Caster> = self.scene.casters.iter().map(moved).collect();
+        }
         let views: Vec<View> = frame.views.iter().map(Seen::view).collect::<Result<_>>()?;
         let [width, height] = SIZE;
         let views = views.iter().map(|view| AtlasView::new(view, width, height));

@@ -41,7 +41,7 @@ pub const CASES: [Case; 6] = [
     },
     Case {
         name: "Cascades of other cameras",
-        build: "orthographic with a near plane behind the camera, off centre, 170 degrees, 0.01 degrees; with a lamp and a spot",
+        build: "orthographic with a near plane behind the camera, off centre, 170 and 0.01 degrees, over a field of 80 casters; a sun, a lamp and a spot",
         answer: "equals the reference",
         frames: Some(cameras),
         ..Case::EXACT
@@ -55,7 +55,7 @@ pub const CASES: [Case; 6] = [
     },
     Case {
         name: "Two views of a sun",
-        build: "a camera and one elsewhere, orthographic, under a sun, a lamp and a spot, in one submission",
+        build: "a camera and one 28 m away, in perspective or not, under a sun, a lamp and a spot, in one submission",
         answer: "each as alone: equals the reference",
         frames: Some(two_views),
         ..Case::EXACT
@@ -67,6 +67,20 @@ fn sun(toward: Vec3, cascades: Cascades) -> Lamp {
         cascades,
         ..Lamp::fixed(Light::new(toward.extend(0.0), 100.0), SIDE)
     }
+}
+
+/// A yard with things all around it, so far that no cascade but a wide one holds them all.
+fn field(random: &mut Random) -> Situation {
+    let shapes = [shapes::cube().tilted(), shapes::sphere(10)];
+    let mut field = yard(random);
+    for (x, z) in (-4..=4_i8).flat_map(|x| (-4..=4_i8).map(move |z| (x, z))) {
+        if x.abs().max(z.abs()) > 1 {
+            let place = at(6.5 * f32::from(x), 1.2, 6.5 * f32::from(z));
+            let size = Affine3A::from_scale(Vec3::splat(random.within(0.4, 0.8)));
+            field = field.caster(&shapes[random.below(2)], place * size);
+        }
+    }
+    field
 }
 
 fn toward_sun(random: &mut Random) -> Vec3 {
@@ -108,7 +122,8 @@ fn ends(random: &mut Random) -> Vec<Frames> {
             let cascades = Cascades {
                 fit,
                 blend,
-                ..four(120.0)
+                // The last box is 50 away.
+                ..four(58.0)
             };
             let frame = Frame::new(vec![sun(toward, cascades)], scene.camera);
             all.push(frames(
@@ -176,8 +191,8 @@ fn far_before(random: &mut Random) -> Vec<Frames> {
 }
 
 fn cameras(random: &mut Random) -> Vec<Frames> {
-    let yard = yard(random);
-    let usual = yard.scene.camera;
+    let field = field(random);
+    let usual = field.scene.camera;
     let orthographic = |left: f32, near: f32, depth| Seen {
         look: Look {
             depth,
@@ -226,7 +241,8 @@ fn cameras(random: &mut Random) -> Vec<Frames> {
     ];
     seen.map(|(what, seen)| {
         let toward = toward_sun(random);
-        let distance = 2.0 * seen.camera.eye.distance(seen.camera.target) + 40.0;
+        // The farthest things are 40 from the middle.
+        let distance = seen.camera.eye.distance(seen.camera.target) + 40.0;
         let suns = FITS.map(|(_, fit)| {
             sun(
                 toward,
@@ -242,15 +258,15 @@ fn cameras(random: &mut Random) -> Vec<Frames> {
             views: vec![seen],
             ..Frame::new([suns, others].concat(), usual)
         };
-        frames(what, yard.scene.clone(), vec![frame])
+        frames(what, field.scene.clone(), vec![frame])
     })
     .into()
 }
 
 fn walk(random: &mut Random) -> Vec<Frames> {
-    let yard = yard(random);
+    let field = field(random);
     let toward = toward_sun(random);
-    let from = yard.scene.camera.eye;
+    let from = field.scene.camera.eye;
     let all = FITS.map(|(name, fit)| {
         let cascades = Cascades { fit, ..four(60.0) };
         let frame = |step: u16| {
@@ -258,7 +274,7 @@ fn walk(random: &mut Random) -> Vec<Frames> {
             let camera = Camera {
                 eye: from + along * Vec3::new(-5.0, -2.0, -4.0),
                 target: Vec3::new(3.0 * along, 0.5, 0.0),
-                ..yard.scene.camera
+                ..field.scene.camera
             };
             let frame = Frame::new(vec![sun(toward, cascades)], camera);
             match step % 3 == 2 {
@@ -276,7 +292,7 @@ fn walk(random: &mut Random) -> Vec<Frames> {
             came_about: Some(("waiting", |of| of.tiles_postponed > 0)),
             ..frames(
                 name,
-                yard.scene.clone(),
+                field.scene.clone(),
                 first.chain((0..12).map(frame)).collect(),
             )
         }
@@ -285,12 +301,14 @@ fn walk(random: &mut Random) -> Vec<Frames> {
 }
 
 fn two_views(random: &mut Random) -> Vec<Frames> {
-    let yard = yard(random);
-    let usual = yard.scene.camera;
-    let other = Camera {
-        eye: Vec3::new(-7.0, 4.0, -6.0) + random.point(0.5),
-        ..usual
+    let field = field(random);
+    // From above, so that neither sees what is farther away than its cascades reach.
+    let mut above = |x: f32, z: f32| Camera {
+        eye: Vec3::new(x, 9.0, z + 4.0) + random.point(0.5),
+        target: Vec3::new(x, 0.0, z),
+        ..field.scene.camera
     };
+    let (usual, other) = (above(0.0, 0.0), above(-22.0, 18.0));
     let orthographic = Look {
         depth: DepthConvention::FiniteReverse,
         orthographic: Some(Orthographic {
@@ -312,7 +330,7 @@ fn two_views(random: &mut Random) -> Vec<Frames> {
         .into_iter()
         .zip(others)
         .map(|(what, second)| {
-            let sun = sun(toward_sun(random), four(60.0));
+            let sun = sun(toward_sun(random), four(20.0));
             let lamps = [LightKind::Point, LightKind::Spot];
             let lamps = lamps.map(|kind| Lamp::fixed(light(kind, random), SIDE));
             let mut lights = lamps.to_vec();
@@ -321,7 +339,7 @@ fn two_views(random: &mut Random) -> Vec<Frames> {
                 views: vec![Seen::by(usual), second],
                 ..Frame::new(lights, usual)
             };
-            frames(what, yard.scene.clone(), vec![frame])
+            frames(what, field.scene.clone(), vec![frame])
         })
         .collect()
 }
