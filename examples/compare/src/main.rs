@@ -49,8 +49,9 @@ struct Job {
 
 fn run(args: &Args) -> Result<ExitCode> {
     if args.hard_cases {
+        let cases = hard::cases::chosen(&args.cases)?;
         let gpu = opened(args, [&args.out])?;
-        return Ok(match hard::run(&gpu, &args.out, args.rounds)? {
+        return Ok(match hard::run(&gpu, &cases, &args.out, args.rounds)? {
             0 => ExitCode::SUCCESS,
             _ => ExitCode::FAILURE,
         });

@@ -93,7 +93,9 @@ pub static ROWS: &[Row] = &[
     row("flat-pcss", |side| flat(side, contact())),
     row("atlas-hard", |side| atlas(side, Kernel::Hard)),
     row("atlas-2x2", |side| atlas(side, Kernel::Bilinear)),
+    row("atlas-hw", |side| atlas(side, Kernel::HardwareBilinear)),
     row("atlas-5x5", |side| atlas(side, Kernel::Weighted5)),
+    row("atlas-disk", |side| atlas(side, disk(true))),
     usual("volume", |_| Config::Volume(volume())),
     row("volume-auto", |_| {
         Config::Volume(ShadowVolumeDescriptor::default())
