@@ -99,7 +99,10 @@ on() {
     gl) files=/none adapter='(gl,' ;;
     mesa)
         libraries=$(echo "$folder"/mesa/usr/lib/*-linux-gnu)
-        set -- "$(ls "$folder"/mesa/usr/lib*/ld-linux-*.so.* | head -n 1)" --library-path "$libraries" "$@"
+        loader=$(ls "$folder"/mesa/usr/lib*/ld-linux-*.so.* | head -n 1)
+        # The variable is for a test that starts itself anew.
+        set -- env "SHADOWS_TEST_LOADER=$loader --library-path $libraries" \
+            "$loader" --library-path "$libraries" "$@"
         ;;
     esac
     SHADOWS_REQUIRE_GPU=1 SHADOWS_TEST_ADAPTER=$adapter VK_DRIVER_FILES=$files VK_ICD_FILENAMES=$files \
