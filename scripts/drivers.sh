@@ -18,8 +18,9 @@ cd "$(dirname "$0")/.."
 folder=${SHADOWS_DRIVERS:-${XDG_CACHE_HOME:-$HOME/.cache}/shadows-drivers}
 out=target/drivers
 chromium=$folder/swiftshader/usr/lib/chromium
-# One test may compile shaders for minutes on a software driver; none takes so long that works.
-limit=900
+# In seconds. One test may compile shaders for minutes on a software driver; none takes so long that works, but on a
+# machine that is busy with other work.
+limit=${SHADOWS_DRIVERS_LIMIT:-900}
 
 # $1: a folder there; the rest: packages of this system's release, unpacked into it without their dependencies.
 unpack() {

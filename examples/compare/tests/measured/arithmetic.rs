@@ -8,9 +8,10 @@ use compare::arithmetic::variant::{ALL, Variant, WRONG};
 use compare::hard::cases::{self, Case};
 use compare::hard::outcome::Outcome;
 use compare::hard::trial::Trial;
-use compare::technique::Technique;
+use compare::technique::{Config, Technique};
 use host::gpu::Gpu;
 use shadows::wgpu::{self, util::DeviceExt as _};
+use shadows::{Method, ShadowVolumeDescriptor};
 
 /// A device whose shaders have f64, from which `fma` is made.
 fn gpu() -> Option<Gpu> {
@@ -347,6 +348,26 @@ fn every_variant_stays_within_its_bounds() {
             }
         }
     }
+}
+
+#[test]
+fn caps_of_a_large_ground_under_another_host_want_a_larger_bias() {
+    let Some(gpu) = gpu() else { return };
+    let case = case("Flat caster");
+    let with = |cap_bias_ulps| Technique {
+        name: "volume-zfail".into(),
+        config: Config::Volume(ShadowVolumeDescriptor {
+            method: Method::ZFail,
+            cap_bias_ulps,
+            ..compare::table::volume()
+        }),
+    };
+    let tried = |name, ulps| tried(&gpu, variant(name), &case, &[with(ulps)]).remove(0);
+    let [default, more] = [16, 512].map(|ulps| tried("host-fma", ulps));
+    // The broken twin: the default is not enough, within its bound.
+    assert!(default.false_shadow > 0 && default.failures.is_empty());
+    assert_eq!(more.interior(), 0);
+    assert_eq!(tried("as-written", 512).interior(), 0);
 }
 
 /// What a GPU was seen to do, and llvmpipe does not.
