@@ -29,6 +29,8 @@
 //! Then what recording costs: `ratio record_1000_meshes_vs_10` and what else `shadow_volume/recording.rs`
 //! says. `--extraction`, `--distinct`, `--kept` and `--recording` measure nothing but these.
 //!
+//! `--fill` measures nothing but what volumes fill: see `shadow_volume/fill.rs`.
+//!
 //! Each ratio is the median of the rounds' own. `prepare` is timed on the CPU, the rest between two
 //! timestamps on a real GPU that has them, and elsewhere until the device is done; which, is printed.
 //! `--quick` takes fewer rounds.
@@ -37,6 +39,8 @@
 mod distinct;
 #[path = "shadow_volume/extraction.rs"]
 mod extraction;
+#[path = "shadow_volume/fill.rs"]
+mod fill;
 #[path = "shadow_volume/kept.rs"]
 mod kept;
 #[path = "shadow_volume/recording.rs"]
@@ -222,6 +226,9 @@ fn main() -> anyhow::Result<()> {
     };
     let asked = |name: &str| std::env::args().any(|argument| argument == name);
     let (only_distinct, only_extraction) = (asked("--distinct"), asked("--extraction"));
+    if asked("--fill") {
+        return fill::run(&gpu);
+    }
     let (only_kept, only_recording) = (asked("--kept"), asked("--recording"));
     if only_distinct {
         distinct::run(&gpu, rounds.min(7));

@@ -18,8 +18,9 @@ cd "$(dirname "$0")/.."
 folder=${SHADOWS_DRIVERS:-${XDG_CACHE_HOME:-$HOME/.cache}/shadows-drivers}
 out=target/drivers
 chromium=$folder/swiftshader/usr/lib/chromium
-# One test may compile shaders for minutes on a software driver; none takes so long that works.
-limit=900
+# In seconds. One test may compile shaders for minutes on a software driver; none takes so long that works, but on a
+# machine that is busy with other work.
+limit=${SHADOWS_DRIVERS_LIMIT:-900}
 
 # $1: a folder there; the rest: packages of this system's release, unpacked into it without their dependencies.
 unpack() {
@@ -99,7 +100,10 @@ on() {
     gl) files=/none adapter='(gl,' ;;
     mesa)
         libraries=$(echo "$folder"/mesa/usr/lib/*-linux-gnu)
-        set -- "$(ls "$folder"/mesa/usr/lib*/ld-linux-*.so.* | head -n 1)" --library-path "$libraries" "$@"
+        loader=$(ls "$folder"/mesa/usr/lib*/ld-linux-*.so.* | head -n 1)
+        # The variable is for a test that starts itself anew.
+        set -- env "SHADOWS_TEST_LOADER=$loader --library-path $libraries" \
+            "$loader" --library-path "$libraries" "$@"
         ;;
     esac
     SHADOWS_REQUIRE_GPU=1 SHADOWS_TEST_ADAPTER=$adapter VK_DRIVER_FILES=$files VK_ICD_FILENAMES=$files \

@@ -238,9 +238,9 @@ pub use map::{
     AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasStatistics, AtlasTile,
     AtlasView, Bias, CascadeFit, CascadeSplit, Cascades, CasterSides, CubeCross,
     CubeCrossDescriptor, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
-    CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw, LocalLight, ShadowAtlas,
-    ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor, ShadowMapStatistics,
-    StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
+    CubeStatistics, DepthBounds, DepthEncoding, FlatLight, HostDraw, LocalLight, MapSettings,
+    ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    ShadowMapStatistics, StaticLayers, TileSize, TileState, TileStatistics, texture_from_clip,
 };
 pub use mesh::{Caster, CasterMesh, HostInstances, HostMesh, HostPositions, InstanceLayout};
 pub use pcf::{
@@ -262,6 +262,6 @@ pub use volume::{
     Caps, CasterState, Counter, DebugColors, ExactCount, ExactCountDescriptor, Extrusion,
     LightJoin, LightJoinDescriptor, Method, ShadowMask, ShadowMaskDescriptor,
     ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, Silhouettes, StartFrom,
-    VolumeDebug, VolumeDebugDescriptor, VolumeLight, VolumePipelines, VolumeStatistics,
+    VolumeCone, VolumeDebug, VolumeDebugDescriptor, VolumeLight, VolumePipelines, VolumeStatistics,
     VolumeSurvey, VolumeView,
 };

@@ -53,7 +53,10 @@ pub struct Support {
     /// Blending in `R32Float`: for shadow volumes that count without wrapping
     /// ([`Counter::Exact`](crate::Counter::Exact)).
     pub float32_blending: bool,
-    /// Storage buffers in vertex shaders: for shadow volumes that pull their vertices.
+    /// Multiview: shadow volumes of several views in one pass
+    /// ([`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)).
+    pub multiview: bool,
+    /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
     pub vertex_storage: bool,
     /// Compute shaders with indirect draws: for finding silhouettes on the GPU.
     pub compute: bool,
@@ -112,6 +115,7 @@ impl Support {
             clip_distances: features.contains(Features::CLIP_DISTANCES),
             depth32float_stencil8: features.contains(Features::DEPTH32FLOAT_STENCIL8),
             float32_blending: features.contains(Features::FLOAT32_BLENDABLE),
+            multiview: features.contains(Features::MULTIVIEW),
             vertex_storage: downlevel.contains(DownlevelFlags::VERTEX_STORAGE)
                 && limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS,
             compute: downlevel.contains(COMPUTE),
@@ -139,6 +143,7 @@ impl Support {
             (self.clip_distances, Features::CLIP_DISTANCES),
             (self.depth32float_stencil8, Features::DEPTH32FLOAT_STENCIL8),
             (self.float32_blending, Features::FLOAT32_BLENDABLE),
+            (self.multiview, Features::MULTIVIEW),
             (self.clamp_to_border, Features::ADDRESS_MODE_CLAMP_TO_BORDER),
         ]
         .into_iter()
@@ -146,13 +151,15 @@ impl Support {
         .fold(Features::empty(), |all, (_, feature)| all | feature)
     }
 
-    /// The limits to request: WebGPU's defaults (less if the adapter has less), with room for large meshes.
+    /// The limits to ask for: WebGPU's defaults (less where the adapter has less), with room for
+    /// large meshes and as many views in a pass as there may be.
     pub fn limits(&self) -> Limits {
         let offered = &self.limits;
         Limits {
             max_buffer_size: offered.max_buffer_size,
             max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
             max_texture_dimension_2d: offered.max_texture_dimension_2d,
+            max_multiview_view_count: offered.max_multiview_view_count,
             ..Limits::defaults().or_worse_values_from(offered)
         }
     }
@@ -179,6 +186,11 @@ impl Support {
                 self.float32_blending,
                 "FLOAT32_BLENDABLE",
                 "the 8-bit stencil counts volumes modulo 256; ShadowVolumeRenderer::may_wrap says when that could matter",
+            ),
+            (
+                self.multiview,
+                "MULTIVIEW",
+                "a pass draws one view; the passes of several views go into one submission",
             ),
             (
                 self.vertex_storage,
@@ -289,7 +301,7 @@ mod tests {
         let info = info(Backend::Gl);
         let support = Support::new(Features::empty(), limits, DownlevelFlags::empty(), &info);
         assert_eq!(support.features(), Features::empty());
-        assert_eq!(support.fallbacks().len(), 8);
+        assert_eq!(support.fallbacks().len(), 9);
         let every_device_has_it = wgpu::TextureFormat::Depth24PlusStencil8;
         assert_eq!(support.depth_stencil_format(), every_device_has_it);
         assert!(support.limits().max_storage_buffers_per_shader_stage == 0);

@@ -9,7 +9,9 @@
 /// that keyword on outputs only, but naga writes it in both places.
 pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 
-/// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow.
+/// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow. Of a mask
+/// of several views, `light` is the layer: see
+/// [`ShadowMaskDescriptor::multiview_mask`](crate::ShadowMaskDescriptor::multiview_mask).
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
 /// Any of this crate's WGSL as a module for naga_oil, named by `path`, such as `shadows::pcf`:
@@ -34,6 +36,11 @@ pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
 /// `shadows_exact_lit_samples(counts, pixel)`, one bit per sample, for use as a fragment shader's
 /// `@builtin(sample_mask)`.
 pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
+
+/// Reads an [`ExactCount`](crate::ExactCount) of several views in a pass that draws them:
+/// `shadows_exact_visibility_of(counts, pixel, layer)`, 1 lit, 0 in shadow; the layer is the fragment's
+/// `@builtin(view_index)`.
+pub const EXACT_LAYERS: &str = include_str!("../shaders/volume_exact_layers.wgsl");
 
 /// Reads a [`PlanarSoftShadow`](crate::PlanarSoftShadow) through bindings of your own:
 /// `shadows_planar_soft(counts, linear, rectangle, world)`, 1 lit, 0 in shadow.

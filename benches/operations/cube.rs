@@ -82,8 +82,8 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
 fn cross(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
     let device = &stage.gpu.device;
     let descriptor = CubeCrossDescriptor {
-        format: SHADED,
-        depth_stencil: Some(stage.host.depth_stencil_format()),
+        color_format: SHADED,
+        depth_stencil_format: Some(stage.host.depth_stencil_format()),
         ..Default::default()
     };
     bench.cpu(
@@ -92,7 +92,7 @@ fn cross(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         |()| {},
         |()| CubeCross::new(device, &descriptor),
     );
-    let cross = CubeCross::new(device, &descriptor);
+    let cross = CubeCross::new(device, &descriptor)?;
     let mut cube = Cube::new(stage, true)?;
     bench.cpu(
         "cube cross/bind_group",

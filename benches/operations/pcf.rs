@@ -43,7 +43,7 @@ pub fn all(bench: &mut Bench<'_>, stage: &Stage<'_>) -> Result<()> {
         }
     }
     let descriptor = PcfDescriptor {
-        encoding: DepthEncoding::LinearDistance,
+        map: MapKind::Cube(DepthEncoding::LinearDistance),
         textbook: true,
         ..Default::default()
     };
@@ -103,11 +103,11 @@ fn samplers(
     let disk = Kernel::RandomDisk(RandomDisk::default());
     for (name, kernel) in [("one tap", Kernel::Hard), ("random disk", disk)] {
         let name = format!("sampler/PcfSampler::new, {name}");
-        let make = |(): &mut ()| make(kernel, MapKind::Cube);
+        let make = |(): &mut ()| make(kernel, MapKind::CUBE);
         bench.cpu(&name, &mut (), |()| {}, make);
     }
-    let of_cube = make(disk, MapKind::Cube)?;
-    let of_flat = make(disk, MapKind::Flat)?;
+    let of_cube = make(disk, MapKind::CUBE)?;
+    let of_flat = make(disk, MapKind::FLAT)?;
     bench.cpu(
         "sampler/set_frame",
         &mut 0,

@@ -76,11 +76,11 @@ fn name(kernel: Kernel) -> &'static str {
 
 /// The loops of a kernel's code: a square's is for the edges of a face or of the map alone.
 fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
-    let linear = way.encoding == DepthEncoding::LinearDistance;
+    let linear = way.map == MapKind::Cube(DepthEncoding::LinearDistance);
     let fetches = way.gather == Gather::Never;
     match kernel {
         // What stands in for a texel beyond the horizon of the plane.
-        Kernel::Hard if way.flat_lights != FlatLights::Directional => vec![0],
+        Kernel::Hard if way.map != MapKind::Flat(FlatLights::Directional) => vec![0],
         Kernel::Hard | Kernel::HardwareBilinear => Vec::new(),
         // Nearly everywhere the first taps agree.
         Kernel::RandomDisk(disk) => disk_trips(way, disk.around * disk.rings / 2),
@@ -97,8 +97,8 @@ fn trips(way: &Way, kernel: Kernel) -> Vec<u32> {
 /// The loop over the taps of a disk; on a cube then the one for disks that go over an edge of a face.
 fn disk_trips(way: &Way, trips: u32) -> Vec<u32> {
     match way.map {
-        MapKind::Cube => vec![trips, 0],
-        MapKind::Atlas if way.light_kinds.point => vec![trips, 0],
+        MapKind::Cube(_) => vec![trips, 0],
+        MapKind::Atlas(kinds) if kinds.point => vec![trips, 0],
         _ => vec![trips],
     }
 }
@@ -111,14 +111,14 @@ pub fn all() -> Vec<Case> {
         let (device, queue) = way.device();
         for kernel in Kernel::ALL
             .into_iter()
-            .filter(|kernel| kernel.reads(way.encoding))
+            .filter(|kernel| kernel.reads(way.map))
         {
             let sampler = made(&device, &queue, &way.descriptor(kernel));
             let index = match takes_light(&way.descriptor(kernel)) {
                 true => "0u, ",
                 false => "",
             };
-            let flat = if way.map == MapKind::Flat {
+            let flat = if matches!(way.map, MapKind::Flat(_)) {
                 "_flat"
             } else {
                 ""

@@ -4,7 +4,7 @@
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use shadows::{
-    Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
+    Bias, CubeFace, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, MapSettings,
     StaticLayers,
 };
 use shadows_fuzz::Length;
@@ -51,10 +51,15 @@ impl Settings {
     fn map(&self) -> Option<CubeShadowMap> {
         let descriptor = CubeShadowMapDescriptor {
             size: u32::from(self.size),
-            bias: Bias {
-                normal_offset: self.bias[0].0,
-                constant: self.bias[1].0,
-                ..Bias::default()
+            settings: MapSettings {
+                bias: Bias {
+                    normal_offset: self.bias[0].0,
+                    constant: self.bias[1].0,
+                    ..Bias::default()
+                },
+                sides: map::sides(self.sides),
+                reach: self.reach.radius(),
+                format: map::format(self.format),
             },
             encoding: match self.linear {
                 true => DepthEncoding::LinearDistance,
@@ -62,9 +67,6 @@ impl Settings {
             },
             cull_casters: self.cull_casters,
             cache: self.cache,
-            sides: map::sides(self.sides),
-            reach: self.reach.radius(),
-            format: map::format(self.format),
             static_layers: match self.static_layers {
                 Still::Auto => StaticLayers::Auto,
                 Still::Never => StaticLayers::Never,
@@ -75,7 +77,7 @@ impl Settings {
         };
         let made = CubeShadowMap::new(&device().0, &descriptor);
         if made.is_ok() {
-            assert!(self.reach.is_in_range() && map::takes(descriptor.format));
+            assert!(self.reach.is_in_range() && map::takes(descriptor.settings.format));
         }
         made.ok()
     }

@@ -4,7 +4,9 @@
 use arbitrary::Arbitrary;
 use libfuzzer_sys::fuzz_target;
 use shadows::glam::Vec3;
-use shadows::{Bias, DirectionalLight, FlatLight, ShadowFrame, ShadowMap, ShadowMapDescriptor};
+use shadows::{
+    Bias, DirectionalLight, FlatLight, MapSettings, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+};
 use shadows_fuzz::Length;
 use shadows_fuzz::gpu::{device, submit, tidy};
 use shadows_fuzz::map::{self, Reach};
@@ -36,22 +38,24 @@ impl Settings {
         let [normal_offset, constant, slope_scale] = self.bias.map(|number| number.0);
         let descriptor = ShadowMapDescriptor {
             size: u32::from(self.size),
-            bias: Bias {
-                normal_offset,
-                constant,
-                slope_scale,
-                ..Bias::default()
+            settings: MapSettings {
+                bias: Bias {
+                    normal_offset,
+                    constant,
+                    slope_scale,
+                    ..Bias::default()
+                },
+                sides: map::sides(self.sides),
+                reach: self.reach.radius(),
+                format: map::format(self.format),
             },
-            sides: map::sides(self.sides),
             unclipped_depth: self.unclipped_depth,
             cache: self.cache,
-            reach: self.reach.radius(),
-            format: map::format(self.format),
             label: None,
         };
         let made = ShadowMap::new(&device().0, &descriptor);
         if made.is_ok() {
-            assert!(self.reach.is_in_range() && map::takes(descriptor.format));
+            assert!(self.reach.is_in_range() && map::takes(descriptor.settings.format));
         }
         made.ok()
     }

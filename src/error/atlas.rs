@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{BiasError, CascadeError, CasterError, LightError, TileSizeError};
+use super::{CascadeError, CasterError, LightError, MapSettingsError, TileSizeError};
 
 /// What can be wrong with a [`ShadowAtlas`](crate::ShadowAtlas) or a frame of it.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -28,18 +28,12 @@ pub enum ShadowAtlasError {
         /// Bytes of a layer.
         layer: u64,
     },
-    /// Atlases do not support the format.
-    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
-    Format(wgpu::TextureFormat),
-    /// The reach of the kernels is out of range.
-    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
-    Reach(crate::Radius),
-    /// A budget of zero tiles.
+    /// A budget of no tile at all.
     #[error("max_tiles_per_frame is 0, so nothing would ever be drawn; pass at least 1, or None")]
     Budget,
-    /// The bias is out of range.
+    /// The settings are out of range.
     #[error(transparent)]
-    Bias(#[from] BiasError),
+    Settings(#[from] MapSettingsError),
     /// A light is out of range.
     #[error("light {index}: {source}")]
     Light {

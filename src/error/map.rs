@@ -16,6 +16,21 @@ pub struct BiasError {
     pub value: f32,
 }
 
+/// What can be wrong with [`MapSettings`](crate::MapSettings).
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MapSettingsError {
+    /// The format is none that a map can have.
+    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
+    Format(wgpu::TextureFormat),
+    /// The bias is out of range.
+    #[error(transparent)]
+    Bias(#[from] BiasError),
+    /// The reach of the kernels is out of range.
+    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
+    Reach(crate::Radius),
+}
+
 /// What can be wrong with a [`CubeShadowMap`](crate::CubeShadowMap).
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -28,9 +43,9 @@ pub enum CubeShadowMapError {
         /// The largest that works.
         limit: u32,
     },
-    /// The bias is out of range.
+    /// The settings are out of range.
     #[error(transparent)]
-    Bias(#[from] BiasError),
+    Settings(#[from] MapSettingsError),
     /// The light is out of range.
     #[error(transparent)]
     Light(#[from] LightError),
@@ -47,12 +62,6 @@ pub enum CubeShadowMapError {
         /// Bytes allowed.
         limit: u64,
     },
-    /// Maps do not support the format.
-    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
-    Format(wgpu::TextureFormat),
-    /// The reach of the kernels is out of range.
-    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
-    Reach(crate::Radius),
     /// A slope-scaled bias where the fragment shader writes the depth.
     #[error(
         "bias slope_scale has no effect on LinearDistance, whose depth the fragment shader writes; pass 0 or use MajorAxis"
@@ -97,22 +106,16 @@ pub enum ShadowMapError {
         /// The largest that works.
         limit: u32,
     },
-    /// The bias is out of range.
+    /// The settings are out of range.
     #[error(transparent)]
-    Bias(#[from] BiasError),
+    Settings(#[from] MapSettingsError),
     /// The light is out of range.
     #[error(transparent)]
     Light(#[from] LightError),
     /// A caster is out of range.
     #[error(transparent)]
     Caster(#[from] CasterError),
-    /// Maps do not support the format.
-    #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
-    Format(wgpu::TextureFormat),
-    /// The reach of the kernels is out of range.
-    #[error("the reach {0:?} is out of range; pass a number above 0, at most 64 texels")]
-    Reach(crate::Radius),
-    /// A directional light's map has too few texels for the reach of kernels.
+    /// A directional light's map has not as many texels to spare as kernels reach.
     #[error(
         "kernels that reach {reach} texels need a larger map: that of a directional light is widened by that and one more texel on each side, by at most half, so pass a size of at least {}, not {size}, or a smaller reach",
         (4.0 * (reach + 1.0)).ceil()
@@ -195,9 +198,9 @@ pub enum PcfError {
     /// The size of the light is out of range.
     #[error("light_size = {0} is out of range; pass a finite number above 0")]
     LightSize(f32),
-    /// The sampler was made for another kind of map.
+    /// The sampler was made for another kind of map, or for another encoding.
     #[error(
-        "this sampler reads {made_for:?} maps and was given a {given:?} map; make one with PcfDescriptor::map = {given:?}"
+        "this sampler reads maps of {made_for:?} and was given one of {given:?}; make one with PcfDescriptor::map = AnyMap::from(&map).kind()"
     )]
     Map {
         /// What the sampler was made for.
@@ -205,24 +208,14 @@ pub enum PcfError {
         /// What it was given.
         given: crate::MapKind,
     },
-    /// The map's encoding is not what the sampler's shader expects.
-    #[error(
-        "the map holds {map:?} depths, the sampler reads {sampler:?}; use the same encoding for both"
-    )]
-    Encoding {
-        /// What the map holds.
-        map: crate::DepthEncoding,
-        /// What the sampler reads.
-        sampler: crate::DepthEncoding,
-    },
-    /// Gathers on a device without them.
+    /// Gathers on a device that has none.
     #[error(
         "the device has no texture gathers (it is a GL device without compute shaders, such as WebGL 2); pass Gather::Auto or Gather::Never"
     )]
     Gather,
     /// The kernel reaches farther than the map was created for.
     #[error(
-        "the kernel reaches {kernel:?}, the map was made for {map:?}, so texels farther away may be outdated or outside the map; create the map with `reach: Radius::{kernel:?}` or more of that unit, or the sampler with a narrower kernel"
+        "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `reach: Radius::{kernel:?}` or more of that unit in its settings, or the sampler with a narrower kernel"
     )]
     Reach {
         /// The kernel's radius.
@@ -230,55 +223,27 @@ pub enum PcfError {
         /// The map's reach.
         map: crate::Radius,
     },
-    /// A setting for cube maps in a sampler for other maps.
+    /// Receivers for no kind of light.
     #[error(
-        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Cube"
+        "MapKind::Atlas has no kind of light, so that all would be dark; pass LightKinds::ALL or at least one"
     )]
-    CubesOnly {
-        /// The field.
-        setting: &'static str,
-        /// The maps that the sampler is to read.
-        map: crate::MapKind,
-    },
-    /// A setting for atlases in a sampler for other maps.
-    #[error(
-        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Atlas"
-    )]
-    AtlasOnly {
-        /// The field.
-        setting: &'static str,
-        /// The maps that the sampler is to read.
-        map: crate::MapKind,
-    },
-    /// Receivers that support no kind of light.
-    #[error("light_kinds has no kind of light, so that all would be dark; pass at least one")]
     NoLightKinds,
-    /// A setting for flat maps in a sampler for other maps.
-    #[error(
-        "{setting} has no effect on {map:?} maps; leave it at its default, or pass map: MapKind::Flat"
-    )]
-    FlatOnly {
-        /// The field.
-        setting: &'static str,
-        /// The maps that the sampler is to read.
-        map: crate::MapKind,
-    },
-    /// A prefix that does not form valid names.
+    /// A prefix with which a name is none.
     #[error(
         "the prefix of a module does not form valid WGSL names; pass letters, digits and underscores, not starting with a digit or with two underscores"
     )]
     Prefix,
     /// A hardware comparison of depths in which planes are not linear.
     #[error(
-        "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass encoding: MajorAxis, or another kernel"
+        "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass map: MapKind::CUBE, or another kernel"
     )]
-    HardwareEncoding(crate::DepthEncoding),
-    /// Textbook receivers with an encoding that they cannot read.
+    HardwareEncoding(crate::MapKind),
+    /// Textbook receivers of depths that they cannot read.
     #[error(
-        "textbook receivers compare distances and were made for {0:?}; pass encoding: LinearDistance, or textbook: false"
+        "textbook receivers compare distances and were made for {0:?}; pass map: MapKind::Cube(DepthEncoding::LinearDistance), or textbook: false"
     )]
-    Textbook(crate::DepthEncoding),
-    /// Textbook receivers with a kernel, which they do not use.
+    Textbook(crate::MapKind),
+    /// Textbook receivers with a kernel, which they do not have.
     #[error(
         "textbook receivers take one tap instead of {0:?}; leave kernel at its default, or pass textbook: false"
     )]

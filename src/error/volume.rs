@@ -1,9 +1,12 @@
 //! Errors of shadow volumes and their light passes.
 
+use std::num::NonZeroU32;
+
 use thiserror::Error;
 
 use super::CasterError;
 use super::LightError;
+use super::MultiviewError;
 use super::names::names;
 
 /// What can be wrong when a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) is made or
@@ -76,6 +79,9 @@ pub enum ShadowVolumeError {
     /// A caster is invalid.
     #[error(transparent)]
     Caster(#[from] CasterError),
+    /// Views that are to be drawn together.
+    #[error(transparent)]
+    Multiview(#[from] MultiviewError),
     /// The volume of one caster does not fit the device's buffers.
     #[error(
         "caster {index}: its {what} need {size} bytes in one buffer, {limit} are allowed; split the mesh or ask for higher buffer limits"
@@ -168,6 +174,11 @@ pub enum VolumeRenderError {
         /// Views of the frame.
         views: usize,
     },
+    /// What draws into one view a pass is asked to show the volumes of several.
+    #[error(
+        "this renderer draws {0} views a pass (multiview_mask), and debug views and surveys are of one; prepare a renderer without a mask for them"
+    )]
+    Multiview(usize),
 }
 
 /// What can be wrong with a [`ShadowMask`](crate::ShadowMask), a
@@ -247,6 +258,36 @@ pub enum ScreenPassError {
         format: wgpu::TextureFormat,
         /// What it was made for.
         usage: wgpu::TextureUsages,
+    },
+    /// Layers are drawn into by a pass of several views, and have several samples.
+    #[error(
+        "{what} with a multiview_mask takes 1 sample a pixel, not {samples}; make one without a mask, and use it for one layer after another"
+    )]
+    LayeredSamples {
+        /// The samples passed.
+        samples: u32,
+        /// What was to be made, e.g. `"ExactCount"`.
+        what: &'static str,
+    },
+    /// A texture has no layer for a view.
+    #[error(
+        "the texture has {found} layers, the multiview_mask needs {needed}; make it with as many"
+    )]
+    Layers {
+        /// Its layers.
+        found: u32,
+        /// Layers needed.
+        needed: u32,
+    },
+    /// Counts of other views than are needed.
+    #[error(
+        "the counts were made with the multiview_mask {found:?}, what reads them with {needed:?}; make both with the same"
+    )]
+    Multiview {
+        /// Of the counts.
+        found: Option<NonZeroU32>,
+        /// What is needed.
+        needed: Option<NonZeroU32>,
     },
     /// There is no layer for this light.
     #[error("light {light} has no layer; the mask was made for {lights}")]

@@ -4,7 +4,7 @@ use super::cube::CubeShadowMap;
 use super::encoding::DepthEncoding;
 use super::gpu::LightRecord;
 use super::overlay::Overlay;
-use crate::error::CubeShadowMapError;
+use crate::error::{CubeShadowMapError, DebugPassError};
 
 /// Parameters of a [`CubeCross`].
 #[derive(Clone, Debug)]
@@ -12,11 +12,11 @@ pub struct CubeCrossDescriptor<'a> {
     /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Format of the pass's only colour attachment. Default `Rgba8Unorm`.
-    pub format: wgpu::TextureFormat,
+    pub color_format: wgpu::TextureFormat,
     /// The pass's depth-stencil format, if it has one; neither tested nor written. Default `None`.
-    pub depth_stencil: Option<wgpu::TextureFormat>,
-    /// Samples of the pass. Default 1.
-    pub samples: u32,
+    pub depth_stencil_format: Option<wgpu::TextureFormat>,
+    /// Samples of the pass, 1 or 4. Default 1.
+    pub sample_count: u32,
     /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`].
     pub encoding: DepthEncoding,
 }
@@ -25,9 +25,9 @@ impl Default for CubeCrossDescriptor<'_> {
     fn default() -> Self {
         Self {
             label: None,
-            format: wgpu::TextureFormat::Rgba8Unorm,
-            depth_stencil: None,
-            samples: 1,
+            color_format: wgpu::TextureFormat::Rgba8Unorm,
+            depth_stencil_format: None,
+            sample_count: 1,
             encoding: DepthEncoding::default(),
         }
     }
@@ -49,15 +49,21 @@ pub struct CubeCross {
 }
 
 impl CubeCross {
-    /// Creates the pipeline.
-    pub fn new(device: &wgpu::Device, descriptor: &CubeCrossDescriptor<'_>) -> Self {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// [`DebugPassError`] if a format or the sample count of the pass does not fit.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &CubeCrossDescriptor<'_>,
+    ) -> Result<Self, DebugPassError> {
         let label = match descriptor.label {
             Some(label) => format!("shadows cube cross {label}"),
             None => "shadows cube cross".to_owned(),
         };
         let layout = layout(device, &label);
-        Self {
-            pipeline: pipeline(device, &label, &layout, descriptor),
+        Ok(Self {
+            pipeline: pipeline(device, &label, &layout, descriptor)?,
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(&label),
                 ..Default::default()
@@ -65,7 +71,7 @@ impl CubeCross {
             layout,
             label,
             encoding: descriptor.encoding,
-        }
+        })
     }
 
     /// The bind group for a map; it remains valid as long as the map exists.
@@ -150,7 +156,7 @@ fn pipeline(
     label: &str,
     layout: &wgpu::BindGroupLayout,
     descriptor: &CubeCrossDescriptor<'_>,
-) -> wgpu::RenderPipeline {
+) -> Result<wgpu::RenderPipeline, DebugPassError> {
     let linear = descriptor.encoding == DepthEncoding::LinearDistance;
     let overlay = Overlay {
         label,
@@ -159,9 +165,9 @@ fn pipeline(
         buffers: &[],
         topology: wgpu::PrimitiveTopology::TriangleList,
         constants: &[("linear", f64::from(u8::from(linear)))],
-        format: descriptor.format,
-        depth_stencil: descriptor.depth_stencil,
-        samples: descriptor.samples,
+        format: descriptor.color_format,
+        depth_stencil: descriptor.depth_stencil_format,
+        samples: descriptor.sample_count,
     };
     overlay.pipeline(device)
 }

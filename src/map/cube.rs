@@ -9,6 +9,7 @@ use super::gpu::{
 };
 use super::one_light::{OneLightMap, OneLightSettings, TooMany};
 use super::projection::{CubeFace, LightProjection, TileProjection};
+use super::settings::MapSettings;
 use super::statistics::{CubeStatistics, TileStatistics};
 use crate::clock::Clock;
 use crate::error::CubeShadowMapError;
@@ -53,7 +54,7 @@ impl CubeShadowMap {
     /// Creates a map and its texture.
     ///
     /// # Errors
-    /// [`CubeShadowMapError`] if size, bias, reach or format is out of range.
+    /// [`CubeShadowMapError`] if the size or a setting is out of range.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &CubeShadowMapDescriptor<'_>,
@@ -63,6 +64,12 @@ impl CubeShadowMap {
             Some(label) => format!("shadows cube map {label}"),
             None => "shadows cube map".to_owned(),
         };
+        let MapSettings {
+            format,
+            bias,
+            sides,
+            reach,
+        } = descriptor.settings;
         let map = OneLightMap::new(
             device,
             OneLightSettings {
@@ -70,16 +77,16 @@ impl CubeShadowMap {
                     label: label.clone(),
                     size: descriptor.size,
                     tiles: 6,
-                    bias: descriptor.bias,
+                    bias,
                     pipelines: PipelineKind {
-                        format: descriptor.format,
+                        format,
                         encoding: descriptor.encoding,
-                        slope_scale: descriptor.bias.slope_scale,
+                        slope_scale: bias.slope_scale,
                         unclipped_depth: can_pull_casters(device),
                     },
-                    sides: descriptor.sides,
+                    sides,
                 },
-                reach: descriptor.reach,
+                reach,
                 cache: descriptor.cache,
                 cull: descriptor.cull_casters,
                 layer_least: descriptor.layer_least(device),

@@ -7,6 +7,7 @@ use super::flat_descriptor::{FlatLight, ShadowFrame, ShadowMapDescriptor};
 use super::gpu::{HostDraw, LightRecord, OneLightKind, PipelineKind, can_pull_casters};
 use super::one_light::{OneLightMap, OneLightSettings, TooMany};
 use super::plan::FlatPlace;
+use super::settings::MapSettings;
 use super::statistics::ShadowMapStatistics;
 use crate::Radius;
 use crate::clock::Clock;
@@ -53,7 +54,7 @@ impl ShadowMap {
     /// Creates a map and its texture.
     ///
     /// # Errors
-    /// [`ShadowMapError`] if the size or the bias is out of range.
+    /// [`ShadowMapError`] if the size or a setting is out of range.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &ShadowMapDescriptor<'_>,
@@ -63,7 +64,13 @@ impl ShadowMap {
             Some(label) => format!("shadows map {label}"),
             None => "shadows map".to_owned(),
         };
-        let (size, bias, reach) = (descriptor.size, descriptor.bias, descriptor.reach);
+        let size = descriptor.size;
+        let MapSettings {
+            format,
+            bias,
+            sides,
+            reach,
+        } = descriptor.settings;
         let map = OneLightMap::new(
             device,
             OneLightSettings {
@@ -73,12 +80,12 @@ impl ShadowMap {
                     tiles: 1,
                     bias,
                     pipelines: PipelineKind {
-                        format: descriptor.format,
+                        format,
                         encoding: DepthEncoding::MajorAxis,
                         slope_scale: bias.slope_scale,
                         unclipped_depth: descriptor.unclipped_depth && can_pull_casters(device),
                     },
-                    sides: descriptor.sides,
+                    sides,
                 },
                 reach,
                 cache: descriptor.cache,
@@ -189,7 +196,7 @@ impl ShadowMap {
         Some(texture_from_clip() * self.clip_from_world()?)
     }
 
-    /// The texture, of [`ShadowMapDescriptor::format`].
+    /// The texture, of [`MapSettings::format`].
     pub fn texture(&self) -> &wgpu::Texture {
         self.map.gpu.texture()
     }

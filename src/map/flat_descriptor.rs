@@ -1,10 +1,9 @@
 //! Parameters of a flat map, and its input for each frame.
 
-use super::encoding::quantum;
-use super::sides::CasterSides;
+use super::settings::MapSettings;
 use crate::error::ShadowMapError;
 use crate::mesh::{Bounds, Caster};
-use crate::{Bias, DirectionalLight, Light, Radius, SpotLight, View};
+use crate::{DirectionalLight, Light, SpotLight, View};
 
 /// Parameters of a [`ShadowMap`](crate::ShadowMap).
 #[derive(Clone, Debug)]
@@ -14,33 +13,16 @@ pub struct ShadowMapDescriptor<'a> {
     /// Texels along each side. Default 2048. 1 to the device's `max_texture_dimension_2d`. Memory:
     /// 4 bytes a texel, 2 as `Depth16Unorm`.
     pub size: u32,
-    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`. The last two round depths to one
-    /// part in 2^24 and 2^16, and receivers are given one such step as bias: for a spot
-    /// `d * d / (near * 65536)` at distance `d` in world units, for a directional light 1 / 65536 of
-    /// the depth that its map covers.
-    pub format: wgpu::TextureFormat,
-    /// Bias for receivers, in texels. Default [`Bias::default`], which needs no tuning. Its
-    /// `slope_scale` is the rasteriser's.
-    pub bias: Bias,
-    /// Which sides of casters are drawn; [`CasterSides::Far`] culls front faces. Default
-    /// [`CasterSides::Nearest`].
-    pub sides: CasterSides,
-    /// Whether casters in front of the near plane are pulled onto it, on devices with
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On other devices,
-    /// a directional light's near plane is placed in front of all casters, and a spot loses casters nearer
-    /// than its [`near`](SpotLight::near). False to see the result of such devices.
+    /// How depths are stored, drawn and compared.
+    pub settings: MapSettings,
+    /// Whether casters before the near plane are pulled onto it, on devices with
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On others a
+    /// directional light's near plane lies before all casters, and a spot loses what is nearer
+    /// than its [`near`](SpotLight::near). False for trying what those see.
     #[doc(hidden)]
     pub unclipped_depth: bool,
-    /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
-    /// that reads the map; [`PcfSampler::bind_group`](crate::PcfSampler::bind_group) refuses wider ones.
-    /// A directional light's map is fitted that much wider than what is seen and receives, so that no
-    /// tap there falls beside it, where all is lit. Default 12 texels, as wide as any kernel is by
-    /// default. Greater than 0, at most 64 texels; of texels, with one more for rounding, no more than
-    /// a quarter of the map of a directional light. A reach in world units holds kernels of up to 12
-    /// texels, too.
-    pub reach: Radius,
-    /// Whether a map whose content has not changed is left alone. Default true; false redraws it every frame,
-    /// to measure the benefit.
+    /// Whether a map whose content has not changed is left alone. Default true; false draws every
+    /// frame, for measuring what that is worth.
     #[doc(hidden)]
     pub cache: bool,
 }
@@ -51,13 +33,7 @@ impl ShadowMapDescriptor<'_> {
         if size == 0 || size > limit {
             return Err(ShadowMapError::Size { size, limit });
         }
-        if quantum(self.format).is_none() {
-            return Err(ShadowMapError::Format(self.format));
-        }
-        if !self.reach.is_in_range() {
-            return Err(ShadowMapError::Reach(self.reach));
-        }
-        Ok(self.bias.validate()?)
+        Ok(self.settings.validate()?)
     }
 }
 
@@ -66,11 +42,8 @@ impl Default for ShadowMapDescriptor<'_> {
         Self {
             label: None,
             size: 2048,
-            format: wgpu::TextureFormat::Depth32Float,
-            bias: Bias::default(),
-            sides: CasterSides::default(),
+            settings: MapSettings::default(),
             unclipped_depth: true,
-            reach: Radius::Texels(Radius::USUAL_TEXELS),
             cache: true,
         }
     }

@@ -1,5 +1,8 @@
 //! Pipelines that draw over a host's picture, whatever is there.
 
+use crate::error::DebugPassError;
+use crate::volume::light_pass::targets::is_drawable;
+
 /// What one draws, and into which pass.
 pub(super) struct Overlay<'a> {
     pub label: &'a str,
@@ -19,7 +22,27 @@ pub(super) struct Overlay<'a> {
 }
 
 impl Overlay<'_> {
-    pub fn pipeline(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+    /// Whether the device can have such a pass.
+    fn validate(&self, device: &wgpu::Device) -> Result<(), DebugPassError> {
+        if !matches!(self.samples, 1 | 4) {
+            return Err(DebugPassError::SampleCount(self.samples));
+        }
+        let nothing_else = wgpu::TextureFormatFeatureFlags::empty();
+        if !is_drawable(device, self.format, self.samples, nothing_else) {
+            return Err(DebugPassError::ColorFormat(self.format));
+        }
+        let is_there = |format: &wgpu::TextureFormat| {
+            format.is_depth_stencil_format()
+                && device.features().contains(format.required_features())
+        };
+        match self.depth_stencil.filter(|format| !is_there(format)) {
+            Some(format) => Err(DebugPassError::DepthStencil(format)),
+            None => Ok(()),
+        }
+    }
+
+    pub fn pipeline(&self, device: &wgpu::Device) -> Result<wgpu::RenderPipeline, DebugPassError> {
+        self.validate(device)?;
         let label = Some(self.label);
         let module = &crate::shader::module(device, self.label, self.shader);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -34,35 +57,37 @@ impl Overlay<'_> {
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         };
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label,
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module,
-                entry_point: Some("vertex"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: self.buffers,
-            },
-            primitive: wgpu::PrimitiveState {
-                topology: self.topology,
-                ..Default::default()
-            },
-            depth_stencil: self.depth_stencil.map(untested),
-            multisample: wgpu::MultisampleState {
-                count: self.samples,
-                ..Default::default()
-            },
-            fragment: Some(wgpu::FragmentState {
-                module,
-                entry_point: Some("fragment"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: self.constants,
+        Ok(
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label,
+                layout: Some(&layout),
+                vertex: wgpu::VertexState {
+                    module,
+                    entry_point: Some("vertex"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: self.buffers,
+                },
+                primitive: wgpu::PrimitiveState {
+                    topology: self.topology,
                     ..Default::default()
                 },
-                targets: &[Some(self.format.into())],
+                depth_stencil: self.depth_stencil.map(untested),
+                multisample: wgpu::MultisampleState {
+                    count: self.samples,
+                    ..Default::default()
+                },
+                fragment: Some(wgpu::FragmentState {
+                    module,
+                    entry_point: Some("fragment"),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: self.constants,
+                        ..Default::default()
+                    },
+                    targets: &[Some(self.format.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
             }),
-            multiview_mask: None,
-            cache: None,
-        })
+        )
     }
 }

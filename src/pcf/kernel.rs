@@ -1,6 +1,7 @@
 //! The kernels, and the WGSL that each of them uses.
 
 use super::disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
+use super::map_kind::MapKind;
 use super::weights::Weights;
 use crate::DepthEncoding;
 use crate::error::PcfError;
@@ -144,10 +145,10 @@ impl Kernel {
         self.parameters().is_some()
     }
 
-    /// Whether it reads maps of that encoding: [`HardwareBilinear`](Self::HardwareBilinear) reads only
-    /// [`MajorAxis`](DepthEncoding::MajorAxis), in which the depths of a plane are linear over a face.
-    pub fn reads(self, encoding: DepthEncoding) -> bool {
-        self != Self::HardwareBilinear || encoding == DepthEncoding::MajorAxis
+    /// Whether it reads such maps: [`HardwareBilinear`](Self::HardwareBilinear) reads only
+    /// [`MajorAxis`](DepthEncoding::MajorAxis), of which a plane's depths are linear over a face.
+    pub fn reads(self, map: MapKind) -> bool {
+        self != Self::HardwareBilinear || map.encoding() == DepthEncoding::MajorAxis
     }
 
     /// The name of its WGSL function for cube maps. For flat maps, `flat` replaces `cube`.

@@ -6,17 +6,50 @@ use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowAtlas, ShadowMap};
 const TILE_WHOLE: &str = include_str!("../../shaders/tile_whole.wgsl");
 const CUBE_TEXEL: &str = include_str!("../../shaders/cube_texel.wgsl");
 
-/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads, and what its shader needs to know of that kind.
+/// [`AnyMap::kind`] is the kind of a given map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MapKind {
-    /// [`CubeShadowMap`]: point lights.
-    #[default]
-    Cube,
-    /// [`ShadowMap`]: spot and directional lights.
-    Flat,
-    /// [`ShadowAtlas`]: lights of any kind.
-    Atlas,
+    /// [`CubeShadowMap`]s whose texels hold this: point lights.
+    Cube(DepthEncoding),
+    /// [`ShadowMap`]s that are prepared for these lights: spots, directional lights or both.
+    Flat(FlatLights),
+    /// [`ShadowAtlas`]es, and those of their lights that are of these kinds.
+    Atlas(LightKinds),
+}
+
+impl MapKind {
+    /// Cube maps as they are by default: [`DepthEncoding::MajorAxis`].
+    pub const CUBE: Self = Self::Cube(DepthEncoding::MajorAxis);
+    /// Flat maps, whichever light they are prepared for.
+    pub const FLAT: Self = Self::Flat(FlatLights::Any);
+    /// Atlases, and all of their lights.
+    pub const ATLAS: Self = Self::Atlas(LightKinds::ALL);
+
+    /// What the texels hold. Flat maps and atlases know one encoding.
+    pub(super) fn encoding(self) -> DepthEncoding {
+        match self {
+            Self::Cube(encoding) => encoding,
+            Self::Flat(_) | Self::Atlas(_) => DepthEncoding::MajorAxis,
+        }
+    }
+
+    /// Whether a sampler of this kind may read a map of another: which lights it is for is the sampler's own
+    /// affair.
+    pub(super) fn reads(self, map: Self) -> bool {
+        match (self, map) {
+            (Self::Cube(own), Self::Cube(given)) => own == given,
+            (Self::Flat(_), Self::Flat(_)) | (Self::Atlas(_), Self::Atlas(_)) => true,
+            _ => false,
+        }
+    }
+}
+
+impl Default for MapKind {
+    fn default() -> Self {
+        Self::CUBE
+    }
 }
 
 /// Which kinds of light the receivers of an atlas support. Lights of other kinds appear dark, and add no code
@@ -100,12 +133,12 @@ pub enum AnyMap<'a> {
 }
 
 impl<'a> AnyMap<'a> {
-    /// Which kind it is.
+    /// Which kind it is: what a sampler is made for that reads it, whichever its lights.
     pub fn kind(self) -> MapKind {
         match self {
-            Self::Cube(_) => MapKind::Cube,
-            Self::Flat(_) => MapKind::Flat,
-            Self::Atlas(_) => MapKind::Atlas,
+            Self::Cube(map) => MapKind::Cube(map.encoding()),
+            Self::Flat(_) => MapKind::FLAT,
+            Self::Atlas(_) => MapKind::ATLAS,
         }
     }
 
@@ -152,11 +185,7 @@ pub(super) enum Lights {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reads {
     pub map: MapKind,
-    pub encoding: DepthEncoding,
     pub lights: Lights,
-    pub flat_lights: FlatLights,
-    /// Of an atlas.
-    pub kinds: LightKinds,
     /// Whether its sampler has a border of depth 0.
     pub border: bool,
     /// Whether squares of texels are gathered, or else fetched one by one.
@@ -191,32 +220,29 @@ pub(super) struct MapWgsl {
 impl MapWgsl {
     pub fn new(reads: Reads) -> Self {
         match reads.map {
-            MapKind::Cube | MapKind::Atlas => Self::cube(reads),
-            MapKind::Flat => Self::flat(reads),
+            MapKind::Cube(_) | MapKind::Atlas(_) => Self::cube(reads),
+            MapKind::Flat(lights) => Self::flat(reads, lights),
         }
     }
 
-    /// The same for the flat tiles of an atlas.
-    pub fn flat_tiles(reads: Reads) -> Self {
-        Self::flat(Reads {
-            flat_lights: reads.kinds.flat_lights(),
-            ..reads
-        })
+    /// The same for the flat tiles of an atlas with lights of these kinds.
+    pub fn flat_tiles(reads: Reads, kinds: LightKinds) -> Self {
+        Self::flat(reads, kinds.flat_lights())
     }
 
     fn tile(reads: Reads) -> &'static str {
         match reads.map {
-            MapKind::Atlas => include_str!("../../shaders/tile_placed.wgsl"),
+            MapKind::Atlas(_) => include_str!("../../shaders/tile_placed.wgsl"),
             _ => TILE_WHOLE,
         }
     }
 
-    fn flat(reads: Reads) -> Self {
+    fn flat(reads: Reads, lights: FlatLights) -> Self {
         Self {
             reads,
             tile: Self::tile(reads),
             is_flat: true,
-            kind: reads.flat_lights.wgsl(),
+            kind: lights.wgsl(),
             receiver: include_str!("../../shaders/flat_receiver.wgsl"),
             depth: "",
             edge: match reads.border {
@@ -246,7 +272,7 @@ impl MapWgsl {
             is_flat: false,
             kind: include_str!("../../shaders/cube_face.wgsl"),
             receiver: include_str!("../../shaders/cube_receiver.wgsl"),
-            depth: match reads.encoding {
+            depth: match reads.map.encoding() {
                 DepthEncoding::MajorAxis => include_str!("../../shaders/cube_major.wgsl"),
                 DepthEncoding::LinearDistance => include_str!("../../shaders/cube_linear.wgsl"),
             },
@@ -288,7 +314,8 @@ impl MapWgsl {
             ("shadows_tile", "shadows_flat_tile"),
         ];
         let own = own.iter().filter(|_| self.is_flat);
-        let shared = shared.iter().filter(|_| self.reads.map == MapKind::Flat);
+        let is_flat_map = matches!(self.reads.map, MapKind::Flat(_));
+        let shared = shared.iter().filter(|_| is_flat_map);
         own.chain(shared)
             .fold(wgsl.to_owned(), |text, (from, to)| text.replace(from, to))
     }
@@ -296,8 +323,8 @@ impl MapWgsl {
     /// The same for a module with bindings, whose names have no kind in them for cube maps.
     pub fn adapt_module(&self, wgsl: &str) -> String {
         match self.reads.map {
-            MapKind::Cube | MapKind::Atlas => self.adapt(wgsl),
-            MapKind::Flat => {
+            MapKind::Cube(_) | MapKind::Atlas(_) => self.adapt(wgsl),
+            MapKind::Flat(_) => {
                 let plain = wgsl.replace("shadows_cube_", "shadows_");
                 self.adapt(&plain).replace("shadows_", "shadows_flat_")
             }

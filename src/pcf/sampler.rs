@@ -6,9 +6,7 @@ use super::bound::Bound;
 use super::kernel::KernelUniform;
 use super::layout::layout_entries;
 use super::map_kind::{Lights, MapWgsl, Reads};
-use super::{
-    AnyMap, FlatLights, Gather, Kernel, LightKinds, MapKind, ModulePlace, atlas_text, offsets, text,
-};
+use super::{AnyMap, Gather, Kernel, MapKind, ModulePlace, atlas_text, offsets, text};
 use crate::DepthEncoding;
 use crate::error::PcfError;
 use crate::support::has_storage;
@@ -20,62 +18,37 @@ pub struct PcfDescriptor<'a> {
     pub label: Option<&'a str>,
     /// The kernel. Default [`Kernel::Bilinear`].
     pub kernel: Kernel,
-    /// The kind of map it reads. Default [`MapKind::Cube`].
+    /// The maps that it reads, and for which lights: one kind of light takes fewer instructions. Default
+    /// [`MapKind::CUBE`].
     pub map: MapKind,
-    /// What the maps' texels hold. Default [`DepthEncoding::MajorAxis`]; flat maps have no other.
-    pub encoding: DepthEncoding,
     /// Whether receivers do as textbooks have it instead of the kernel: one tap, and a constant
-    /// bias of 0.15 world units. Needs `LinearDistance`; for comparison with
+    /// bias of 0.15 world units. Needs cube maps of `LinearDistance`; for comparison with
     /// [`CubeShadowMapDescriptor::textbook`](crate::CubeShadowMapDescriptor::textbook). `kernel` is
-    /// then its default, or [`Kernel::Hard`]. Default false. For cube maps.
+    /// then its default, or [`Kernel::Hard`]. Default false.
     #[doc(hidden)]
     pub textbook: bool,
-    /// Which lights its flat maps are prepared for. Default [`FlatLights::Any`]; a sampler for one kind
-    /// of light takes fewer instructions. For flat maps.
-    pub flat_lights: FlatLights,
-    /// Which kinds of light of an atlas its receivers are for. Default all. For atlases.
-    pub light_kinds: LightKinds,
-    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that is reliable.
+    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on; other ways for
+    /// trying what devices without gathers see.
     #[doc(hidden)]
     pub gather: Gather,
 }
 
 impl PcfDescriptor<'_> {
-    /// Refuses what would have no effect.
+    /// Refuses what does not go together.
     fn validate_combination(&self) -> Result<(), PcfError> {
-        if self.map != MapKind::Cube {
-            let cubes_only = [
-                ("textbook", self.textbook),
-                ("encoding", self.encoding != DepthEncoding::default()),
-            ];
-            if let Some((setting, _)) = cubes_only.into_iter().find(|(_, set)| *set) {
-                let map = self.map;
-                return Err(PcfError::CubesOnly { setting, map });
-            }
-        }
-        if self.map != MapKind::Flat && self.flat_lights != FlatLights::default() {
-            return Err(PcfError::FlatOnly {
-                setting: "flat_lights",
-                map: self.map,
-            });
-        }
-        if self.map != MapKind::Atlas && self.light_kinds != LightKinds::default() {
-            return Err(PcfError::AtlasOnly {
-                setting: "light_kinds",
-                map: self.map,
-            });
-        }
-        if self.light_kinds.is_empty() {
+        if let MapKind::Atlas(kinds) = self.map
+            && kinds.is_empty()
+        {
             return Err(PcfError::NoLightKinds);
         }
         if !self.textbook {
-            return match self.kernel.reads(self.encoding) {
+            return match self.kernel.reads(self.map) {
                 true => Ok(()),
-                false => Err(PcfError::HardwareEncoding(self.encoding)),
+                false => Err(PcfError::HardwareEncoding(self.map)),
             };
         }
-        if self.encoding != DepthEncoding::LinearDistance {
-            return Err(PcfError::Textbook(self.encoding));
+        if self.map != MapKind::Cube(DepthEncoding::LinearDistance) {
+            return Err(PcfError::Textbook(self.map));
         }
         match self.kernel {
             Kernel::Hard => Ok(()),
@@ -120,8 +93,8 @@ impl PcfSampler {
     ///
     /// # Errors
     /// [`PcfError`] if a parameter of the kernel is out of range, the device has no gathers for
-    /// [`Gather::Always`], the encoding does not go with [`Kernel::HardwareBilinear`], textbook receivers are to read another encoding
-    /// than theirs, or a setting would have no effect.
+    /// [`Gather::Always`], the maps' encoding does not go with [`Kernel::HardwareBilinear`] or with textbook
+    /// receivers, or no kind of light is left.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -131,16 +104,13 @@ impl PcfSampler {
             label,
             kernel,
             map,
-            encoding,
             textbook,
-            flat_lights,
-            light_kinds,
             gather,
         } = descriptor;
         kernel.validate()?;
         descriptor.validate_combination()?;
         let hardware = kernel == Kernel::HardwareBilinear;
-        let border = map == MapKind::Flat
+        let border = matches!(map, MapKind::Flat(_))
             && device
                 .features()
                 .contains(wgpu::Features::ADDRESS_MODE_CLAMP_TO_BORDER);
@@ -150,14 +120,11 @@ impl PcfSampler {
         };
         let reads = Reads {
             map,
-            encoding,
             lights: match map {
-                MapKind::Atlas if has_storage(device) => Lights::Storage,
-                MapKind::Atlas => Lights::Uniform,
-                _ => Lights::One,
+                MapKind::Atlas(_) if has_storage(device) => Lights::Storage,
+                MapKind::Atlas(_) => Lights::Uniform,
+                MapKind::Cube(_) | MapKind::Flat(_) => Lights::One,
             },
-            flat_lights,
-            kinds: light_kinds,
             border,
             gather: gather.on(device)?,
         };
@@ -206,7 +173,7 @@ impl PcfSampler {
         self.kernel
     }
 
-    /// The kind of map it reads.
+    /// The maps that it reads.
     pub fn map(&self) -> MapKind {
         self.reads.map
     }
@@ -246,8 +213,8 @@ impl PcfSampler {
     /// with it.
     ///
     /// # Errors
-    /// [`PcfError`] if the map is of another kind, has another encoding, or was made for kernels that do not
-    /// reach as far as this one.
+    /// [`PcfError`] if the map is of another kind or encoding, or was made for kernels that do not reach as far
+    /// as this one.
     pub fn bind_group<'a>(
         &self,
         device: &wgpu::Device,
@@ -272,18 +239,12 @@ impl PcfSampler {
 
     /// What is bound for a map.
     fn bound<'a>(&'a self, map: AnyMap<'a>) -> Result<Bound<'a>, PcfError> {
-        if map.kind() != self.map() {
+        if !self.map().reads(map.kind()) {
             let (made_for, given) = (self.map(), map.kind());
             return Err(PcfError::Map { made_for, given });
         }
         self.check_reach(map)?;
         let (map, lights) = match map {
-            AnyMap::Cube(map) if map.encoding() != self.reads.encoding => {
-                return Err(PcfError::Encoding {
-                    map: map.encoding(),
-                    sampler: self.reads.encoding,
-                });
-            }
             AnyMap::Cube(map) => (map.layers(), map.light_uniform()),
             AnyMap::Flat(map) => (map.view(), map.light_uniform()),
             AnyMap::Atlas(map) => (map.view(), map.light_buffer()),
@@ -338,9 +299,9 @@ impl PcfSampler {
     /// `light.tiles` specifies the layers.
     pub fn wgsl(&self) -> String {
         let own = MapWgsl::new(self.reads);
-        if self.map() == MapKind::Atlas {
-            let flat = MapWgsl::flat_tiles(self.reads);
-            return atlas_text::functions(self.kernel, &own, &flat, self.reads.kinds);
+        if let MapKind::Atlas(kinds) = self.map() {
+            let flat = MapWgsl::flat_tiles(self.reads, kinds);
+            return atlas_text::functions(self.kernel, &own, &flat, kinds);
         }
         match self.textbook {
             true => text::textbook(&own),
@@ -402,10 +363,10 @@ impl PcfSampler {
 
     fn module(&self, group: u32, first_binding: u32) -> String {
         let kernel = (!self.textbook).then_some(self.kernel);
-        if self.map() == MapKind::Atlas {
+        if let MapKind::Atlas(kinds) = self.map() {
             return self.wgsl()
                 + &text::declarations(kernel, self.reads.lights, group, first_binding)
-                + &atlas_text::visibility(self.kernel, self.reads.kinds);
+                + &atlas_text::visibility(self.kernel, kinds);
         }
         self.wgsl() + &text::bindings(kernel, &MapWgsl::new(self.reads), group, first_binding)
     }

@@ -8,7 +8,7 @@ use glam::{DVec3, Mat4, Vec4Swizzles};
 
 use super::caster_edges::beside_edges;
 use super::geometry::SurfacePoint;
-use super::image::{Class, ReferenceImage, Seen};
+use super::image::{Class, Lighting, ReferenceImage, Seen};
 use super::map_rays::{MapRays, Rays};
 use crate::error::ReferenceError;
 
@@ -26,9 +26,10 @@ pub enum Interior {
     /// For shadow volumes. Over the surrounding 3 x 3 pixels (those inside the picture), the reference agrees
     /// (only [`Class::Lit`] is lit), none is background, and there is no depth edge.
     Screen,
-    /// For cube shadow maps of a point light. In addition to the conditions of [`Screen`](Self::Screen), the
-    /// reference agrees wherever a light ray within 1.5 texels plus the kernel's radius of the pixel's own
-    /// meets the tangent plane. A ray that misses the plane counts as an edge.
+    /// For cube shadow maps of a point light. Beyond what [`Screen`](Self::Screen) asks, the
+    /// reference says the same wherever a light ray within 1.5 texels plus the kernel's radius of
+    /// the pixel's own meets the tangent plane. A ray that misses the plane is an edge. So is the edge of a shadow
+    /// that lies beyond the light's range, whose texels such a map holds all the same.
     Map {
         /// Texels along the edge of a cube face; at least 1.
         face_size: u32,
@@ -171,9 +172,15 @@ impl ReferenceImage {
     fn light_agrees(&self, seen: &Seen, lit: bool, radius: Radius) -> bool {
         let light = self.lighting.light.xyz();
         let rays = Rays::new(&radius.map, light, seen.surface.position, seen.normal);
+        // A shadow map knows no range and no cone: beside a shadow that goes on beyond them it holds that shadow's
+        // edge, wherever that is.
+        let reach = match (lit, &radius.map) {
+            (true, _) | (_, MapRays::Surface) => self.lighting,
+            (false, _) => Lighting::moved_to(self.lighting.light),
+        };
         let agrees = |[u, v]: [f64; 2]| {
             let position = rays.meet(u, v);
-            position.is_some_and(|position| self.lit_at(seen, position) == lit)
+            position.is_some_and(|position| self.lit_at(seen, position, reach) == lit)
         };
         let rings = (2.0 * radius.texels).ceil();
         let on_rings = (1..=rings as u32).rev().all(|ring| {
@@ -198,9 +205,9 @@ impl ReferenceImage {
         on_rings && (matches!(radius.map, MapRays::Surface) || beside_edges())
     }
 
-    /// Whether the light reaches a point of the pixel's tangent plane.
-    fn lit_at(&self, seen: &Seen, position: DVec3) -> bool {
-        let light = self.lighting.light.xyz();
+    /// Whether that light reaches a point of the pixel's tangent plane.
+    fn lit_at(&self, seen: &Seen, position: DVec3, lighting: Lighting) -> bool {
+        let light = lighting.light.xyz();
         let size = seen
             .surface
             .size
@@ -210,7 +217,7 @@ impl ReferenceImage {
             size,
             ..seen.surface
         };
-        self.lighting.class(&self.geometry, &surface, seen.side) == Class::Lit
+        lighting.class(&self.geometry, &surface, seen.side) == Class::Lit
     }
 }
 

@@ -1,5 +1,7 @@
 //! Parameters of shadow volumes.
 
+use std::num::NonZeroU32;
+
 use crate::DepthConvention;
 use crate::error::ShadowVolumeError;
 use crate::volume::decide::method::{Caps, Extrusion, Method};
@@ -7,6 +9,7 @@ use crate::volume::gpu::counter;
 use crate::volume::light_pass::targets::{
     DEPTH_STENCIL, bytes_a_sample, has_depth_alone, has_stencil, is_drawable,
 };
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::limits;
 use crate::volume::{Counter, Silhouettes, StartFrom};
 
@@ -28,6 +31,26 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of the pass, 1 (default) or 4. Each sample has its own count.
     pub sample_count: u32,
+    /// The layers of its attachments that a pass draws into at once, a bit and a view each: the pass's own
+    /// [`multiview_mask`](wgpu::RenderPassDescriptor::multiview_mask), as for both eyes of a headset. Default
+    /// `None`: a pass draws one view.
+    ///
+    /// With a mask the frame's [`views`](crate::ShadowVolumeFrame::views) come in sets, one after another: as
+    /// many as the mask has bits, the first of a set for the lowest layer. Whatever takes the index of a
+    /// view, such as [`render`](crate::ShadowVolumeRenderer::render), then takes that of a set.
+    ///
+    /// A set shares its draws, so what is decided for a caster is what is right in each view: it is counted
+    /// in front of the visible surfaces only where that is proven for all, left out only where all leave it
+    /// out, and so on. That suits eyes side by side; views that look apart take less fill in passes of their
+    /// own.
+    ///
+    /// Needs [`MULTIVIEW`](wgpu::Features::MULTIVIEW) and a
+    /// [`max_multiview_view_count`](wgpu::Limits::max_multiview_view_count) of as many layers, both of which
+    /// [`Support`](crate::Support) asks for; a mask with gaps also
+    /// [`SELECTIVE_MULTIVIEW`](wgpu::Features::SELECTIVE_MULTIVIEW). The attachments are views of the dimension
+    /// `D2Array`. Mesa's software driver needs to be newer than 22.3, which draws clipped triangles of one
+    /// view into another (25.0 does not).
+    pub multiview_mask: Option<NonZeroU32>,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,
     /// Formats of the pass's colour attachments, which are not written. Default none.
@@ -53,11 +76,17 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// If depth is not 0 at infinity, ulps of the depth at infinity are added to those of the depth itself,
     /// which are far too small near the near plane of standard depth.
     pub cap_bias_ulps: u32,
-    /// Which faces count: those in front of the visible point or those behind it. Default [`Method::Auto`].
+    /// Which faces count, those before the visible point or those behind it. Default [`Method::Auto`];
+    /// [`Method::ZFail`] for casters that the host does not draw.
     pub method: Method,
-    /// How z-fail closes volumes at their far end. Default [`Caps::AsNeeded`].
+    /// How z-fail closes volumes at their far end. Default [`Caps::AsNeeded`]; the other gives the same picture
+    /// for more work, for measuring what that is worth.
+    #[doc(hidden)]
     pub caps: Caps,
-    /// How far volumes extend. Default [`Extrusion::ToRange`].
+    /// How far volumes reach. Default [`Extrusion::ToRange`]. Volumes of a light without a range, where the
+    /// receivers are not known, are infinite: that is what a host says who wants them so. `Infinite` is for
+    /// measuring what ending them is worth.
+    #[doc(hidden)]
     pub extrusion: Extrusion,
     /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
     pub start_from: StartFrom,
@@ -82,6 +111,7 @@ impl Default for ShadowVolumeDescriptor<'_> {
             label: None,
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            multiview_mask: None,
             depth: DepthConvention::default(),
             color_formats: &[],
             cap_bias_ulps: 16,
@@ -128,7 +158,12 @@ impl ShadowVolumeDescriptor<'_> {
             return Err(ShadowVolumeError::FormatFeature(format));
         }
         check_depth(device, self.depth)?;
+        self.multiview().validate(device)?;
         self.validate_colors(device)
+    }
+
+    pub(crate) fn multiview(&self) -> Multiview {
+        Multiview(self.multiview_mask)
     }
 
     fn validate_colors(&self, device: &wgpu::Device) -> Result<(), ShadowVolumeError> {
@@ -174,7 +209,7 @@ pub(crate) fn check_depth(
     })
 }
 
-fn check_feature(
+pub(crate) fn check_feature(
     device: &wgpu::Device,
     feature: wgpu::Features,
     needed_by: impl FnOnce() -> String,

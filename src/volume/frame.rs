@@ -2,14 +2,38 @@
 
 use std::num::NonZeroU32;
 
+use glam::Vec3;
+
 use crate::error::{LightError, ShadowVolumeError};
 use crate::mesh::Bounds;
 use crate::scene::CasterFilter;
+use crate::volume::multiview::Multiview;
 use crate::{
     Caster, DepthConvention, DirectionalLight, HomogeneousLight, PointLight, SpotLight, View,
 };
 
-/// A light, reduced to what shadow volumes need.
+/// Where a spot shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeCone {
+    /// From the light along the cone's middle, in world space, of any length but 0.
+    pub direction: Vec3,
+    /// From the direction to the cone's side, in radians; greater than 0, less than pi / 2.
+    pub half_angle: f32,
+}
+
+impl VolumeCone {
+    fn validate(&self) -> Result<(), LightError> {
+        if !self.direction.is_finite() || self.direction == Vec3::ZERO {
+            return Err(LightError::SpotDirection(self.direction.to_array()));
+        }
+        match self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
+            true => Ok(()),
+            false => Err(LightError::HalfAngle(self.half_angle)),
+        }
+    }
+}
+
+/// A light, as far as shadow volumes need it.
 ///
 /// ```
 /// use shadows::{PointLight, VolumeLight, glam::Vec3};
@@ -23,8 +47,12 @@ pub struct VolumeLight {
     /// Distance in world units beyond which a point light has no effect: casters that lie entirely beyond it
     /// are skipped. Finite and above 0. `None` for an unlimited range; directional lights ignore it.
     pub range: Option<f32>,
-    /// It casts the shadows of casters on any of these layers, one bit each ([`Caster::layers`]). Default
-    /// all.
+    /// The cone into which a point light shines, if it is a spot: casters wholly beside it are skipped,
+    /// volumes end and draws are clipped where the cone does. Outside of it may be shadow or none: the
+    /// host's light pass leaves it dark. `None`, the default: all around. Directional lights ignore it.
+    pub cone: Option<VolumeCone>,
+    /// The casters whose shadows it casts are on any of these layers, a bit each ([`Caster::layers`]).
+    /// Default all.
     pub layers: u32,
     /// Its owner: it casts no shadow of casters with the same owner ([`Caster::owner`]), such as a lamp's own
     /// shade. Default `None`.
@@ -38,6 +66,7 @@ impl VolumeLight {
         Self {
             light,
             range,
+            cone: None,
             layers,
             owner,
         }
@@ -53,6 +82,14 @@ impl VolumeLight {
     pub fn owned_by(self, owner: NonZeroU32) -> Self {
         Self {
             owner: Some(owner),
+            ..self
+        }
+    }
+
+    /// The same, shining into a cone: of what is outside of it no shadow is promised, and none is paid for.
+    pub fn with_cone(self, cone: VolumeCone) -> Self {
+        Self {
+            cone: Some(cone),
             ..self
         }
     }
@@ -77,9 +114,12 @@ impl From<PointLight> for VolumeLight {
 }
 
 impl From<SpotLight> for VolumeLight {
-    /// Shining all around: what is outside the cone is for the host's light pass to leave dark.
+    /// What is outside the cone is for the host's light pass to leave dark.
     fn from(light: SpotLight) -> Self {
-        Self::new(light.homogeneous(), Some(light.range))
+        Self::new(light.homogeneous(), Some(light.range)).with_cone(VolumeCone {
+            direction: light.direction,
+            half_angle: light.half_angle,
+        })
     }
 }
 
@@ -128,7 +168,8 @@ pub struct ShadowVolumeFrame<'a> {
     /// The lights of this frame. A light is identified by its index in this list: one that keeps its index
     /// and does not move keeps all of its volumes.
     pub lights: &'a [VolumeLight],
-    /// The cameras, also identified by their index: one, or two eyes, or a split screen.
+    /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen. With a
+    /// [`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask) sets of views, one after another.
     pub views: &'a [VolumeView],
     /// Bounds in world space of everything that receives shadows: all surfaces in the passes' depth buffers,
     /// including those of casters. Volumes then end just behind these bounds, and casters that shadow nothing
@@ -145,8 +186,12 @@ pub struct ShadowVolumeFrame<'a> {
 }
 
 impl ShadowVolumeFrame<'_> {
-    /// Whether lights, views and receivers are sound, for passes of this convention.
-    pub(crate) fn validate(&self, depth: DepthConvention) -> Result<(), ShadowVolumeError> {
+    /// Whether lights, views and receivers are sound, for passes of this convention and these views.
+    pub(crate) fn validate(
+        &self,
+        depth: DepthConvention,
+        multiview: Multiview,
+    ) -> Result<(), ShadowVolumeError> {
         for VolumeView { view, target_size } in self.views {
             if view.depth() != depth {
                 return Err(ShadowVolumeError::Depth {
@@ -158,8 +203,13 @@ impl ShadowVolumeFrame<'_> {
                 return Err(ShadowVolumeError::TargetSize(size));
             }
         }
-        for VolumeLight { light, range, .. } in self.lights {
+        multiview.check(self.views)?;
+        for VolumeLight {
+            light, range, cone, ..
+        } in self.lights
+        {
             light.validate()?;
+            cone.as_ref().map_or(Ok(()), VolumeCone::validate)?;
             if let Some(range) = *range
                 && !(range.is_finite() && range > 0.0)
             {
@@ -175,26 +225,35 @@ impl ShadowVolumeFrame<'_> {
         Ok(())
     }
 
-    /// One light and one view of it.
-    pub(crate) fn situation(&self, light: usize, view: usize) -> Option<Situation> {
+    /// One light, and the views of it that are drawn together: those of the pass of this number.
+    pub(crate) fn situation(
+        &self,
+        multiview: Multiview,
+        light: usize,
+        pass: usize,
+    ) -> Option<Situation> {
+        let views = self.views.chunks(multiview.views()).nth(pass)?;
         Some(Situation {
             light: self.lights.get(light)?.light,
             range: self.lights.get(light)?.range,
+            cone: self.lights.get(light)?.cone,
             filter: self.lights.get(light)?.filter(),
-            view: self.views.get(view)?.view,
-            target_size: self.views.get(view)?.target_size,
+            views: views.iter().map(|told| told.view).collect(),
+            target_size: views.first()?.target_size,
             receivers: self.receivers,
         })
     }
 }
 
-/// One light and one view of a frame: all that the choices for a caster depend on, beside the caster.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One light and one view of a frame, or those that are drawn together: all that the choices for a caster
+/// depend on, beside the caster.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Situation {
     pub light: HomogeneousLight,
     pub range: Option<f32>,
+    pub cone: Option<VolumeCone>,
     pub filter: CasterFilter,
-    pub view: View,
+    pub views: Vec<View>,
     pub target_size: Option<[u32; 2]>,
     pub receivers: Option<Bounds>,
 }

@@ -76,6 +76,7 @@ pub struct ShadowVolumeRenderer {
     cache: VolumeCache,
     meshes: MeshPool,
     work: Work,
+    /// As the shaders have them: see `multiview.rs`.
     views: Vec<ViewParams>,
     lights: Vec<LightParams>,
     statistics: VolumeStatistics,
@@ -123,7 +124,8 @@ impl ShadowVolumeRenderer {
             Some(name) => format!("shadows volume {name}"),
             None => "shadows volume".to_owned(),
         };
-        let limits = PlanLimits::of(&device.limits(), &ways);
+        let multiview = descriptor.multiview();
+        let limits = PlanLimits::of(&device.limits(), &ways, multiview);
         Ok(Self {
             device: device.clone(),
             depth: descriptor.depth,
@@ -135,7 +137,7 @@ impl ShadowVolumeRenderer {
             on_cpu: CpuVolume::default(),
             buffers: Buffers::new(&label, &ways),
             groups: Groups::default(),
-            volumes: Volumes::new(limits.storage_bytes),
+            volumes: Volumes::new(limits.storage_bytes, multiview),
             ways,
             meshes: MeshPool::new(limits.storage_bytes),
             work: Work::default(),
@@ -185,7 +187,8 @@ impl ShadowVolumeRenderer {
         _queue: &wgpu::Queue,
         frame: &ShadowVolumeFrame<'_>,
     ) -> Result<(), ShadowVolumeError> {
-        frame.validate(self.depth)?;
+        let multiview = self.pipelines.multiview;
+        frame.validate(self.depth, multiview)?;
         let required = Requirements {
             device,
             ways: &self.ways,
@@ -194,14 +197,15 @@ impl ShadowVolumeRenderer {
             meshes: &self.meshes,
         };
         self.volumes.casters.compare(frame.casters, &required)?;
-        check_counts(frame, self.options, &self.limits)?;
+        check_counts(frame, multiview, self.options, &self.limits)?;
         let [not_encoded, encoder_dropped] = self.forget();
         let choices = (self.options, self.keep);
         let left = self
             .volumes
             .decide(frame, choices, &self.ways, &mut self.cache);
         left.into_iter().for_each(|mesh| self.meshes.release(mesh));
-        (self.views, self.lights) = (view_params(frame), light_params(frame));
+        self.views = multiview.windows(&view_params(frame));
+        self.lights = light_params(frame);
         let staged = self.find();
         self.volumes.fill(&mut self.cache, self.renewed);
         let touched = self.volumes.merged.settle();
@@ -269,10 +273,10 @@ impl ShadowVolumeRenderer {
         self.renew();
     }
 
-    /// Records the stencil draws of one light in one view, given by their indices in the frame, into the
-    /// host's pass, which must have the formats and the sample count of the descriptor, a stencil of 0 and
-    /// the scene's depth in that view (which may be read-only). With
-    /// [`Counter::Exact`](crate::Counter::Exact), it must have a count of 0 instead, and needs no stencil.
+    /// Records the stencil draws of one light in one view, by their places in the frame, into the
+    /// host's pass, which must have the formats, the sample count and the multiview mask of the descriptor,
+    /// a stencil of 0 and the scene's depth in that view (which may be read-only). With
+    /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
     /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0, and nothing else, except
     /// that if the frame specified a target size and a range, the scissor rectangle is afterwards the whole

@@ -17,7 +17,7 @@ pub enum CasterState {
     /// Left out: after its transform, the light sees no area of it. It is flattened to a line or a point, or
     /// to a plane that contains the light.
     EdgeOn,
-    /// Left out: it is beyond the light's range.
+    /// Left out: it is beyond the light's range, or beside its cone.
     OutOfRange,
     /// Left out: nothing that it could shadow is in view.
     OutOfView,
@@ -44,8 +44,9 @@ impl From<Skip> for CasterState {
     }
 }
 
-/// The result of the last [`prepare`](crate::ShadowVolumeRenderer::prepare). Casters are summed over all
-/// lights and views: one that two lights shine on is counted twice.
+/// What the last [`prepare`](crate::ShadowVolumeRenderer::prepare) came to. What is said of casters is
+/// summed over all lights and views: one that two lights shine on is counted twice. Views that a pass draws
+/// together ([`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)) are one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct VolumeStatistics {
@@ -69,7 +70,7 @@ pub struct VolumeStatistics {
     /// two or three axes, and those flattened to a plane that contains the light. (A caster flattened to any
     /// other plane casts the shadow of its flat shape.)
     pub skipped_edge_on: u32,
-    /// Casters left out because they are beyond the light's range.
+    /// Casters left out because they are beyond the light's range, or beside its cone.
     pub skipped_out_of_range: u32,
     /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,

@@ -93,6 +93,18 @@ pub const JOINED: &[&[&str]] = &[
     ],
 ];
 
+/// The same of passes that draw several views. They need a capability of naga's that WebGPU has not.
+pub const LAYERED: &[&[&str]] = &[
+    &["volume_exact_layers"],
+    &["volume_screen", "volume_join_layers"],
+    &["volume_screen", "volume_exact_layers", "volume_mark_layers"],
+    &[
+        "volume_screen",
+        "volume_exact_layers",
+        "volume_mask_counts_layers",
+    ],
+];
+
 /// What a host's shader asks, and decals.
 pub const BLOB_RECEIVER: &[&str] = &["blob_visibility", "blob_receiver"];
 pub const BLOB_DECAL: &[&str] = &["blob_visibility", "blob_decal"];

@@ -27,51 +27,45 @@ pub const SQUARES: [Kernel; 5] = [
 pub struct Way {
     pub name: &'static str,
     pub map: MapKind,
-    pub encoding: DepthEncoding,
     pub gather: Gather,
     /// Whether the device's samplers have borders.
     pub border: bool,
-    pub flat_lights: FlatLights,
-    pub light_kinds: LightKinds,
 }
 
 const CUBE: Way = Way {
     name: "cube",
-    map: MapKind::Cube,
-    encoding: DepthEncoding::MajorAxis,
+    map: MapKind::CUBE,
     gather: Gather::Auto,
     border: false,
-    flat_lights: FlatLights::Any,
-    light_kinds: LightKinds::ALL,
 };
 
 const LINEAR: Way = Way {
     name: "cube-linear",
-    encoding: DepthEncoding::LinearDistance,
+    map: MapKind::Cube(DepthEncoding::LinearDistance),
     ..CUBE
 };
 
 const FLAT: Way = Way {
     name: "flat",
-    map: MapKind::Flat,
+    map: MapKind::FLAT,
     ..CUBE
 };
 
 const SPOT: Way = Way {
     name: "flat-spot",
-    flat_lights: FlatLights::Spot,
+    map: MapKind::Flat(FlatLights::Spot),
     ..FLAT
 };
 
 const SUN: Way = Way {
     name: "flat-directional",
-    flat_lights: FlatLights::Directional,
+    map: MapKind::Flat(FlatLights::Directional),
     ..FLAT
 };
 
 const ATLAS: Way = Way {
     name: "atlas",
-    map: MapKind::Atlas,
+    map: MapKind::ATLAS,
     ..CUBE
 };
 
@@ -130,26 +124,26 @@ pub const WAYS: [Way; 17] = [
     ATLAS,
     Way {
         name: "atlas-point",
-        light_kinds: LightKinds {
+        map: MapKind::Atlas(LightKinds {
             point: true,
             ..NO_KINDS
-        },
+        }),
         ..ATLAS
     },
     Way {
         name: "atlas-spot",
-        light_kinds: LightKinds {
+        map: MapKind::Atlas(LightKinds {
             spot: true,
             ..NO_KINDS
-        },
+        }),
         ..ATLAS
     },
     Way {
         name: "atlas-directional",
-        light_kinds: LightKinds {
+        map: MapKind::Atlas(LightKinds {
             directional: true,
             ..NO_KINDS
-        },
+        }),
         ..ATLAS
     },
     Way {
@@ -175,10 +169,7 @@ impl Way {
         PcfDescriptor {
             kernel,
             map: self.map,
-            encoding: self.encoding,
             gather: self.gather,
-            flat_lights: self.flat_lights,
-            light_kinds: self.light_kinds,
             ..Default::default()
         }
     }
@@ -189,8 +180,8 @@ impl Way {
             Gather::Never => &SQUARES,
             _ => &Kernel::ALL,
         };
-        let encoding = self.encoding;
-        let read = move |kernel: &Kernel| kernel.reads(encoding);
+        let map = self.map;
+        let read = move |kernel: &Kernel| kernel.reads(map);
         all.iter().copied().filter(read)
     }
 }
@@ -222,7 +213,7 @@ pub fn textbooks() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
     let (device, queue) = CUBE.device();
     let descriptor = PcfDescriptor {
         kernel: Kernel::Hard,
-        encoding: DepthEncoding::LinearDistance,
+        map: MapKind::Cube(DepthEncoding::LinearDistance),
         textbook: true,
         ..Default::default()
     };
@@ -232,7 +223,7 @@ pub fn textbooks() -> Vec<(PcfDescriptor<'static>, PcfSampler)> {
 
 /// Whether shaders name a light.
 pub fn takes_light(descriptor: &PcfDescriptor<'_>) -> bool {
-    descriptor.map == MapKind::Atlas
+    matches!(descriptor.map, MapKind::Atlas(_))
 }
 
 /// A fragment shader that asks for the visibility at its position; `module` is what stands before
@@ -286,7 +277,7 @@ fn given_host(
 
 pub fn visibility_name(map: MapKind) -> &'static str {
     match map {
-        MapKind::Flat => "shadows_flat_visibility",
+        MapKind::Flat(_) => "shadows_flat_visibility",
         _ => "shadows_visibility",
     }
 }

@@ -29,14 +29,9 @@ pub fn visibility<'a>(
     points: &[(Vec3, Vec3)],
 ) -> Vec<f32> {
     let map = map.into();
-    let encoding = match map {
-        AnyMap::Cube(map) => map.encoding(),
-        _ => Default::default(),
-    };
     let descriptor = PcfDescriptor {
         kernel,
         map: map.kind(),
-        encoding,
         ..Default::default()
     };
     ask(gpu, map, &descriptor, 0, points)
@@ -103,7 +98,7 @@ impl Questions {
     ) -> Self {
         let device = &gpu.device;
         let call = match descriptor.map {
-            MapKind::Atlas => format!("shadows_visibility_flat({light}u, "),
+            MapKind::Atlas(_) => format!("shadows_visibility_flat({light}u, "),
             _ => "shadows_visibility_flat(".to_owned(),
         };
         let pixel_argument = if sampler.takes_pixel() { ", pixel" } else { "" };
@@ -111,7 +106,7 @@ impl Questions {
             .replace("shadows_visibility_flat(", &call)
             .replace(" PIXEL", pixel_argument);
         let shader = match descriptor.map {
-            MapKind::Flat => shader.replace("shadows_visibility", "shadows_flat_visibility"),
+            MapKind::Flat(_) => shader.replace("shadows_visibility", "shadows_flat_visibility"),
             _ => shader,
         };
         let module = change(sampler.wgsl_module(1));

@@ -5,7 +5,7 @@
 use shadows::glam::{Affine3A, DVec2, DVec3, Vec3};
 use shadows::{
     AnyMap, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, FlatLight, Kernel,
-    PointLight, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
+    MapSettings, PointLight, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
 };
 
 use crate::common::rays::Triangles;
@@ -73,7 +73,10 @@ impl Yard {
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let descriptor = CubeShadowMapDescriptor {
             size: SIZE,
-            reach,
+            settings: MapSettings {
+                reach,
+                ..Default::default()
+            },
             ..Default::default()
         };
         let mut map = CubeShadowMap::new(device, &descriptor).unwrap();
@@ -92,7 +95,10 @@ impl Yard {
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let descriptor = ShadowMapDescriptor {
             size: SIZE,
-            reach,
+            settings: MapSettings {
+                reach,
+                ..Default::default()
+            },
             ..Default::default()
         };
         let mut map = ShadowMap::new(device, &descriptor).unwrap();

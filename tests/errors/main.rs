@@ -5,6 +5,8 @@ mod atlas_matrices;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_errors;
+mod debug_pass;
 mod flat_errors;
 mod found_by_fuzzing;
+mod map_settings;
 mod pcf_errors;

@@ -3,8 +3,8 @@
 use crate::common::noop;
 use shadows::error::PcfError;
 use shadows::{
-    ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, FlatLights, Kernel,
-    MapKind, PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor,
+    ContactHardening, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
+    MapSettings, PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowMap, ShadowMapDescriptor,
     VogelDisk,
 };
 
@@ -157,36 +157,36 @@ fn a_light_without_a_size_is_refused() {
 #[test]
 fn textbook_receivers_of_another_encoding_are_refused() {
     let (device, queue) = noop();
-    let made = |encoding, map, textbook| {
+    let made = |map, textbook| {
         let descriptor = PcfDescriptor {
-            encoding,
             map,
             textbook,
             ..Default::default()
         };
         PcfSampler::new(&device, &queue, &descriptor).map(drop)
     };
-    let (major, linear) = (DepthEncoding::MajorAxis, DepthEncoding::LinearDistance);
-    let error = made(major, MapKind::Cube, true);
-    assert_eq!(error, Err(PcfError::Textbook(major)));
-    assert_eq!(made(linear, MapKind::Cube, true), Ok(()));
-    assert_eq!(made(major, MapKind::Cube, false), Ok(()));
+    for map in [MapKind::CUBE, MapKind::FLAT, MapKind::ATLAS] {
+        assert_eq!(made(map, true), Err(PcfError::Textbook(map)));
+        assert_eq!(made(map, false), Ok(()));
+    }
+    let linear = MapKind::Cube(DepthEncoding::LinearDistance);
+    assert_eq!(made(linear, true), Ok(()));
 }
 
 #[test]
 fn comparisons_in_hardware_of_another_encoding_are_refused() {
     let (device, queue) = noop();
-    let made = |kernel: Kernel, encoding| {
+    let made = |kernel: Kernel, map| {
         let descriptor = PcfDescriptor {
             kernel,
-            encoding,
+            map,
             ..Default::default()
         };
         PcfSampler::new(&device, &queue, &descriptor).map(drop)
     };
-    let linear = DepthEncoding::LinearDistance;
+    let linear = MapKind::Cube(DepthEncoding::LinearDistance);
     for kernel in Kernel::ALL {
-        assert_eq!(made(kernel, DepthEncoding::MajorAxis), Ok(()));
+        assert_eq!(made(kernel, MapKind::CUBE), Ok(()));
         let expected = match kernel {
             Kernel::HardwareBilinear => Err(PcfError::HardwareEncoding(linear)),
             _ => Ok(()),
@@ -197,60 +197,18 @@ fn comparisons_in_hardware_of_another_encoding_are_refused() {
 }
 
 #[test]
-fn settings_that_would_have_no_effect_are_refused() {
+fn a_kernel_that_textbook_receivers_do_not_have_is_refused() {
     let (device, queue) = noop();
     let made =
         |descriptor: &PcfDescriptor<'_>| PcfSampler::new(&device, &queue, descriptor).map(drop);
-    let flat = PcfDescriptor {
-        map: MapKind::Flat,
-        ..Default::default()
-    };
-    assert_eq!(made(&flat), Ok(()));
-    for (setting, cubes_only) in [
-        (
-            "textbook",
-            PcfDescriptor {
-                textbook: true,
-                ..flat.clone()
-            },
-        ),
-        (
-            "encoding",
-            PcfDescriptor {
-                encoding: DepthEncoding::LinearDistance,
-                ..flat.clone()
-            },
-        ),
-    ] {
-        let map = MapKind::Flat;
-        let error = made(&cubes_only).unwrap_err();
-        assert_eq!(error, PcfError::CubesOnly { setting, map });
-        assert!(error.to_string().starts_with(setting), "{error}");
-    }
-    // And a kind of light, on cubes.
-    for flat_lights in [FlatLights::Spot, FlatLights::Directional] {
-        let of = |map| PcfDescriptor {
-            map,
-            flat_lights,
-            ..Default::default()
-        };
-        let expected = PcfError::FlatOnly {
-            setting: "flat_lights",
-            map: MapKind::Cube,
-        };
-        let error = made(&of(MapKind::Cube)).unwrap_err();
-        assert_eq!(error, expected);
-        assert!(error.to_string().starts_with("flat_lights"), "{error}");
-        assert_eq!(made(&of(MapKind::Flat)), Ok(()));
-    }
-    // Textbook receivers are one tap.
+    // They are one tap.
     for (kernel, taken) in Kernel::ALL
         .into_iter()
         .zip([true, true].into_iter().chain([false; 8]))
     {
         let textbook = PcfDescriptor {
             kernel,
-            encoding: DepthEncoding::LinearDistance,
+            map: MapKind::Cube(DepthEncoding::LinearDistance),
             textbook: true,
             ..Default::default()
         };
@@ -269,7 +227,10 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
     let cube = |reach| {
         let descriptor = CubeShadowMapDescriptor {
             size: 16,
-            reach,
+            settings: MapSettings {
+                reach,
+                ..Default::default()
+            },
             ..Default::default()
         };
         CubeShadowMap::new(&device, &descriptor).unwrap()
@@ -277,7 +238,10 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
     let flat = |reach| {
         let descriptor = ShadowMapDescriptor {
             size: 16,
-            reach,
+            settings: MapSettings {
+                reach,
+                ..Default::default()
+            },
             ..Default::default()
         };
         ShadowMap::new(&device, &descriptor).unwrap()
@@ -291,12 +255,12 @@ fn a_kernel_that_a_map_was_not_made_for_is_refused() {
             };
             PcfSampler::new(&device, &queue, &descriptor).unwrap()
         };
-        let usual = CubeShadowMapDescriptor::default().reach;
-        assert_eq!(usual, ShadowMapDescriptor::default().reach);
+        let usual = CubeShadowMapDescriptor::default().settings.reach;
+        assert_eq!(usual, ShadowMapDescriptor::default().settings.reach);
         let (cube, flat) = (cube(reach.unwrap_or(usual)), flat(reach.unwrap_or(usual)));
         let results = [
-            of(MapKind::Cube).bind_group(&device, &cube).map(drop),
-            of(MapKind::Flat).bind_group(&device, &flat).map(drop),
+            of(MapKind::CUBE).bind_group(&device, &cube).map(drop),
+            of(MapKind::FLAT).bind_group(&device, &flat).map(drop),
         ];
         assert!(results.iter().all(|result| *result == results[0]));
         results[0]

@@ -3,9 +3,9 @@
 use shadows::glam::{Affine3A, Quat, Vec3};
 use shadows::mesh::Bounds;
 use shadows::{
-    Bias, Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding,
-    FlatLight, Kernel, MapKind, PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap,
-    ShadowMapDescriptor, SpotLight,
+    AnyMap, Bias, Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
+    DepthEncoding, FlatLight, Kernel, MapKind, MapSettings, PcfDescriptor, PcfSampler, PointLight,
+    ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
 };
 
 use crate::common::own_pass::OwnPass;
@@ -49,7 +49,10 @@ impl Ground {
         let descriptor = CubeShadowMapDescriptor {
             size: SIZE,
             encoding,
-            bias,
+            settings: MapSettings {
+                bias,
+                ..Default::default()
+            },
             ..Default::default()
         };
         crate::cubes::fresh(gpu, &descriptor, self.light, &[self.caster(gpu)])
@@ -97,7 +100,7 @@ impl Ground {
             .collect();
         let descriptor = PcfDescriptor {
             kernel: Kernel::Weighted3,
-            encoding,
+            map: MapKind::Cube(encoding),
             ..Default::default()
         };
         let seen = ask(gpu, map, &descriptor, 0, &points);
@@ -118,7 +121,7 @@ fn stored(gpu: &Gpu, map: &CubeShadowMap) -> Vec<f32> {
     );
     let descriptor = PcfDescriptor {
         kernel: Kernel::Hard,
-        encoding: map.encoding(),
+        map: AnyMap::from(map).kind(),
         ..Default::default()
     };
     let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
@@ -257,7 +260,7 @@ fn casters_before_the_near_plane_of_a_spot_are_pulled_onto_it_or_left_out() {
         map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();
         gpu.run(|encoder| map.encode(encoder));
         let descriptor = PcfDescriptor {
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         assert_eq!(ask(&gpu, &map, &descriptor, 0, &points), expected);

@@ -216,7 +216,7 @@ fn atlases_of_any_number_of_lights_are_read_as_a_map_of_one() {
             ..Default::default()
         };
         let many = PcfDescriptor {
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..one.clone()
         };
         let right = ask(&gpu, &cube(&gpu), &one, 0, &points);
@@ -243,7 +243,7 @@ fn a_cube_view_is_refused_and_nothing_else() {
     let Some(gpu) = gl() else { return };
     let (device, queue) = (&gpu.device, &gpu.queue);
     let sampler = PcfSampler::new(device, queue, &PcfDescriptor::default()).unwrap();
-    let cross = CubeCross::new(device, &CubeCrossDescriptor::default());
+    let cross = CubeCross::new(device, &CubeCrossDescriptor::default()).unwrap();
     let map = cube(&gpu);
     assert_eq!(map.view().unwrap_err(), CubeShadowMapError::CubeView);
     sampler.bind_group(device, &map).unwrap();

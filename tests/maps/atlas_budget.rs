@@ -8,8 +8,8 @@ use glam::{Affine3A, Mat4, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     AtlasFrame, AtlasLight, AtlasTile, AtlasView, Caster, CubeFace, DepthConvention, Kernel,
-    MapKind, PcfDescriptor, PointLight, Radius, RandomDisk, ShadowAtlas, ShadowAtlasDescriptor,
-    TileSize, TileState, View, VogelDisk, glam,
+    MapKind, MapSettings, PcfDescriptor, PointLight, Radius, RandomDisk, ShadowAtlas,
+    ShadowAtlasDescriptor, TileSize, TileState, View, VogelDisk, glam,
 };
 
 const SIZE: u32 = 32;
@@ -17,7 +17,10 @@ const SIZE: u32 = 32;
 fn descriptor(max_tiles_per_frame: Option<u32>) -> ShadowAtlasDescriptor<'static> {
     ShadowAtlasDescriptor {
         max_tiles_per_frame,
-        reach: Radius::Texels(2.0),
+        settings: MapSettings {
+            reach: Radius::Texels(2.0),
+            ..Default::default()
+        },
         ..crate::atlas::descriptor(8)
     }
 }
@@ -96,7 +99,7 @@ fn oldest(atlas: &ShadowAtlas) -> u32 {
 /// What is seen of a light at some points.
 fn seen(gpu: &Gpu, atlas: &ShadowAtlas, light: usize, points: &[(Vec3, Vec3)]) -> Vec<f32> {
     let reader = PcfDescriptor {
-        map: MapKind::Atlas,
+        map: MapKind::ATLAS,
         ..Default::default()
     };
     ask(gpu, atlas, &reader, light, points)
@@ -298,7 +301,10 @@ fn tiles_of_where_a_light_was_do_not_wait_once_they_show() {
     let mut crowd = Crowd::new(&gpu);
     crowd.lights.truncate(1);
     let budget = ShadowAtlasDescriptor {
-        reach: Radius::Texels(0.1),
+        settings: MapSettings {
+            reach: Radius::Texels(0.1),
+            ..Default::default()
+        },
         ..descriptor(Some(1))
     };
     let mut map = atlas(&gpu, &budget);
@@ -402,7 +408,10 @@ impl Seen {
         let mut crowd = Crowd::new(gpu);
         crowd.lights.truncate(1);
         let one = ShadowAtlasDescriptor {
-            reach: kernel.radius(),
+            settings: MapSettings {
+                reach: kernel.radius(),
+                ..Default::default()
+            },
             ..descriptor(None)
         };
         let mut map = atlas(gpu, &one);
@@ -430,7 +439,7 @@ impl Seen {
             let unlike = |points: &[_]| {
                 let reader = PcfDescriptor {
                     kernel,
-                    map: MapKind::Atlas,
+                    map: MapKind::ATLAS,
                     ..Default::default()
                 };
                 let of =

@@ -34,7 +34,7 @@ fn picture(gpu: &Gpu, atlas: &ShadowAtlas) -> Vec<[u8; 4]> {
     let size = [2 * LAYER, LAYER];
     let target = gpu.target(size, wgpu::TextureFormat::Rgba8Unorm, 1);
     gpu.checked(|| {
-        let mut debug = AtlasDebug::new(&gpu.device, &AtlasDebugDescriptor::default());
+        let mut debug = AtlasDebug::new(&gpu.device, &AtlasDebugDescriptor::default()).unwrap();
         debug.prepare(&gpu.device, atlas);
         gpu.run(|encoder| {
             let view = target.create_view(&Default::default());

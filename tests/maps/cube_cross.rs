@@ -28,7 +28,8 @@ fn cross(gpu: &Gpu, map: &CubeShadowMap, encoding: DepthEncoding) -> Vec<[u8; 4]
                 encoding,
                 ..Default::default()
             },
-        );
+        )
+        .unwrap();
         let group = cross.bind_group(&gpu.device, map).unwrap();
         gpu.run(|encoder| {
             let view = target.create_view(&Default::default());
@@ -123,7 +124,7 @@ fn a_cross_of_another_encoding_is_refused() {
                 encoding,
                 ..Default::default()
             };
-            let cross = CubeCross::new(&device, &descriptor);
+            let cross = CubeCross::new(&device, &descriptor).unwrap();
             let expected = match encoding == map_encoding {
                 true => Ok(()),
                 false => Err(CubeShadowMapError::Encoding {

@@ -7,8 +7,8 @@ use crate::receivers::{ask, visibility};
 use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Bias, Caster, CasterSides, CubeShadowMapDescriptor, DepthEncoding, Kernel, PcfDescriptor,
-    PointLight, glam, wgpu,
+    Bias, Caster, CasterSides, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
+    MapSettings, PcfDescriptor, PointLight, glam, wgpu,
 };
 use wgpu::TextureFormat::{Depth16Unorm, Depth24Plus, Depth32Float};
 
@@ -22,7 +22,10 @@ fn descriptor(
 ) -> CubeShadowMapDescriptor<'static> {
     CubeShadowMapDescriptor {
         size: 256,
-        format,
+        settings: MapSettings {
+            format,
+            ..Default::default()
+        },
         encoding,
         ..Default::default()
     }
@@ -99,7 +102,7 @@ fn every_encoding_in_every_format_shadows_what_rays_do() {
             let narrow = |kernel: &Kernel| !matches!(kernel, Kernel::ContactHardening(_));
             let read = Kernel::ALL
                 .into_iter()
-                .filter(|kernel| kernel.reads(encoding));
+                .filter(|kernel| kernel.reads(MapKind::Cube(encoding)));
             for kernel in read.filter(narrow) {
                 let seen = visibility(&gpu, &map, kernel, &shell.points);
                 assert_eq!(
@@ -144,7 +147,11 @@ fn no_encoding_in_any_format_shows_acne_on_a_flat_receiver() {
         for encoding in ENCODINGS {
             let with = |bias| {
                 let descriptor = CubeShadowMapDescriptor {
-                    bias,
+                    settings: MapSettings {
+                        format,
+                        bias,
+                        ..Default::default()
+                    },
                     ..descriptor(format, encoding)
                 };
                 let map = fresh(&gpu, &descriptor, light(), std::slice::from_ref(&caster));
@@ -200,7 +207,7 @@ fn the_textbook_method_is_a_preset() {
     assert_eq!(map.statistics().faces_rendered, 6);
     assert_eq!(map.statistics().triangles, 6 * 60 * 12);
     let reader = PcfDescriptor {
-        encoding: DepthEncoding::LinearDistance,
+        map: MapKind::Cube(DepthEncoding::LinearDistance),
         textbook: true,
         ..Default::default()
     };
@@ -257,7 +264,10 @@ fn closed_meshes_may_cast_from_their_far_sides_mirrored_ones_too() {
             * Affine3A::from_scale(Vec3::new(mirror, 1.0, 1.0) / UNIT);
         let descriptor = CubeShadowMapDescriptor {
             size: 33,
-            sides,
+            settings: MapSettings {
+                sides,
+                ..Default::default()
+            },
             ..Default::default()
         };
         let casters = [Caster::new(mesh.clone(), transform)];
@@ -289,7 +299,10 @@ fn a_slope_scaled_bias_moves_slopes_away_and_nothing_else() {
         };
         let descriptor = CubeShadowMapDescriptor {
             size: 33,
-            bias,
+            settings: MapSettings {
+                bias,
+                ..Default::default()
+            },
             ..Default::default()
         };
         let map = fresh(&gpu, &descriptor, light(), &[caster]);
@@ -317,7 +330,10 @@ fn nearest_sides(gpu: &Gpu, sides: CasterSides, shape: &Shape, light: PointLight
         .collect();
     let descriptor = CubeShadowMapDescriptor {
         size: 128,
-        sides,
+        settings: MapSettings {
+            sides,
+            ..Default::default()
+        },
         ..Default::default()
     };
     let map = fresh(gpu, &descriptor, light, &casters);

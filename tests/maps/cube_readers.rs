@@ -9,7 +9,7 @@ use host::gpu::Gpu;
 use shadows::error::PcfError;
 use shadows::{
     Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthConvention, DepthEncoding,
-    PcfDescriptor, PcfSampler, PointLight, View, glam,
+    MapKind, PcfDescriptor, PcfSampler, PointLight, View, glam,
 };
 
 const LIGHT: PointLight = PointLight {
@@ -71,12 +71,12 @@ fn samplers_refuse_maps_that_they_cannot_read() {
             .unwrap_err()
     };
     let linear = PcfDescriptor {
-        encoding: DepthEncoding::LinearDistance,
+        map: MapKind::Cube(DepthEncoding::LinearDistance),
         ..Default::default()
     };
-    let expected = PcfError::Encoding {
-        map: DepthEncoding::MajorAxis,
-        sampler: DepthEncoding::LinearDistance,
+    let expected = PcfError::Map {
+        made_for: MapKind::Cube(DepthEncoding::LinearDistance),
+        given: MapKind::CUBE,
     };
     assert_eq!(refused(&linear), expected);
     let good = PcfSampler::new(&gpu.device, &gpu.queue, &PcfDescriptor::default()).unwrap();

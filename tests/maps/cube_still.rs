@@ -12,7 +12,7 @@ use proptest::test_runner::{Config, TestRunner};
 use shadows::error::CubeShadowMapError;
 use shadows::{
     Caster, CasterMesh, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel,
-    PointLight, StaticLayers, glam, wgpu,
+    MapSettings, PointLight, StaticLayers, glam, wgpu,
 };
 
 const SIZE: u32 = 24;
@@ -240,7 +240,10 @@ fn layers_change_no_bit_in_any_encoding_and_format() {
     ] {
         for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
             let descriptor = CubeShadowMapDescriptor {
-                format,
+                settings: MapSettings {
+                    format,
+                    ..Default::default()
+                },
                 encoding,
                 ..descriptor(StaticLayers::Never)
             };

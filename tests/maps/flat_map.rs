@@ -9,8 +9,9 @@ use crate::receivers::{ask_changed, visibility};
 use glam::{Affine3A, DVec3, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    AnyMap, Bias, Caster, CasterSides, DirectionalLight, FlatLight, Kernel, MapKind, PcfDescriptor,
-    Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, VogelDisk, glam, wgpu,
+    AnyMap, Bias, Caster, CasterSides, DirectionalLight, FlatLight, Kernel, MapKind, MapSettings,
+    PcfDescriptor, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, VogelDisk, glam,
+    wgpu,
 };
 
 fn spot(position: Vec3, direction: Vec3, half_angle: f32, scale: f32) -> FlatLight {
@@ -34,7 +35,10 @@ fn drawn(gpu: &Gpu, descriptor: &ShadowMapDescriptor<'_>, frame: &ShadowFrame<'_
 fn of_size(size: u32, bias: Bias) -> ShadowMapDescriptor<'static> {
     ShadowMapDescriptor {
         size,
-        bias,
+        settings: MapSettings {
+            bias,
+            ..Default::default()
+        },
         ..Default::default()
     }
 }
@@ -196,7 +200,7 @@ fn outside(
 ) -> Vec<f32> {
     let descriptor = PcfDescriptor {
         kernel,
-        map: MapKind::Flat,
+        map: MapKind::FLAT,
         ..Default::default()
     };
     let border = include_str!("../../shaders/flat_edge_border.wgsl");
@@ -236,7 +240,7 @@ fn outside_the_map_and_behind_the_light_all_is_lit() {
         // The broken twin: every texel taken for one inside, at the nearest place that is.
         let descriptor = PcfDescriptor {
             kernel,
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         let clamped = ask_changed(
@@ -287,7 +291,10 @@ fn coarser_formats_show_no_acne_either() {
     ] {
         for light in [sun(toward), spot(toward * 8.0, -toward, 0.6, 1.0)] {
             let descriptor = ShadowMapDescriptor {
-                format,
+                settings: MapSettings {
+                    format,
+                    ..Default::default()
+                },
                 ..of_size(2048, Bias::default())
             };
             let map = drawn(&gpu, &descriptor, &ShadowFrame::new(light, &casters));
@@ -304,7 +311,7 @@ fn coarser_formats_show_no_acne_either() {
                 // The broken twin: no step of the format.
                 let descriptor = PcfDescriptor {
                     kernel,
-                    map: MapKind::Flat,
+                    map: MapKind::FLAT,
                     ..Default::default()
                 };
                 let map = AnyMap::Flat(&map);
@@ -466,7 +473,10 @@ fn front_faces_culled_leave_the_same_shadows_of_closed_meshes() {
     let light = sun(Vec3::new(0.4, 1.0, 0.2));
     let frame = ShadowFrame::new(light, &field.casters);
     let descriptor = ShadowMapDescriptor {
-        sides: CasterSides::Far,
+        settings: MapSettings {
+            sides: CasterSides::Far,
+            ..Default::default()
+        },
         ..of_size(2048, Bias::default())
     };
     let map = drawn(&gpu, &descriptor, &frame);
@@ -478,7 +488,10 @@ fn front_faces_culled_leave_the_same_shadows_of_closed_meshes() {
         bytemuck::pod_collect_to_vec(&bytes)
     };
     let descriptor = ShadowMapDescriptor {
-        sides: CasterSides::Both,
+        settings: MapSettings {
+            sides: CasterSides::Both,
+            ..Default::default()
+        },
         ..of_size(2048, Bias::default())
     };
     let (back, both) = (depths(&map), depths(&drawn(&gpu, &descriptor, &frame)));

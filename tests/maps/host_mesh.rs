@@ -9,7 +9,8 @@ use shadows::error::CasterMeshError as Error;
 use shadows::mesh::{Bounds, MeshKind};
 use shadows::{
     Caster, CasterMesh, CasterSides, CubeShadowMapDescriptor, DirectionalLight, FlatLight,
-    HostMesh, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, glam, wgpu,
+    HostMesh, MapSettings, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight,
+    glam, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -150,7 +151,10 @@ fn placed(mesh: &CasterMesh) -> Vec<Caster> {
 fn cube_descriptor() -> CubeShadowMapDescriptor<'static> {
     CubeShadowMapDescriptor {
         size: 64,
-        sides: CasterSides::Both,
+        settings: MapSettings {
+            sides: CasterSides::Both,
+            ..Default::default()
+        },
         ..Default::default()
     }
 }
@@ -159,7 +163,10 @@ fn cube_descriptor() -> CubeShadowMapDescriptor<'static> {
 fn flat(gpu: &Gpu, light: FlatLight, casters: &[Caster]) -> Vec<u8> {
     let descriptor = ShadowMapDescriptor {
         size: 128,
-        sides: CasterSides::Both,
+        settings: MapSettings {
+            sides: CasterSides::Both,
+            ..Default::default()
+        },
         ..Default::default()
     };
     let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();

@@ -8,7 +8,7 @@ use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, FlatLight, Kernel,
-    PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, glam,
+    MapKind, MapSettings, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor, SpotLight, glam,
     wgpu::{Features, TextureFormat},
 };
 
@@ -126,7 +126,10 @@ fn cube(
     let descriptor = CubeShadowMapDescriptor {
         size: SIZE,
         encoding,
-        format,
+        settings: MapSettings {
+            format,
+            ..Default::default()
+        },
         ..Default::default()
     };
     fresh(gpu, &descriptor, lamp.point(near), &lamp.casters)
@@ -135,7 +138,10 @@ fn cube(
 fn flat(gpu: &Gpu, lamp: &Lamp, near: Option<f32>, format: TextureFormat) -> ShadowMap {
     let descriptor = ShadowMapDescriptor {
         size: SIZE,
-        format,
+        settings: MapSettings {
+            format,
+            ..Default::default()
+        },
         ..Default::default()
     };
     let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();
@@ -274,7 +280,7 @@ fn a_tiny_near_plane_costs_floats_not_a_digit() {
     for kernel in Kernel::ALL {
         for kind in [float, linear]
             .into_iter()
-            .filter(|kind| kernel.reads(kind.0))
+            .filter(|kind| kernel.reads(MapKind::Cube(kind.0)))
         {
             let [tiny, large] = [None, Some(large)].map(|near| {
                 let map = cube(&gpu, &lamp, near, kind);
@@ -312,7 +318,10 @@ fn a_floor_just_below_a_light_has_no_acne() {
         let shadowed = |bias| {
             let descriptor = CubeShadowMapDescriptor {
                 size: SIZE,
-                bias,
+                settings: MapSettings {
+                    bias,
+                    ..Default::default()
+                },
                 ..Default::default()
             };
             let map = fresh(&gpu, &descriptor, lamp.point(None), &lamp.casters);

@@ -129,7 +129,7 @@ fn own(gpu: &Gpu, light: Light, kernel: Kernel, room: &Room) -> Vec<f32> {
 fn descriptor(kernel: Kernel) -> PcfDescriptor<'static> {
     PcfDescriptor {
         kernel,
-        map: MapKind::Atlas,
+        map: MapKind::ATLAS,
         ..Default::default()
     }
 }
@@ -336,9 +336,9 @@ fn kinds_that_are_not_asked_for_leave_no_code() {
         spot,
         directional,
     };
-    let sampler = |light_kinds| {
+    let sampler = |kinds| {
         let descriptor = PcfDescriptor {
-            light_kinds,
+            map: MapKind::Atlas(kinds),
             ..descriptor(Kernel::Weighted5)
         };
         PcfSampler::new(&gpu.device, &gpu.queue, &descriptor)
@@ -360,7 +360,7 @@ fn kinds_that_are_not_asked_for_leave_no_code() {
     };
     let atlas = atlas(&gpu, &frame);
     let spots = PcfDescriptor {
-        light_kinds: kinds(false, true, false),
+        map: MapKind::Atlas(kinds(false, true, false)),
         ..descriptor(Kernel::Bilinear)
     };
     let lit = |light: usize| {

@@ -82,7 +82,7 @@ impl Sun {
     pub fn new(gpu: &Gpu, kernel: Kernel) -> Self {
         let descriptor = PcfDescriptor {
             kernel,
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..Default::default()
         };
         let made = ShadowAtlasDescriptor {

@@ -6,14 +6,17 @@ use crate::receivers::{ask_changed, visibility};
 use glam::{Affine3A, DVec3, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, PcfDescriptor,
-    PointLight, Radius, glam, wgpu::TextureFormat,
+    Bias, Caster, CubeShadowMap, CubeShadowMapDescriptor, DepthEncoding, Kernel, MapKind,
+    MapSettings, PcfDescriptor, PointLight, Radius, glam, wgpu::TextureFormat,
 };
 
 fn map(gpu: &Gpu, size: u32, bias: Bias, light: &PointLight, casters: &[Caster]) -> CubeShadowMap {
     let descriptor = CubeShadowMapDescriptor {
         size,
-        bias,
+        settings: MapSettings {
+            bias,
+            ..Default::default()
+        },
         ..Default::default()
     };
     crate::cubes::fresh(gpu, &descriptor, *light, casters)
@@ -125,8 +128,11 @@ fn no_acne_in_any_format_however_far_the_light_reaches() {
             let dark = |bias, kernel, change: fn(String) -> String| {
                 let descriptor = CubeShadowMapDescriptor {
                     size,
-                    bias,
-                    format,
+                    settings: MapSettings {
+                        bias,
+                        format,
+                        ..Default::default()
+                    },
                     encoding,
                     ..Default::default()
                 };
@@ -134,7 +140,7 @@ fn no_acne_in_any_format_however_far_the_light_reaches() {
                 let map = crate::cubes::fresh(&gpu, &descriptor, plane.light, casters);
                 let reader = PcfDescriptor {
                     kernel,
-                    encoding,
+                    map: MapKind::Cube(encoding),
                     ..Default::default()
                 };
                 let seen = ask_changed(&gpu, (&map).into(), &reader, 0, &plane.points, change);

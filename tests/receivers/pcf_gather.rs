@@ -109,7 +109,7 @@ fn cubes_are_seen_alike_with_and_without_gathers() {
     for encoding in [DepthEncoding::MajorAxis, DepthEncoding::LinearDistance] {
         let map = cube(&gpu, encoding);
         let base = PcfDescriptor {
-            encoding,
+            map: MapKind::Cube(encoding),
             ..Default::default()
         };
         compare(
@@ -128,7 +128,7 @@ fn flat_maps_are_seen_alike_with_and_without_gathers() {
     let spot = FlatLight::Spot(SpotLight::new(position, direction, 0.9, 30.0));
     let sun = FlatLight::Directional(DirectionalLight::new(Vec3::new(0.3, 1.0, 0.2)));
     let base = PcfDescriptor {
-        map: MapKind::Flat,
+        map: MapKind::FLAT,
         kernel: Kernel::Bilinear,
         ..Default::default()
     };

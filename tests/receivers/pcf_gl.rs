@@ -97,7 +97,7 @@ fn seen(gpu: &Gpu, shift: Vec3) -> Vec<(String, Vec<f32>)> {
     let in_atlas = |kernel, light| {
         let descriptor = PcfDescriptor {
             kernel,
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..Default::default()
         };
         ask(gpu, &atlas, &descriptor, light, &points)

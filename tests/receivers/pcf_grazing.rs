@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     AnyMap, Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
-    FlatLight, Kernel, MapKind, PcfDescriptor, PointLight, ShadowFrame, ShadowMap,
+    FlatLight, Kernel, MapKind, MapSettings, PcfDescriptor, PointLight, ShadowFrame, ShadowMap,
     ShadowMapDescriptor, SpotLight, glam,
 };
 
@@ -55,7 +55,10 @@ fn around(gpu: &Gpu, light: Vec3, half: f32) -> [Caster; 1] {
 fn cube(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> CubeShadowMap {
     let descriptor = CubeShadowMapDescriptor {
         size: SIZE,
-        bias: Bias::NONE,
+        settings: MapSettings {
+            bias: Bias::NONE,
+            ..Default::default()
+        },
         ..Default::default()
     };
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
@@ -68,7 +71,10 @@ fn cube(gpu: &Gpu, light: Vec3, casters: &[Caster]) -> CubeShadowMap {
 fn flat(gpu: &Gpu, frame: &ShadowFrame<'_>) -> ShadowMap {
     let descriptor = ShadowMapDescriptor {
         size: SIZE,
-        bias: Bias::NONE,
+        settings: MapSettings {
+            bias: Bias::NONE,
+            ..Default::default()
+        },
         ..Default::default()
     };
     let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();
@@ -340,7 +346,7 @@ fn a_disk_by_a_row_above_the_ground_is_compared_with_the_receivers_own_distance(
     for kernel in disks {
         let descriptor = PcfDescriptor {
             kernel,
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         let lit = |own: &str| {

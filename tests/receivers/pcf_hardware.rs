@@ -6,8 +6,8 @@ use glam::{Affine3A, Vec3};
 use host::gpu::Gpu;
 use shadows::{
     AnyMap, Bias, Caster, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DirectionalLight,
-    FlatLight, Kernel, PcfDescriptor, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    SpotLight, glam,
+    FlatLight, Kernel, MapSettings, PcfDescriptor, PointLight, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, SpotLight, glam,
 };
 
 const KERNEL: Kernel = Kernel::HardwareBilinear;
@@ -27,7 +27,10 @@ fn cube(gpu: &Gpu, size: u32, light: Vec3, casters: &[Caster]) -> CubeShadowMap 
 fn flat(gpu: &Gpu, size: u32, light: FlatLight, casters: &[Caster]) -> ShadowMap {
     let descriptor = ShadowMapDescriptor {
         size,
-        bias: Bias::default(),
+        settings: MapSettings {
+            bias: Bias::default(),
+            ..Default::default()
+        },
         ..Default::default()
     };
     let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();

@@ -7,8 +7,9 @@ use crate::yard::{LIGHT, Yard, error};
 use glam::{Affine3A, DVec2, DVec3, Vec3};
 use host::gpu::Gpu;
 use shadows::{
-    AnyMap, ContactHardening, DirectionalLight, FlatLight, Kernel, MapKind, PcfDescriptor,
-    PcfSampler, Radius, RandomDisk, ShadowFrame, ShadowMap, ShadowMapDescriptor, VogelDisk, glam,
+    AnyMap, ContactHardening, DirectionalLight, FlatLight, Kernel, MapKind, MapSettings,
+    PcfDescriptor, PcfSampler, Radius, RandomDisk, ShadowFrame, ShadowMap, ShadowMapDescriptor,
+    VogelDisk, glam,
 };
 
 #[test]
@@ -224,7 +225,10 @@ fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
         let casters = [shapes::square(half).caster(&gpu.device, place)];
         let max_radius = Radius::World(1.5 * light_size * height);
         let descriptor = ShadowMapDescriptor {
-            reach: max_radius,
+            settings: MapSettings {
+                reach: max_radius,
+                ..Default::default()
+            },
             ..Default::default()
         };
         let mut map = ShadowMap::new(&gpu.device, &descriptor).unwrap();
@@ -239,7 +243,7 @@ fn contact_hardening_is_as_wide_below_a_directional_map_as_on_it() {
                 search_taps: 32,
                 taps: 64,
             }),
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         };
         let (points, exact) = under_a_square(half.into(), height.into(), light_size.into());

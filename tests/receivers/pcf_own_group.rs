@@ -52,8 +52,8 @@ impl Stage {
         Self {
             lamp: cubes::fresh(gpu, &descriptor, light, &casters),
             sun: map,
-            disks: sampler(Kernel::Vogel(VogelDisk::default()), MapKind::Cube),
-            squares: sampler(Kernel::Weighted3, MapKind::Flat),
+            disks: sampler(Kernel::Vogel(VogelDisk::default()), MapKind::CUBE),
+            squares: sampler(Kernel::Weighted3, MapKind::FLAT),
             scale: gpu
                 .device
                 .create_buffer_init(&wgpu::util::BufferInitDescriptor {

@@ -165,6 +165,38 @@ fn the_map_interior_is_as_far_from_the_edge_as_the_kernel_reaches() {
 }
 
 #[test]
+fn the_edge_of_a_shadow_that_lies_beyond_the_range_is_one_for_maps() {
+    // The shadow's sides are 2 from the middle, and in the middle of each the range ends 0.05 before them.
+    let (ground, roof) = (ground(), rectangle(Vec2::NEG_ONE, Vec2::ONE, 2.0));
+    let scene = ReferenceScene::new(&[ground.object(false), roof.object(true)]).unwrap();
+    let light = HomogeneousLight::point(Vec3::new(0.0, 4.0, 0.0));
+    let range = Vec2::new(4.0, 1.95).length();
+    let view = downward(EYE, 7.5);
+    let image = scene.render(&view, SIDE, SIDE, light, Some(range)).unwrap();
+    let map = Interior::Map {
+        face_size: 64,
+        kernel_radius: 0.0,
+    };
+    let (inside, screen) = (interior(&image, map), interior(&image, Interior::Screen));
+    let radius = 4.0 * 1.5 * 2.0 / 64.0;
+    let (mut near, mut far) = (0, 0);
+    for (i, class) in image.classes().enumerate() {
+        let point = ground_under(i as u32 % SIDE, i as u32 / SIDE, EYE);
+        let away = 2.0 - point.x.abs().max(point.z.abs());
+        if class == Class::Shadowed && screen[i] {
+            let count = if away < 0.999 * radius {
+                &mut near
+            } else {
+                &mut far
+            };
+            *count += 1;
+            assert_eq!(inside[i], away > 0.999 * radius, "{point}, {away} away");
+        }
+    }
+    assert!(near > 20 && far > 500, "{near}, {far}");
+}
+
+#[test]
 fn a_shadow_and_a_gap_that_are_thinner_than_a_texel_are_edges() {
     // A hair that hangs where no pixel's own ray meets its shadow, and a roof with a slit there.
     let z = 0.1013_f32;

@@ -3,6 +3,7 @@
 
 mod dependencies;
 mod features;
+mod fields;
 mod figures;
 mod named;
 mod pages;

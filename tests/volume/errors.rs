@@ -7,7 +7,7 @@ use shadows::glam::{Affine3A, Vec3};
 use shadows::mesh::{Adjacency, Bounds};
 use shadows::{
     Caster, CasterMesh, Counter, DepthConvention, HomogeneousLight, HostMesh, Method,
-    ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes, View, wgpu,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, Silhouettes, View, VolumeCone, wgpu,
 };
 
 use crate::shapes;
@@ -320,6 +320,12 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
         Caster::new(for_maps(&device), Affine3A::IDENTITY),
     ];
     let (inf, dark) = (f32::INFINITY, HomogeneousLight::directional(Vec3::ZERO));
+    let cone = |direction, half_angle| {
+        Some(VolumeCone {
+            direction,
+            half_angle,
+        })
+    };
     let bad = [
         (
             OneLight {
@@ -365,6 +371,34 @@ fn a_frame_that_does_not_fit_is_refused_and_the_renderer_goes_on() {
                 ..good
             },
             LightError::Range(inf).into(),
+        ),
+        (
+            OneLight {
+                cone: cone(Vec3::ZERO, 0.5),
+                ..good
+            },
+            LightError::SpotDirection([0.0; 3]).into(),
+        ),
+        (
+            OneLight {
+                cone: cone(Vec3::new(0.0, inf, 0.0), 0.5),
+                ..good
+            },
+            LightError::SpotDirection([0.0, inf, 0.0]).into(),
+        ),
+        (
+            OneLight {
+                cone: cone(Vec3::Y, 0.0),
+                ..good
+            },
+            LightError::HalfAngle(0.0).into(),
+        ),
+        (
+            OneLight {
+                cone: cone(Vec3::Y, std::f32::consts::FRAC_PI_2),
+                ..good
+            },
+            LightError::HalfAngle(std::f32::consts::FRAC_PI_2).into(),
         ),
         (
             OneLight {

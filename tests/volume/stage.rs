@@ -8,7 +8,7 @@ use shadows::reference::{ReferenceObject, ReferenceScene};
 use shadows::{
     Caps, Caster, CasterMesh, Counter, DepthConvention, ExactCount, ExactCountDescriptor,
     Extrusion, HomogeneousLight, HostPositions, Method, ShadowVolumeDescriptor,
-    ShadowVolumeRenderer, Silhouettes, StartFrom, View, wgpu,
+    ShadowVolumeRenderer, Silhouettes, SpotLight, StartFrom, View, VolumeCone, wgpu,
 };
 use wgpu::util::DeviceExt as _;
 
@@ -80,6 +80,8 @@ pub struct Stage {
     /// Pixels along an edge of the picture.
     pub side: u32,
     pub range: Option<f32>,
+    /// Of a spot.
+    pub cone: Option<VolumeCone>,
     /// Bounds of what receives, where the renderer is told.
     pub receivers: Option<Bounds>,
     pub savings: Savings,
@@ -121,6 +123,7 @@ impl Stage {
             lens: Lens::Perspective,
             side: SIDE,
             range: None,
+            cone: None,
             receivers: None,
             savings: Savings::default(),
             placed_view: None,
@@ -190,9 +193,11 @@ impl Stage {
             let pixel = 2.0 / self.side as f32;
             let shift = Mat4::from_translation(Vec3::new(-x * pixel, y * pixel, 0.0));
             let view = View::new(shift * self.view().clip_from_world(), self.depth).unwrap();
-            scene
-                .render(&view, self.side, self.side, self.light, self.range)
-                .unwrap()
+            match self.spot() {
+                Some(spot) => scene.render_spot(&view, self.side, self.side, &spot),
+                None => scene.render(&view, self.side, self.side, self.light, self.range),
+            }
+            .unwrap()
         };
         Truth {
             centres: image((0.0, 0.0)),
@@ -201,6 +206,19 @@ impl Stage {
                 .map(|&offset| image(offset).classes().collect())
                 .collect(),
         }
+    }
+
+    /// The light, if it has a cone; it then has a range, too.
+    fn spot(&self) -> Option<SpotLight> {
+        let (
+            VolumeCone {
+                direction,
+                half_angle,
+            },
+            range,
+        ) = (self.cone?, self.range?);
+        let position = self.light.xyzw().truncate();
+        Some(SpotLight::new(position, direction, half_angle, range))
     }
 
     fn scene(&self) -> ReferenceScene {
@@ -282,6 +300,7 @@ impl Stage {
         let view = self.view();
         let frame = OneLight {
             range: self.range,
+            cone: self.cone,
             target_size: Some([self.side; 2]),
             receivers: self.receivers,
             ..OneLight::new(&view, self.light, casters)

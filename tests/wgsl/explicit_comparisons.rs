@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::modules::{JOINED, joined};
+use crate::modules::{JOINED, LAYERED, joined};
 use crate::pcf::{host, samplers, textbooks};
 use naga::valid::{Capabilities, FunctionInfo, ValidationFlags, Validator};
 use naga::{BinaryOperator, Expression, Function, Handle, Module, ScalarKind, UnaryOperator};
@@ -109,12 +109,13 @@ fn shaders() -> PathBuf {
 #[test]
 fn no_comparison_of_floats_is_negated() {
     let receivers = receivers();
-    let others = JOINED.iter().map(|files| joined(files));
+    let all = || JOINED.iter().chain(LAYERED).copied();
+    let others = all().map(joined);
     for wgsl in receivers.iter().cloned().chain(others) {
         assert_eq!(negated(&wgsl), [""; 0], "{wgsl}");
     }
     // Every file was looked at, by its name or as a part of a receiver.
-    let named: BTreeSet<&str> = JOINED.iter().copied().flatten().copied().collect();
+    let named: BTreeSet<&str> = all().flatten().copied().collect();
     for file in std::fs::read_dir(shaders()).unwrap() {
         let path = file.unwrap().path();
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();

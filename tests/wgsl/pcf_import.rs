@@ -64,8 +64,8 @@ fn functions_without_bindings_are_imported_too() {
         let sampler = made(&device, &queue, &descriptor);
         let module = wgsl::import_module("shadows::functions", &sampler.wgsl());
         let (kind, names) = match descriptor.map {
-            MapKind::Flat => ("flat", "Flat"),
-            MapKind::Atlas if !descriptor.light_kinds.point => ("flat", ""),
+            MapKind::Flat(_) => ("flat", "Flat"),
+            MapKind::Atlas(kinds) if !kinds.point => ("flat", ""),
             _ => ("cube", ""),
         };
         let (texture, sampled) = match descriptor.kernel {

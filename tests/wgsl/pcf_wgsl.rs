@@ -64,7 +64,10 @@ fn every_name_has_the_prefix() {
 fn a_kernel_carries_no_code_of_another() {
     for (descriptor, sampler) in samplers() {
         let text = sampler.wgsl();
-        let flat = descriptor.map == MapKind::Flat || !descriptor.light_kinds.point;
+        let flat = match descriptor.map {
+            MapKind::Atlas(kinds) => !kinds.point,
+            map => matches!(map, MapKind::Flat(_)),
+        };
         for other in Kernel::ALL {
             let name = match flat {
                 true => other.function().replace("cube", "flat"),
@@ -216,12 +219,12 @@ fn every_kernel_of_one_light_without_gathers_is_webgl_2() {
     }
     let one_light = WAYS
         .iter()
-        .filter(|way| way.map != MapKind::Atlas && way.gather == Gather::Auto);
+        .filter(|way| !matches!(way.map, MapKind::Atlas(_)) && way.gather == Gather::Auto);
     assert_eq!(squares, one_light.count() * SQUARES.len());
     // The broken twin: parameters of a disk without padding.
     let (_, disk) = samplers()
         .into_iter()
-        .find(|(descriptor, _)| descriptor.kernel.uses_pixel() && descriptor.map == MapKind::Cube)
+        .find(|(descriptor, _)| descriptor.kernel.uses_pixel() && descriptor.map == MapKind::CUBE)
         .unwrap();
     let short = disk.wgsl_module(0).replace("padding: u32,", "");
     assert!(uniform_sizes(&validate(&short).unwrap()).contains(&28));
@@ -255,13 +258,13 @@ fn gathers_are_in_the_squares_alone_and_only_where_they_are_wanted() {
 fn a_cube_sampler_and_a_flat_one_share_a_shader() {
     let (device, queue) = noop();
     for kernel in Kernel::ALL {
-        let modules = [MapKind::Cube, MapKind::Flat].map(|map| {
+        let modules = [MapKind::CUBE, MapKind::FLAT].map(|map| {
             let descriptor = PcfDescriptor {
                 kernel,
                 map,
                 ..Default::default()
             };
-            let group = if map == MapKind::Cube { 1 } else { 2 };
+            let group = if map == MapKind::CUBE { 1 } else { 2 };
             made(&device, &queue, &descriptor).wgsl_module(group)
         });
         validate(&modules.concat()).unwrap();
@@ -314,19 +317,17 @@ fn a_host_pipeline_accepts_layout_and_module() {
 
 /// Every way to make a sampler for maps of one light but its kernel, and one for atlases.
 fn ways() -> Vec<PcfDescriptor<'static>> {
-    let linear = DepthEncoding::LinearDistance;
-    let of = |map, encoding, textbook| PcfDescriptor {
+    let linear = MapKind::Cube(DepthEncoding::LinearDistance);
+    let of = |map, textbook| PcfDescriptor {
         map,
-        encoding,
         textbook,
         ..Default::default()
     };
-    let usual = DepthEncoding::MajorAxis;
     vec![
-        of(MapKind::Cube, usual, false),
-        of(MapKind::Cube, linear, false),
-        of(MapKind::Cube, linear, true),
-        of(MapKind::Atlas, usual, false),
+        of(MapKind::CUBE, false),
+        of(linear, false),
+        of(linear, true),
+        of(MapKind::ATLAS, false),
     ]
 }
 
@@ -335,7 +336,7 @@ fn every_encoding_and_method_is_valid() {
     let (device, queue) = noop();
     for kernel in Kernel::ALL {
         for way in ways() {
-            if way.textbook && kernel != Kernel::Hard || !kernel.reads(way.encoding) {
+            if way.textbook && kernel != Kernel::Hard || !kernel.reads(way.map) {
                 continue; // refused
             }
             let sampler = made(&device, &queue, &PcfDescriptor { kernel, ..way });
@@ -348,8 +349,8 @@ fn every_encoding_and_method_is_valid() {
             }
             // The broken twin: a host that calls as for the other number of lights.
             let other = match way.map {
-                MapKind::Atlas => MapKind::Cube,
-                _ => MapKind::Atlas,
+                MapKind::Atlas(_) => MapKind::CUBE,
+                _ => MapKind::ATLAS,
             };
             let wrong = sampler.wgsl_module(2) + &host(other);
             assert!(validate(&wrong).is_err());

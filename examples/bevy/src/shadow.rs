@@ -43,7 +43,7 @@ impl Plugin for ShadowPlugin {
         let device = app.world().resource::<RenderDevice>().wgpu_device().clone();
         let queue = app.world().resource::<RenderQueue>().clone();
         let descriptor = PcfDescriptor {
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             kernel: Kernel::Hard,
             ..Default::default()
         };

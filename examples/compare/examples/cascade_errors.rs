@@ -23,8 +23,8 @@ use shadows::glam::{DVec3, DVec4, Mat4, Quat};
 use shadows::reference::{Hit, Interior, Verdict};
 use shadows::{
     AtlasFrame, AtlasLight, AtlasView, CascadeFit, CascadeSplit, Cascades, DirectionalLight,
-    Kernel, MapKind, PcfDescriptor, PcfSampler, Radius, ShadowAtlas, ShadowAtlasDescriptor,
-    TileSize,
+    Kernel, MapKind, MapSettings, PcfDescriptor, PcfSampler, Radius, ShadowAtlas,
+    ShadowAtlasDescriptor, TileSize,
 };
 
 /// One way to shadow the sun.
@@ -148,7 +148,10 @@ fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
         &gpu.device,
         &ShadowAtlasDescriptor {
             layer_size: of.size.max(2048),
-            reach: Radius::Texels(of.reach),
+            settings: MapSettings {
+                reach: Radius::Texels(of.reach),
+                ..Default::default()
+            },
             memory: 1 << 30,
             ..Default::default()
         },
@@ -158,7 +161,7 @@ fn shown(gpu: &Gpu, stage: &Stage, of: &Try) -> Result<Seen> {
         &gpu.queue,
         &PcfDescriptor {
             kernel: of.kernel,
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..Default::default()
         },
     )?;

@@ -125,6 +125,10 @@ pub struct Args {
     #[arg(long, group = "mode")]
     pub hard_cases: bool,
 
+    /// Of the hard cases only those whose name begins with this, and no bad input; may be given several times.
+    #[arg(long = "case", value_name = "NAME")]
+    pub cases: Vec<String>,
+
     /// Rounds of the hard cases, each with other lights and cameras.
     #[arg(long, value_name = "N", default_value_t = 4,
           value_parser = clap::value_parser!(u32).range(1..=1_000))]

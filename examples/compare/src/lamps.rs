@@ -43,11 +43,11 @@ impl Lamps {
         let applies = |at: &usize| technique.config.applies_to(stage.scene.lights[*at].kind());
         let lights: Vec<usize> = all.filter(applies).collect();
         let means = match &technique.config {
-            Config::Atlas { .. } => Means::Atlas(Box::new(Shadow::new(
-                gpu,
-                &stage.renderer,
-                technique.clone(),
-            )?)),
+            Config::Atlas { .. } => {
+                let kinds = lights.iter().map(|&at| stage.scene.lights[at].kind());
+                let own = technique.for_kinds(&kinds.collect::<Vec<_>>());
+                Means::Atlas(Box::new(Shadow::new(gpu, &stage.renderer, own)?))
+            }
             _ => {
                 let each = lights.iter();
                 let new = |_| Shadow::new(gpu, &stage.renderer, technique.clone());

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context as _, Result, bail};
 use compare::{
-    arithmetic, cost, growth, hard, measure, output, plot, scenes, soft, sweep, temporal,
+    arithmetic, cost, growth, hard, measure, output, plot, scenes, soft, sweep, table, temporal,
 };
 use shadows::reference::ReferenceImage;
 
@@ -49,8 +49,9 @@ struct Job {
 
 fn run(args: &Args) -> Result<ExitCode> {
     if args.hard_cases {
+        let cases = hard::cases::chosen(&args.cases)?;
         let gpu = opened(args, [&args.out])?;
-        return Ok(match hard::run(&gpu, &args.out, args.rounds)? {
+        return Ok(match hard::run(&gpu, &cases, &args.out, args.rounds)? {
             0 => ExitCode::SUCCESS,
             _ => ExitCode::FAILURE,
         });
@@ -137,17 +138,22 @@ fn temporal(args: &Args, size: [u32; 2]) -> Result<()> {
 
 fn other_arithmetic(args: &Args, names: &[String]) -> Result<ExitCode> {
     let variants = arithmetic::variants(names)?;
+    let techniques = match args.techniques.are_usual() {
+        true => arithmetic::NAMES
+            .iter()
+            .map(|name| table::named(name, args.face))
+            .collect::<Result<_>>()?,
+        false => {
+            let asked = args.techniques.0.iter();
+            asked.map(|row| row.at(args.face)).collect()
+        }
+    };
     let scenes = args.scenes.iter();
     let plan = arithmetic::Plan {
         scenes: scenes
             .map(|name| asked_scene(args, name, args.size))
             .collect::<Result<_>>()?,
-        techniques: args
-            .techniques
-            .0
-            .iter()
-            .map(|row| row.at(args.face))
-            .collect(),
+        techniques,
         size: args.size,
         rounds: args.rounds,
         variants,

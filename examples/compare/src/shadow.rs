@@ -12,7 +12,7 @@ use shadows::{
     Bias, Caster, Counter, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor, DepthBounds,
     DirectionalLight, ExactCount, ExactCountDescriptor, FlatLight, HomogeneousLight, HostDraw,
     Kernel, PcfDescriptor, PcfSampler, PointLight, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeRenderer, SpotLight, View, wgpu,
+    ShadowVolumeDescriptor, ShadowVolumeRenderer, SpotLight, View, VolumeCone, wgpu,
 };
 
 use crate::atlas::Atlas;
@@ -75,6 +75,13 @@ impl ShadowInputs {
             half_angle: cone.half_angle,
             near: self.near,
             range: self.range,
+        })
+    }
+
+    fn volume_cone(&self) -> Option<VolumeCone> {
+        self.cone.map(|cone| VolumeCone {
+            direction: cone.direction,
+            half_angle: cone.half_angle,
         })
     }
 
@@ -263,6 +270,7 @@ impl Shadow {
             Means::Volume { volumes, .. } => {
                 let frame = OneLight {
                     range: inputs.light_range(),
+                    cone: inputs.volume_cone(),
                     receivers: Some(inputs.receivers),
                     ..OneLight::new(&inputs.view, inputs.light, casters)
                 };
@@ -440,14 +448,14 @@ impl Technique {
                 json!({
                     "face_texels": map.size,
                     "encoding": format!("{:?}", map.encoding),
-                    "format": format!("{:?}", map.format),
+                    "format": format!("{:?}", map.settings.format),
                     "cache": map.cache,
                 }),
-                (sampler, map.bias),
+                (sampler, map.settings.bias),
             ),
             Config::Flat { map, sampler } => (
                 json!({ "map_texels": map.size, "cache": map.cache }),
-                (sampler, map.bias),
+                (sampler, map.settings.bias),
             ),
             Config::Atlas {
                 size,
@@ -518,6 +526,7 @@ fn exact_count(gpu: &Gpu, label: Option<&str>, renderer: &Renderer) -> Result<Ex
         size: renderer.size(),
         depth_stencil_format: renderer.depth_stencil_format(),
         sample_count: renderer.look().samples,
+        ..Default::default()
     };
     Ok(ExactCount::new(&gpu.device, &descriptor)?)
 }

@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, PlanarSoftShadowDescriptor,
-    ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, MapKind, MapSettings, PcfDescriptor,
+    PlanarSoftShadowDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -65,6 +65,25 @@ impl Literal {
         self
     }
 
+    /// What maps of all kinds have in common, in a literal of its own.
+    fn settings(self, settings: &MapSettings) -> Self {
+        let default = MapSettings::default();
+        let MapSettings {
+            format,
+            bias: set_back,
+            sides,
+            reach,
+        } = settings;
+        let Self { text, fields, .. } = Self::new("settings", "MapSettings")
+            .field("format", FORMAT, format, &default.format)
+            .field("bias", "", set_back, &default.bias)
+            .field("sides", "CasterSides::", sides, &default.sides)
+            .field("reach", "Radius::", reach, &default.reach);
+        let fields = fields.replace("    ", "        ");
+        let literal = format!("{text} {{\n{fields}        ..Default::default()\n    }}");
+        self.written("settings", &literal, *settings == default)
+    }
+
     fn finish(self) -> String {
         let Self { name, text, fields } = self;
         match fields.is_empty() {
@@ -81,24 +100,18 @@ fn cube(map: &CubeShadowMapDescriptor<'_>) -> String {
     let CubeShadowMapDescriptor {
         label: _,
         size,
-        bias: set_back,
         encoding,
-        format,
-        reach,
+        settings,
         cull_casters,
         cache,
-        sides,
         static_layers,
     } = map;
     Literal::new("map", "CubeShadowMapDescriptor")
         .field("size", "", size, &default.size)
-        .field("bias", "", set_back, &default.bias)
         .field("encoding", "DepthEncoding::", encoding, &default.encoding)
-        .field("format", FORMAT, format, &default.format)
-        .field("reach", "Radius::", reach, &default.reach)
+        .settings(settings)
         .field("cull_casters", "", cull_casters, &default.cull_casters)
         .field("cache", "", cache, &default.cache)
-        .field("sides", "CasterSides::", sides, &default.sides)
         .field(
             "static_layers",
             "StaticLayers::",
@@ -113,25 +126,19 @@ fn flat(map: &ShadowMapDescriptor<'_>) -> String {
     let ShadowMapDescriptor {
         label: _,
         size,
-        format,
-        bias: set_back,
-        sides,
+        settings,
         unclipped_depth,
-        reach,
         cache,
     } = map;
     Literal::new("map", "ShadowMapDescriptor")
         .field("size", "", size, &default.size)
-        .field("format", FORMAT, format, &default.format)
-        .field("bias", "", set_back, &default.bias)
-        .field("sides", "CasterSides::", sides, &default.sides)
+        .settings(settings)
         .field(
             "unclipped_depth",
             "",
             unclipped_depth,
             &default.unclipped_depth,
         )
-        .field("reach", "Radius::", reach, &default.reach)
         .field("cache", "", cache, &default.cache)
         .finish()
 }
@@ -142,23 +149,13 @@ fn pcf(sampler: &PcfDescriptor<'_>) -> String {
         label: _,
         kernel: filter,
         map,
-        encoding,
         textbook,
-        flat_lights,
-        light_kinds: _, // of atlases, which are not swept
         gather,
     } = sampler;
     Literal::new("sampler", "PcfDescriptor")
         .written("kernel", &kernel(*filter), *filter == default.kernel)
-        .field("map", "MapKind::", map, &default.map)
-        .field("encoding", "DepthEncoding::", encoding, &default.encoding)
+        .written("map", &kind(*map), *map == default.map)
         .field("textbook", "", textbook, &default.textbook)
-        .field(
-            "flat_lights",
-            "FlatLights::",
-            flat_lights,
-            &default.flat_lights,
-        )
         .field("gather", "Gather::", gather, &default.gather)
         .finish()
 }
@@ -169,6 +166,7 @@ fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
         label: _,
         depth_stencil_format: _,
         sample_count,
+        multiview_mask: _,
         depth: _,
         color_formats: _,
         cap_bias_ulps,
@@ -206,6 +204,20 @@ fn volumes(volume: &ShadowVolumeDescriptor<'_>) -> String {
 }
 
 const FORMAT: &str = "wgpu::TextureFormat::";
+
+/// A kind of map as Rust has it. Atlases are not swept.
+fn kind(kind: MapKind) -> String {
+    let names = [
+        (MapKind::FLAT, "MapKind::FLAT"),
+        (MapKind::ATLAS, "MapKind::ATLAS"),
+    ];
+    match names.iter().find(|(named, _)| *named == kind) {
+        Some((_, name)) => (*name).to_owned(),
+        None => format!("MapKind::{kind:?}")
+            .replace("Cube(", "Cube(DepthEncoding::")
+            .replace("Flat(", "Flat(FlatLights::"),
+    }
+}
 
 /// A kernel's `Debug` with the paths that Rust needs.
 fn kernel(kernel: Kernel) -> String {

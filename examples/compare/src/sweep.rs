@@ -9,8 +9,8 @@ use anyhow::{Context as _, Result};
 use serde_json::json;
 use shadows::reference::{Candidate, ReferenceImage};
 use shadows::{
-    Bias, Caps, CasterSides, DepthEncoding, Extrusion, Kernel, Method, ShadowVolumeDescriptor,
-    Silhouettes, wgpu,
+    Bias, Caps, CasterSides, DepthEncoding, Extrusion, Kernel, MapKind, Method,
+    ShadowVolumeDescriptor, Silhouettes, wgpu,
 };
 
 use crate::args::Techniques;
@@ -130,8 +130,8 @@ fn changed(
 
 fn encode(config: &mut Config, encoding: DepthEncoding, format: Option<wgpu::TextureFormat>) {
     if let Config::Cube { map, sampler } = config {
-        (map.encoding, sampler.encoding) = (encoding, encoding);
-        map.format = format.unwrap_or(map.format);
+        (map.encoding, sampler.map) = (encoding, MapKind::Cube(encoding));
+        map.settings.format = format.unwrap_or(map.settings.format);
     }
 }
 
@@ -152,16 +152,16 @@ fn fourfold() -> Bias {
 
 fn set_bias(config: &mut Config, bias: Bias) {
     match config {
-        Config::Cube { map, .. } => map.bias = bias,
-        Config::Flat { map, .. } => map.bias = bias,
+        Config::Cube { map, .. } => map.settings.bias = bias,
+        Config::Flat { map, .. } => map.settings.bias = bias,
         Config::Volume(_) | Config::Atlas { .. } | Config::Peer { .. } | Config::Survey(_) => {}
     }
 }
 
 fn set_sides(config: &mut Config, sides: CasterSides) {
     match config {
-        Config::Cube { map, .. } => map.sides = sides,
-        Config::Flat { map, .. } => map.sides = sides,
+        Config::Cube { map, .. } => map.settings.sides = sides,
+        Config::Flat { map, .. } => map.settings.sides = sides,
         Config::Volume(_) | Config::Atlas { .. } | Config::Peer { .. } | Config::Survey(_) => {}
     }
 }

@@ -93,7 +93,9 @@ pub static ROWS: &[Row] = &[
     row("flat-pcss", |side| flat(side, contact())),
     row("atlas-hard", |side| atlas(side, Kernel::Hard)),
     row("atlas-2x2", |side| atlas(side, Kernel::Bilinear)),
+    row("atlas-hw", |side| atlas(side, Kernel::HardwareBilinear)),
     row("atlas-5x5", |side| atlas(side, Kernel::Weighted5)),
+    row("atlas-disk", |side| atlas(side, disk(true))),
     usual("volume", |_| Config::Volume(volume())),
     row("volume-auto", |_| {
         Config::Volume(ShadowVolumeDescriptor::default())
@@ -200,7 +202,7 @@ fn cube_textbook(side: u32) -> Config {
     Config::Cube {
         sampler: PcfDescriptor {
             kernel: Kernel::Hard,
-            encoding: map.encoding,
+            map: MapKind::Cube(map.encoding),
             textbook: true,
             ..Default::default()
         },
@@ -218,7 +220,7 @@ pub fn flat(side: u32, kernel: Kernel) -> Config {
         },
         sampler: PcfDescriptor {
             kernel,
-            map: MapKind::Flat,
+            map: MapKind::FLAT,
             ..Default::default()
         },
     }
@@ -231,7 +233,7 @@ fn atlas(size: u32, kernel: Kernel) -> Config {
         kept: false,
         sampler: PcfDescriptor {
             kernel,
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             ..Default::default()
         },
     }

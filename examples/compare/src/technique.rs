@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, PcfDescriptor, ShadowMapDescriptor, ShadowVolumeDescriptor,
+    CubeShadowMapDescriptor, Kernel, LightKinds, PcfDescriptor, ShadowMapDescriptor,
+    ShadowVolumeDescriptor,
 };
 
 use crate::survey::Survey;
@@ -46,6 +47,21 @@ pub enum Config {
     },
     /// A cheap or a baked one.
     Survey(Survey),
+}
+
+impl Technique {
+    /// The same for these kinds of light: as a host does, an atlas's receivers are told which there are.
+    pub fn for_kinds(&self, kinds: &[LightKind]) -> Self {
+        let mut own = self.clone();
+        if let Config::Atlas { sampler, .. } = &mut own.config {
+            sampler.light_kinds = LightKinds {
+                point: kinds.contains(&LightKind::Point),
+                spot: kinds.contains(&LightKind::Spot),
+                directional: kinds.contains(&LightKind::Directional),
+            };
+        }
+        own
+    }
 }
 
 impl Config {

@@ -7,10 +7,10 @@ use shadows::wgpu;
 use shadows::{
     AtlasDebug, AtlasDebugDescriptor, AtlasFrame, AtlasLight, AtlasView, Bias, Cascades, Caster,
     CubeCross, CubeCrossDescriptor, CubeFrame, CubeShadowMap, CubeShadowMapDescriptor,
-    DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind, PcfDescriptor, PcfSampler,
-    PointLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, TileSize, View, VolumeDebug,
-    VolumeDebugDescriptor, VolumeLight, VolumeSurvey, VolumeView,
+    DirectionalLight, FlatLight, HomogeneousLight, Kernel, MapKind, MapSettings, PcfDescriptor,
+    PcfSampler, PointLight, ShadowAtlas, ShadowAtlasDescriptor, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, ShadowVolumeDescriptor, ShadowVolumeFrame, ShadowVolumeRenderer, TileSize,
+    View, VolumeDebug, VolumeDebugDescriptor, VolumeLight, VolumeSurvey, VolumeView,
 };
 
 use crate::statistics::{self, Rows};
@@ -44,6 +44,17 @@ pub struct Settings {
     pub bias: Bias,
     /// Texels along a side of the map.
     pub size: u32,
+}
+
+impl Settings {
+    /// What maps of all kinds are told.
+    fn of_maps(&self) -> MapSettings {
+        MapSettings {
+            bias: self.bias,
+            reach: self.kernel.radius(),
+            ..Default::default()
+        }
+    }
 }
 
 /// What may be shown of how shadows come about.
@@ -144,17 +155,16 @@ impl Shadows {
     ) -> Result<Self> {
         let map = CubeShadowMapDescriptor {
             size: settings.size,
-            bias: settings.bias,
-            reach: settings.kernel.radius(),
+            settings: settings.of_maps(),
             ..Default::default()
         };
-        let sampler = sampler(gpu, settings, MapKind::Cube)?;
+        let sampler = sampler(gpu, settings, MapKind::CUBE)?;
         let cross = CubeCrossDescriptor {
-            format: window,
+            color_format: window,
             ..Default::default()
         };
         let map = CubeShadowMap::new(&gpu.device, &map)?;
-        let cross = CubeCross::new(&gpu.device, &cross);
+        let cross = CubeCross::new(&gpu.device, &cross)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
             means: Means::Cube(Box::new(Cube {
@@ -169,12 +179,11 @@ impl Shadows {
     fn flat(gpu: &Gpu, renderer: &Renderer, settings: &Settings) -> Result<Self> {
         let map = ShadowMapDescriptor {
             size: settings.size,
-            bias: settings.bias,
-            reach: settings.kernel.radius(),
+            settings: settings.of_maps(),
             ..Default::default()
         };
         let map = ShadowMap::new(&gpu.device, &map)?;
-        let sampler = sampler(gpu, settings, MapKind::Flat)?;
+        let sampler = sampler(gpu, settings, MapKind::FLAT)?;
         let group = sampler.bind_group(&gpu.device, &map)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
@@ -191,14 +200,13 @@ impl Shadows {
         let atlas = ShadowAtlasDescriptor {
             layer_size: settings.size,
             memory: 512 << 20,
-            bias: settings.bias,
-            reach: settings.kernel.radius(),
+            settings: settings.of_maps(),
             ..Default::default()
         };
         let atlas = ShadowAtlas::new(&gpu.device, &atlas)?;
-        let sampler = sampler(gpu, settings, MapKind::Atlas)?;
+        let sampler = sampler(gpu, settings, MapKind::ATLAS)?;
         let debug = AtlasDebugDescriptor {
-            format: window,
+            color_format: window,
             ..Default::default()
         };
         Ok(Self {
@@ -208,7 +216,7 @@ impl Shadows {
                 atlas,
                 sampler,
                 size: settings.size,
-                debug: AtlasDebug::new(&gpu.device, &debug),
+                debug: AtlasDebug::new(&gpu.device, &debug)?,
             })),
         })
     }

@@ -3,8 +3,8 @@
 use shadows::error::ShadowVolumeError;
 use shadows::mesh::Bounds;
 use shadows::{
-    Caster, HomogeneousLight, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeLight,
-    VolumeView, wgpu,
+    Caster, HomogeneousLight, ShadowVolumeFrame, ShadowVolumeRenderer, View, VolumeCone,
+    VolumeLight, VolumeView, wgpu,
 };
 
 /// A frame of shadow volumes with one light and one view.
@@ -13,6 +13,8 @@ pub struct OneLight<'a> {
     pub view: &'a View,
     pub light: HomogeneousLight,
     pub range: Option<f32>,
+    /// Of a spot.
+    pub cone: Option<VolumeCone>,
     pub target_size: Option<[u32; 2]>,
     pub receivers: Option<Bounds>,
     pub casters: &'a [Caster],
@@ -25,6 +27,7 @@ impl<'a> OneLight<'a> {
             view,
             light,
             range: None,
+            cone: None,
             target_size: None,
             receivers: None,
             casters,
@@ -34,7 +37,10 @@ impl<'a> OneLight<'a> {
     /// Gives what it is as a frame.
     pub fn with<T>(&self, work: impl FnOnce(&ShadowVolumeFrame<'_>) -> T) -> T {
         work(&ShadowVolumeFrame {
-            lights: &[VolumeLight::new(self.light, self.range)],
+            lights: &[VolumeLight {
+                cone: self.cone,
+                ..VolumeLight::new(self.light, self.range)
+            }],
             views: &[VolumeView {
                 view: *self.view,
                 target_size: self.target_size,

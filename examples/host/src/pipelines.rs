@@ -78,14 +78,14 @@ pub fn visibility_module_with_normals(sampler: &PcfSampler) -> String {
 /// By what a shader names the light, where it does.
 fn light(sampler: &PcfSampler) -> &'static str {
     match sampler.map() {
-        MapKind::Atlas => "at.light, ",
+        MapKind::Atlas(_) => "at.light, ",
         _ => "",
     }
 }
 
 fn module(sampler: &PcfSampler, suffix: &str, light: &str, normal: &str) -> String {
     let name = match sampler.map() {
-        MapKind::Flat => "shadows_flat_visibility",
+        MapKind::Flat(_) => "shadows_flat_visibility",
         _ => "shadows_visibility",
     };
     let pixel = if sampler.takes_pixel() {

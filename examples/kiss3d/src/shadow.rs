@@ -30,7 +30,7 @@ impl Shadows {
     pub fn new() -> Result<Self> {
         let context = Context::get();
         let descriptor = PcfDescriptor {
-            map: MapKind::Atlas,
+            map: MapKind::ATLAS,
             kernel: Kernel::Hard,
             ..Default::default()
         };

@@ -34,8 +34,7 @@ impl Atlas {
         let descriptor = ShadowAtlasDescriptor {
             layer_size,
             memory: usual.memory.max(6 * layer),
-            bias: maps.bias,
-            reach: maps.kernel.radius(),
+            settings: maps.settings(),
             ..usual
         };
         let atlas = ShadowAtlas::new(&gpu.device, &descriptor)?;

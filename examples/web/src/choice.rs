@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, Result, bail};
 use host::scene::LightKind;
-use shadows::{Bias, Kernel};
+use shadows::{Bias, Kernel, MapSettings};
 
 /// A way to find shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +53,17 @@ pub struct Maps {
     pub size: u32,
     /// In texels.
     pub bias: Bias,
+}
+
+impl Maps {
+    /// What maps of all kinds are told.
+    pub fn settings(&self) -> MapSettings {
+        MapSettings {
+            bias: self.bias,
+            reach: self.kernel.radius(),
+            ..Default::default()
+        }
+    }
 }
 
 /// All of it.

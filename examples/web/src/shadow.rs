@@ -79,8 +79,7 @@ impl Shadow {
     fn cube(gpu: &Gpu, renderer: &Renderer, maps: &Maps) -> Result<Self> {
         let map = CubeShadowMapDescriptor {
             size: maps.size,
-            bias: maps.bias,
-            reach: maps.kernel.radius(),
+            settings: maps.settings(),
             ..Default::default()
         };
         let sampler = PcfDescriptor {
@@ -97,7 +96,7 @@ impl Shadow {
         };
         let sampler = PcfDescriptor {
             kernel: Kernel::Hard,
-            encoding: map.encoding,
+            map: MapKind::Cube(map.encoding),
             textbook: true,
             ..Default::default()
         };
@@ -125,12 +124,11 @@ impl Shadow {
     fn flat(gpu: &Gpu, renderer: &Renderer, maps: &Maps) -> Result<Self> {
         let map = ShadowMapDescriptor {
             size: maps.size,
-            bias: maps.bias,
-            reach: maps.kernel.radius(),
+            settings: maps.settings(),
             ..Default::default()
         };
         let map = Box::new(ShadowMap::new(&gpu.device, &map)?);
-        let sampler = sampler(gpu, maps.kernel, MapKind::Flat)?;
+        let sampler = sampler(gpu, maps.kernel, MapKind::FLAT)?;
         let group = sampler.bind_group(&gpu.device, &*map)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
@@ -139,7 +137,7 @@ impl Shadow {
     }
 
     fn atlas(gpu: &Gpu, renderer: &Renderer, maps: &Maps) -> Result<Self> {
-        let sampler = sampler(gpu, maps.kernel, MapKind::Atlas)?;
+        let sampler = sampler(gpu, maps.kernel, MapKind::ATLAS)?;
         Ok(Self {
             lit: sampled(gpu, renderer, &sampler),
             means: Means::Atlas(Box::new(Atlas::new(gpu, maps, sampler)?)),

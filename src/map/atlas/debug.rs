@@ -3,6 +3,7 @@
 use wgpu::util::DeviceExt as _;
 
 use super::ShadowAtlas;
+use crate::error::DebugPassError;
 use crate::map::overlay::Overlay;
 use crate::map::plan::{Place, Tile};
 use crate::map::projection::TileProjection;
@@ -16,20 +17,20 @@ pub struct AtlasDebugDescriptor<'a> {
     /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Format of the pass's only colour attachment. Default `Rgba8Unorm`.
-    pub format: wgpu::TextureFormat,
+    pub color_format: wgpu::TextureFormat,
     /// The pass's depth-stencil format, if it has one; neither tested nor written. Default `None`.
-    pub depth_stencil: Option<wgpu::TextureFormat>,
-    /// Samples of the pass. Default 1.
-    pub samples: u32,
+    pub depth_stencil_format: Option<wgpu::TextureFormat>,
+    /// Samples of the pass, 1 or 4. Default 1.
+    pub sample_count: u32,
 }
 
 impl Default for AtlasDebugDescriptor<'_> {
     fn default() -> Self {
         Self {
             label: None,
-            format: wgpu::TextureFormat::Rgba8Unorm,
-            depth_stencil: None,
-            samples: 1,
+            color_format: wgpu::TextureFormat::Rgba8Unorm,
+            depth_stencil_format: None,
+            sample_count: 1,
         }
     }
 }
@@ -67,8 +68,14 @@ struct Instance {
 }
 
 impl AtlasDebug {
-    /// Creates the pipeline.
-    pub fn new(device: &wgpu::Device, descriptor: &AtlasDebugDescriptor<'_>) -> Self {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// [`DebugPassError`] if a format or the sample count of the pass does not fit.
+    pub fn new(
+        device: &wgpu::Device,
+        descriptor: &AtlasDebugDescriptor<'_>,
+    ) -> Result<Self, DebugPassError> {
         let label = match descriptor.label {
             Some(label) => format!("shadows atlas debug {label}"),
             None => "shadows atlas debug".to_owned(),
@@ -86,12 +93,12 @@ impl AtlasDebug {
                 count: None,
             }],
         });
-        Self {
-            pipeline: pipeline(device, &label, &layout, descriptor),
+        Ok(Self {
+            pipeline: pipeline(device, &label, &layout, descriptor)?,
             layout,
             label,
             shown: None,
-        }
+        })
     }
 
     /// Reads the layout of the tiles from the last `prepare` of an atlas. To be called each frame, before
@@ -191,7 +198,7 @@ fn pipeline(
     label: &str,
     layout: &wgpu::BindGroupLayout,
     descriptor: &AtlasDebugDescriptor<'_>,
-) -> wgpu::RenderPipeline {
+) -> Result<wgpu::RenderPipeline, DebugPassError> {
     let attributes = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4];
     let overlay = Overlay {
         label,
@@ -204,9 +211,9 @@ fn pipeline(
         })],
         topology: wgpu::PrimitiveTopology::TriangleStrip,
         constants: &[],
-        format: descriptor.format,
-        depth_stencil: descriptor.depth_stencil,
-        samples: descriptor.samples,
+        format: descriptor.color_format,
+        depth_stencil: descriptor.depth_stencil_format,
+        samples: descriptor.sample_count,
     };
     overlay.pipeline(device)
 }

@@ -2,13 +2,13 @@
 
 use std::num::NonZeroU32;
 
-use super::{Bias, Cascades, CasterSides, DepthBounds, StaticLayers};
+use super::{Cascades, DepthBounds, MapSettings, StaticLayers};
 use crate::error::ShadowAtlasError;
-use crate::map::encoding::{quantum, texel_bytes};
+use crate::map::encoding::texel_bytes;
 use crate::map::plan::TileSize;
 use crate::mesh::{Bounds, Caster};
 use crate::scene::CasterFilter;
-use crate::{DirectionalLight, Light, PointLight, Radius, SpotLight, View};
+use crate::{DirectionalLight, Light, PointLight, SpotLight, View};
 
 /// Texels along the smallest tile.
 pub(crate) const LEAST_TILE: u32 = 16;
@@ -29,22 +29,11 @@ pub struct ShadowAtlasDescriptor<'a> {
     /// of 1024 texels in 32 bits. Layers of static casters ([`static_layers`](Self::static_layers)) come on
     /// top, at most as much again.
     pub memory: u64,
-    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`: see
-    /// [`CubeShadowMapDescriptor::format`](crate::CubeShadowMapDescriptor::format) for what the last two
-    /// cost.
-    pub format: wgpu::TextureFormat,
-    /// Bias for receivers, in texels. Default [`Bias::default`], which needs no tuning.
-    pub bias: Bias,
-    /// Which sides of casters are drawn. Default [`CasterSides::Nearest`].
-    pub sides: CasterSides,
-    /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest
-    /// that reads the atlas; bind groups for wider ones are refused. Default 12 texels, as wide as any
-    /// kernel is by default. Greater than 0, at most 64 texels; the tiles of a directional light must be
-    /// four times as wide as that, and more ([`CascadeError::ReachOfSize`](crate::error::CascadeError)).
-    pub reach: Radius,
-    /// The maximum number of tiles drawn per `prepare`, at least 1; default no limit. See
-    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait, and what the
-    /// budget does not include.
+    /// How depths are stored, drawn and compared.
+    pub settings: MapSettings,
+    /// The most tiles drawn in one `prepare`; default none. At least 1. See
+    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait and what the
+    /// budget does not count.
     pub max_tiles_per_frame: Option<u32>,
     /// Whether static casters are cached in layers under those that move. Default [`StaticLayers::Auto`].
     pub static_layers: StaticLayers,
@@ -56,10 +45,7 @@ impl Default for ShadowAtlasDescriptor<'_> {
             label: None,
             layer_size: 1024,
             memory: 256 << 20,
-            format: wgpu::TextureFormat::Depth32Float,
-            bias: Bias::default(),
-            sides: CasterSides::default(),
-            reach: Radius::Texels(Radius::USUAL_TEXELS),
+            settings: MapSettings::default(),
             max_tiles_per_frame: None,
             static_layers: StaticLayers::default(),
         }
@@ -77,20 +63,15 @@ impl ShadowAtlasDescriptor<'_> {
                 limit,
             });
         }
-        if quantum(self.format).is_none() {
-            return Err(ShadowAtlasError::Format(self.format));
-        }
+        self.settings.validate()?;
         let (memory, layer) = (self.memory, self.layer_bytes());
         if memory < layer {
             return Err(ShadowAtlasError::Memory { memory, layer });
         }
-        if !self.reach.is_in_range() {
-            return Err(ShadowAtlasError::Reach(self.reach));
-        }
         if self.max_tiles_per_frame == Some(0) {
             return Err(ShadowAtlasError::Budget);
         }
-        Ok(self.bias.validate()?)
+        Ok(())
     }
 
     /// As many layers as memory and the device have room for.
@@ -102,7 +83,7 @@ impl ShadowAtlasDescriptor<'_> {
     }
 
     fn layer_bytes(&self) -> u64 {
-        u64::from(self.layer_size).pow(2) * texel_bytes(self.format)
+        u64::from(self.layer_size).pow(2) * texel_bytes(self.settings.format)
     }
 }
 

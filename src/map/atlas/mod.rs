@@ -15,7 +15,7 @@ use super::plan::{
     follow, longest_wait,
 };
 use super::statistics::{TileState, TileStatistics};
-use super::{Cascades, CasterSides, DepthBounds, StaticLayers};
+use super::{Cascades, DepthBounds, MapSettings, StaticLayers};
 use crate::clock::Clock;
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
@@ -111,13 +111,13 @@ impl ShadowAtlas {
         descriptor: &ShadowAtlasDescriptor<'_>,
     ) -> Result<Self, ShadowAtlasError> {
         descriptor.validate(device)?;
-        let &ShadowAtlasDescriptor {
-            layer_size,
-            bias,
+        let layer_size = descriptor.layer_size;
+        let MapSettings {
             format,
+            bias,
+            sides,
             reach,
-            ..
-        } = descriptor;
+        } = descriptor.settings;
         let label = match descriptor.label {
             Some(label) => format!("shadows atlas {label}"),
             None => "shadows atlas".to_owned(),
@@ -129,7 +129,7 @@ impl ShadowAtlas {
                 layer_size,
                 format,
                 slope_scale: bias.slope_scale,
-                sides: descriptor.sides,
+                sides,
             },
         );
         Ok(Self {
@@ -274,14 +274,14 @@ impl ShadowAtlas {
     /// the pass of each tile that such casters touch, after everything else on that tile, either once per
     /// tile, or once for its static casters and once for the others ([`StaticLayers`](crate::StaticLayers)).
     ///
-    /// Viewport and scissor are set and must not be changed. The pass has no colour target, one sample and a
-    /// depth target of the atlas's [`format`](ShadowAtlasDescriptor::format). The host's pipeline must
-    /// compare with `Greater`, write depth, output vertices at [`clip_from_world`](HostDraw::clip_from_world)
-    /// times their world position, and set `unclipped_depth` if the device has
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), so that casters nearer than the near plane
-    /// still cast. On wgpu's GL back end, the fragment shader for lights with a position must write clip z
-    /// times its position's w as `frag_depth`, because the rasteriser's own depth is too imprecise there (see
-    /// [`Support`](crate::Support)).
+    /// Viewport and scissor are set, and must stay. The pass has no colour target, one sample and a depth
+    /// target of the atlas's [`format`](MapSettings::format); compare with `Greater`, write
+    /// depth, and let vertices be at [`clip_from_world`](HostDraw::clip_from_world) times their position,
+    /// with `unclipped_depth` where the device has
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL), so that what is nearer than the near
+    /// plane casts. On wgpu's GL back end, let the fragment shader of lights with a position write
+    /// clip z times its position's w as `frag_depth`: the rasteriser's own depth has too few digits there
+    /// (see [`Support`](crate::Support)).
     pub fn encode_with(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -361,8 +361,7 @@ impl ShadowAtlas {
         tiles.filter_map(tile).collect()
     }
 
-    /// The texture that holds all tiles, of [`ShadowAtlasDescriptor::format`]; a single texel as long as no
-    /// light has casters.
+    /// The texture of all tiles, of [`MapSettings::format`]; one texel while no light casts.
     pub fn texture(&self) -> &wgpu::Texture {
         self.gpu.texture().texture()
     }

@@ -10,9 +10,10 @@ use crate::volume::debug::views::VolumeDebugDescriptor;
 use crate::volume::gpu::buffers::window;
 use crate::volume::gpu::grown::spread;
 use crate::volume::gpu::layout::{bind as bind_uniform, uniform};
-use crate::volume::light_pass::join::layout;
-use crate::volume::light_pass::mask::check_readable_samples;
+use crate::volume::light_pass::checks::check_readable_samples;
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
+use crate::volume::multiview::Multiview;
 
 const COUNTS: &str = include_str!("../../../shaders/volume_debug_counts.wgsl");
 const SAMPLES: &str = include_str!("../../../shaders/volume_debug_counts_samples.wgsl");
@@ -48,7 +49,8 @@ impl ExactCounts {
         let samples = descriptor.sample_count;
         check_readable_samples(device, samples, "VolumeDebug").ok()?;
         let multisampled = samples > 1;
-        let counts = layout(device, label, multisampled);
+        let one = Multiview::default();
+        let counts = Read::of(samples, one).layout(device, label);
         let of_ranges = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some(label),
             entries: &[uniform(0, wgpu::ShaderStages::FRAGMENT, size_of::<Range>())],
@@ -61,6 +63,7 @@ impl ExactCounts {
             target: Some(descriptor.color_format.into()),
             depth_stencil_format: Some(descriptor.depth_stencil_format),
             sample_count: samples,
+            multiview: one,
             on: On::Everything,
         };
         let list = ranges(&descriptor.colors);
@@ -83,7 +86,8 @@ impl ExactCounts {
     /// Colours what is counted.
     ///
     /// # Errors
-    /// [`ScreenPassError::Source`] if the counts have another number of samples.
+    /// [`ScreenPassError::Source`] if the counts have another number of samples,
+    /// [`ScreenPassError::Multiview`] if they are of several views.
     pub fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -93,6 +97,7 @@ impl ExactCounts {
         if found != needed {
             return Err(ScreenPassError::Source { found, needed });
         }
+        counts.check_multiview(Multiview::default())?;
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, counts.group(), &[]);
         for range in 0..self.count {

@@ -6,6 +6,7 @@ use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::gpu::draw_pipelines::Feed;
 use crate::volume::gpu::layout::uniform;
 use crate::volume::light_pass::screen::SCREEN;
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::faces::Faces;
 
 const COLOR: &str = include_str!("../../../shaders/volume_debug.wgsl");
@@ -40,7 +41,7 @@ pub(crate) struct FeedPipelines {
 
 impl FeedPipelines {
     pub fn new(factory: &Factory<'_>, feed: Feed) -> Self {
-        let layout = feed.layout(factory.device, factory.label);
+        let layout = feed.layout(factory.device, factory.label, Multiview::default());
         let make = |entry_point, faces, lines, depth: Test| {
             factory.make(&Recipe {
                 source: feed.debug_source(factory.descriptor.depth, factory.near()),

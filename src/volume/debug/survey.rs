@@ -62,14 +62,15 @@ impl ShadowVolumeRenderer {
     /// [`VolumeView::target_size`]: crate::VolumeView::target_size
     ///
     /// # Errors
-    /// [`VolumeRenderError::NoSuch`] if the frame had no such light or view.
+    /// [`VolumeRenderError::NoSuch`] if the frame had no such light or view,
+    /// [`VolumeRenderError::Multiview`] if the renderer draws several views a pass.
     pub fn survey(
         &self,
         light: usize,
         view: usize,
         target_size: [u32; 2],
     ) -> Result<VolumeSurvey, VolumeRenderError> {
-        let drawn = self.drawn(light, view)?;
+        let drawn = self.drawn_alone(light, view)?;
         let screen = Screen {
             size: target_size.map(f64::from),
             rect: drawn.pair.scissor.map(|(rect, _)| rect),

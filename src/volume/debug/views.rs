@@ -16,9 +16,10 @@ use crate::volume::gpu::buffers::window;
 use crate::volume::gpu::draw_pipelines::{Feed, Style};
 use crate::volume::gpu::grown::spread;
 use crate::volume::gpu::layout::bind;
+use crate::volume::light_pass::checks::{check_samples, check_target};
 use crate::volume::light_pass::join::check_color;
-use crate::volume::light_pass::mask::{check_samples, check_target};
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_depth_alone, has_stencil};
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::cache::position_words;
 use crate::volume::plan::faces::Faces;
 use crate::volume::plan::limits;
@@ -165,7 +166,7 @@ impl VolumeDebug {
                 renderer: renderer.depth(),
             });
         }
-        renderer.drawn(light, view)?;
+        renderer.drawn_alone(light, view)?;
         let states = renderer.caster_states(light, view);
         if frame.casters.len() != states.len() {
             return Err(VolumeDebugError::Casters {
@@ -223,7 +224,7 @@ impl VolumeDebug {
             buffer(&spread(&params, step), usage),
         ];
         let uniforms = [&view, &no_light, &params].into_iter();
-        let uniforms: Vec<_> = uniforms.zip(feed.uniforms().iter().copied()).collect();
+        let uniforms: Vec<_> = uniforms.zip(feed.uniforms(Multiview::default())).collect();
         let blocks = self.pulled.as_ref().map(|_| {
             let blocks: Vec<[u32; 3]> = (0..shown.len() as u32).map(|n| [n, 0, 0]).collect();
             buffer(bytemuck::cast_slice(&blocks), U::VERTEX)
@@ -262,7 +263,8 @@ impl VolumeDebug {
     /// one.
     ///
     /// # Errors
-    /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view.
+    /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view,
+    /// [`VolumeRenderError::Multiview`] if it draws several views a pass.
     pub fn draw_surfaces(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -270,7 +272,7 @@ impl VolumeDebug {
         light: usize,
         view: usize,
     ) -> Result<(), VolumeRenderError> {
-        let drawn = renderer.drawn(light, view)?;
+        let drawn = renderer.drawn_alone(light, view)?;
         let recorder = drawn.recorder();
         for draw in drawn.draws().filter(|draw| !draw.key.style.is_repeat()) {
             let style = draw.key.style;
@@ -293,7 +295,8 @@ impl VolumeDebug {
     /// including those behind other surfaces.
     ///
     /// # Errors
-    /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view.
+    /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view,
+    /// [`VolumeRenderError::Multiview`] if it draws several views a pass.
     pub fn draw_edges(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -301,7 +304,7 @@ impl VolumeDebug {
         light: usize,
         view: usize,
     ) -> Result<(), VolumeRenderError> {
-        let drawn = renderer.drawn(light, view)?;
+        let drawn = renderer.drawn_alone(light, view)?;
         let recorder = drawn.recorder();
         let are_sides = |style: Style| style.faces == Faces::Sides && !style.is_repeat();
         for draw in drawn.draws().filter(|draw| are_sides(draw.key.style)) {
@@ -349,8 +352,9 @@ impl VolumeDebug {
     /// Nine triangles that cover the target.
     ///
     /// # Errors
-    /// [`VolumeDebugError::Target`] if the count's number of samples differs from the descriptor's. Nothing
-    /// is then drawn.
+    /// [`VolumeDebugError::Target`] if the count has another number of samples than the descriptor said, or
+    /// is of several views.
+    /// Nothing is then drawn.
     pub fn draw_exact_counts(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -376,7 +380,7 @@ impl VolumeDebug {
             };
             pass.set_pipeline(&feed.casters);
             let offsets = [0, 0, caster.place];
-            let uniforms = caster.feed.uniforms().len();
+            let uniforms = caster.feed.uniform_count();
             pass.set_bind_group(0, &caster.group, &offsets[..uniforms]);
             self.set_color(pass, caster.swatch);
             let mesh = &caster.mesh;

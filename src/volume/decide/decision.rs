@@ -67,10 +67,11 @@ impl Choices {
     pub fn new(of: &Situation, options: Options, keep: bool) -> Self {
         Self {
             rules: Rules::new(of, options),
-            of: *of,
+            of: of.clone(),
             options,
             keep,
-            left_handed: facing::is_left_handed(&of.view),
+            // Views of one pass are all so, or none is.
+            left_handed: of.views.first().is_some_and(facing::is_left_handed),
         }
     }
 

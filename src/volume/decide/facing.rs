@@ -22,7 +22,7 @@ pub(crate) enum Counted {
 impl Counted {
     pub fn of(mesh: &CasterMesh, world: &WorldBox, of: &Situation, start: StartFrom) -> Self {
         match start {
-            _ if counts_both_sides(mesh, world, of.light, &of.view) => Self::All,
+            _ if counts_both_sides(mesh, world, of.light, &of.views) => Self::All,
             // Inside out, the triangles turned away would be those that the light reaches. Where only
             // the GPU knows the positions, the host is believed.
             StartFrom::AwayFacing if mesh.is_solid() || mesh.data().is_none() => Self::AwayFacing,
@@ -41,20 +41,23 @@ impl Counted {
 /// The sight line from the near rectangle to P crosses no surface (P is what is visible), so w(P)
 /// is that of the near rectangle, 0. Hence f = b, and both are above 0 exactly if
 /// anything is crossed at all.
-/// With L or the eye inside, f and b differ, and f = 0 may go with b > 0.
+/// With L or the eye inside, f and b differ, and f = 0 may go with b > 0. Of views that are drawn
+/// together, that goes for all: every triangle may always count.
 fn counts_both_sides(
     mesh: &CasterMesh,
     world: &WorldBox,
     light: HomogeneousLight,
-    view: &View,
+    views: &[View],
 ) -> bool {
     if mesh.kind() == MeshKind::General {
         return true;
     }
-    let (near, radius) = view.near_sphere();
-    // The near rectangle stems from a matrix of f32, too.
-    let radius = radius * (1.0 + 8.0 * f64::from(f32::EPSILON));
-    !(world.excludes(light) && world.distance(near) > radius)
+    let is_outside = |view: &View| {
+        let (near, radius) = view.near_sphere();
+        // The near rectangle stems from a matrix of f32, too.
+        world.distance(near) > radius * (1.0 + 8.0 * f64::from(f32::EPSILON))
+    };
+    !(world.excludes(light) && views.iter().all(is_outside))
 }
 
 /// The light in a mesh's own space, homogeneous, and what its xyz lost when rounded to f32.

@@ -7,7 +7,7 @@
 //! lit space.
 //!
 //! **Behind the receivers**: in the plane of that side of their box which the caster's shadow
-//! reaches first. Where rays start before that plane, they reach every receiver before it, and cross
+//! reaches first, the box being no larger than what the light reaches (see `reach.rs`). Where rays start before that plane, they reach every receiver before it, and cross
 //! the volume cut off there as they cross the endless one: up to the receiver, which is what z-pass
 //! counts, and with a cap in the plane on the whole, which is what z-fail needs. (The depth format
 //! may not tell the cap from a receiver; it is set back, and "behind" is right wherever it is seen.)
@@ -18,9 +18,10 @@
 
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-use crate::HomogeneousLight;
+use crate::volume::decide::reach::Reach;
 use crate::volume::decide::world_box::{WorldBox, displacement, rounding};
 use crate::volume::frame::Situation;
+use crate::{HomogeneousLight, View};
 
 /// Where far vertices go: see `far_point` in volume_extrude.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,11 +45,14 @@ pub(crate) struct Ends {
     light: HomogeneousLight,
     /// Of a point light.
     pub range: Option<f64>,
-    /// Least and greatest corner, rounding included.
+    /// Least and greatest corner of what may be shadowed: of the receivers' box what the light reaches,
+    /// rounding included.
     receivers: Option<[DVec3; 2]>,
+    /// Whether it reaches nothing of it.
+    pub reaches_nothing: bool,
     /// Where rays start.
     origins: Vec<DVec4>,
-    /// How far the viewer is from the world's origin.
+    /// How far the viewer is from the world's origin, or the farthest of several.
     eye: f64,
 }
 
@@ -56,12 +60,23 @@ pub(crate) struct Ends {
 const ROOM: f64 = 1e-3;
 
 impl Ends {
-    pub fn new(of: &Situation, origins: Vec<DVec4>) -> Self {
+    pub fn new(of: &Situation, reach: &Reach, origins: Vec<DVec4>) -> Self {
         let range = of.range.filter(|_| !of.light.is_directional());
-        let corners = of.view.near_corners().into_iter();
+        let corners = of.views.iter().flat_map(View::near_corners);
         let eye = corners.map(DVec3::length).fold(0.0, f64::max);
-        let receivers = of.receivers.map(|bounds| {
-            let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let told = of.receivers;
+        let told = told.map(|bounds| [bounds.min, bounds.max].map(|corner| corner.as_dvec3()));
+        let reached = reach.bounds();
+        let both = match (told, reached) {
+            (Some([min, max]), Some([low, high])) => Some([min.max(low), max.min(high)]),
+            (one, other) => one.or(other),
+        };
+        let reaches_nothing = both.is_some_and(|[min, max]| min.cmpgt(max).any());
+        let receivers = match reaches_nothing {
+            true => told,
+            false => both,
+        };
+        let receivers = receivers.map(|[min, max]| {
             let slack = displacement(min.abs().max(max.abs()).length() + eye);
             [min - slack, max + slack]
         });
@@ -69,6 +84,7 @@ impl Ends {
             light: of.light,
             range: range.map(f64::from),
             receivers,
+            reaches_nothing,
             origins,
             eye,
         }
@@ -207,8 +223,8 @@ mod tests {
     use glam::{Vec3, camera::rh};
 
     use super::*;
+    use crate::DepthConvention;
     use crate::mesh::Bounds;
-    use crate::{DepthConvention, View};
 
     const BOX: Bounds = Bounds {
         min: Vec3::new(-10.0, 0.0, -8.0),
@@ -223,12 +239,13 @@ mod tests {
         let situation = Situation {
             light,
             range: Some(200.0),
+            cone: None,
             filter: CasterFilter::ALL,
-            view,
+            views: vec![view],
             target_size: None,
             receivers: Some(BOX),
         };
-        Ends::new(&situation, origins.to_vec())
+        Ends::new(&situation, &Reach::new(&situation), origins.to_vec())
     }
 
     /// How far beyond the plane a point is: 0 on it, 1 as far as the light is before it.
@@ -307,8 +324,9 @@ mod tests {
             let situation = Situation {
                 light,
                 range: None,
+                cone: None,
                 filter: CasterFilter::ALL,
-                view,
+                views: vec![view],
                 target_size: None,
                 receivers: Some(Bounds {
                     min: -level,
@@ -316,7 +334,7 @@ mod tests {
                 }),
             };
             let origins = view.near_corners().map(|corner| corner.extend(1.0));
-            let ends = Ends::new(&situation, origins.to_vec());
+            let ends = Ends::new(&situation, &Reach::new(&situation), origins.to_vec());
             let world = WorldBox::new(DVec3::ZERO, level.as_dvec3());
             let end = ends.behind_receivers(&world, ends.infinite(&world));
             assert_eq!(end.plane.xyz(), DVec3::NEG_Y);

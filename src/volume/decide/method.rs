@@ -24,18 +24,23 @@
 //!
 //! In a plane, where finite volumes end, any two caps with one boundary are the same chain, and the
 //! fan serves.
+//!
+//! **Views that are drawn together** (see `multiview.rs`) share every draw. z-pass, an end before infinity and
+//! leaving a caster out are then what is proven for each of them, and z-fail, which is right in all, is the rest.
 
-use glam::{DVec3, DVec4, Vec4Swizzles as _};
+use glam::{DVec4, Vec4Swizzles as _};
 
+use crate::HomogeneousLight;
 use crate::volume::StartFrom;
 use crate::volume::decide::far_end::{Ends, FarEnd};
 use crate::volume::decide::hull::Hull;
 use crate::volume::decide::near_plane::NearPlane;
+use crate::volume::decide::reach::Reach;
 use crate::volume::decide::scissor::{self, Rect};
+use crate::volume::decide::sight::{Sight, origins};
 use crate::volume::decide::world_box::WorldBox;
 use crate::volume::descriptor::ShadowVolumeDescriptor;
 use crate::volume::frame::Situation;
-use crate::{HomogeneousLight, View};
 
 /// Which faces of a volume are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -44,14 +49,17 @@ pub enum Method {
     /// z-pass for each caster for which it is proven correct in this frame, z-fail for the others.
     #[default]
     Auto,
-    /// z-pass for all casters, for comparison. **Incorrect whenever a caster lies between the near rectangle
-    /// and the light**: part or all of the screen is then inverted.
+    /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
+    /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    #[doc(hidden)]
     ZPass,
-    /// z-fail for all casters: always correct, but with more fill.
+    /// z-fail for all casters: always right, for those too that the host does not draw
+    /// ([`ShadowVolumeFrame::casters`](crate::ShadowVolumeFrame::casters)), and more to fill.
     ZFail,
 }
 
 /// How z-fail closes a volume at its far end.
+#[doc(hidden)] // for measuring alone, as the field that it is of
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Caps {
@@ -64,15 +72,16 @@ pub enum Caps {
 }
 
 /// How far volumes reach.
+#[doc(hidden)] // for measuring alone, as the field that it is of
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Extrusion {
     /// To infinity.
     Infinite,
-    /// Just past the light's `range` or the frame's `receivers`, to save fill: every shadow is complete
-    /// within the range and on the receivers; beyond them, where the light has no effect or there is nothing,
-    /// it may be missing. Casters around the light, and lights without a range in frames without `receivers`,
-    /// still have infinite volumes.
+    /// Past the light's range, its cone or the frame's `receivers`, for less to fill: every shadow is complete
+    /// within them and on the receivers, and beyond them, where the light must have no effect
+    /// or nothing is, there may be none. Casters around the light, and lights without a range where
+    /// the receivers are not known, have infinite volumes all the same.
     #[default]
     ToRange,
 }
@@ -103,10 +112,10 @@ impl Options {
     /// What of the target is drawn to, and the target's size; `None` for all of it.
     pub fn scissor(&self, of: &Situation) -> Option<(Rect, [u32; 2])> {
         let target = of.target_size.filter(|_| self.culling)?;
-        let range = of.range.filter(|_| !of.light.is_directional())?;
-        let centre = of.light.0.xyz().as_dvec3();
-        let rect = scissor::of_sphere(&of.view, centre, range.into(), target);
-        Some((rect.unwrap_or_default(), target))
+        let (centre, radius) = Reach::new(of).ball()?;
+        let views = of.views.iter();
+        let rects = views.filter_map(|view| scissor::of_sphere(view, centre, radius, target));
+        Some((rects.reduce(scissor::around).unwrap_or_default(), target))
     }
 }
 
@@ -155,43 +164,30 @@ pub(crate) struct Rules {
     /// Where rays start.
     origins: Vec<DVec4>,
     ends: Ends,
-    /// From there to the light: what misses it casts no shadow on the near rectangle.
-    near: Hull,
-    /// From all that is visible to the light: what misses it casts no visible shadow.
-    visible: Hull,
+    /// The views that are drawn together.
+    sights: Vec<Sight>,
     /// From the receivers to the light: what misses it shadows none of them.
     receiving: Option<Hull>,
-    /// Of a view that clips both; positive between them.
-    near_and_far: Option<[DVec4; 2]>,
-    light_reaches_view: bool,
+    reach: Reach,
 }
 
 impl Rules {
     pub fn new(of: &Situation, options: Options) -> Self {
-        let light = of.light.0.as_dvec4();
-        let view = &of.view;
-        let origins = origins(view, options.near);
-        let ends = Ends::new(of, origins.clone());
-        let range = ends.range;
-        let receiving = ends
-            .receivers()
-            .map(|box_| Hull::new(&with(&box_, unit(light))));
-        let mut frustum: Vec<DVec4> = view.near_corners().map(|c| c.extend(1.0)).to_vec();
-        // Endless: a far plane hides little, and its corners are badly known in f32 matrices.
-        frustum.extend(view.sight_lines().map(|d| d.normalize().extend(0.0)));
-        let seen = Hull::new(&frustum);
-        let light_reaches_view = range.is_none_or(|range| !seen.misses_sphere(light.xyz(), range));
-        frustum.push(unit(light));
+        let light = unit(of.light.0.as_dvec4());
+        let views = of.views.iter();
+        let origins: Vec<_> = views.flat_map(|view| origins(view, options.near)).collect();
+        let reach = Reach::new(of);
+        let ends = Ends::new(of, &reach, origins.clone());
+        let sight = |view| Sight::new(view, options.near, light, reach.ball());
+        let receiving = ends.receivers().map(|box_| Hull::new(&with(&box_, light)));
         Self {
             options,
             light: of.light,
-            near: Hull::new(&with(&origins, unit(light))),
-            visible: Hull::new(&frustum),
+            sights: of.views.iter().map(sight).collect(),
             receiving,
-            near_and_far: view.near_and_far_planes(),
-            light_reaches_view,
             origins,
             ends,
+            reach,
         }
     }
 
@@ -200,15 +196,15 @@ impl Rules {
         if !self.options.culling {
             return None;
         }
-        let beyond = |range| world.distance(self.light.0.xyz().as_dvec3()) > range;
-        if self.ends.range.is_some_and(beyond) {
+        if self.reach.misses(world) {
             return Some(Skip::OutOfRange);
         }
         let nowhere = self
             .receiving
             .as_ref()
             .is_some_and(|hull| hull.misses(world));
-        if !self.light_reaches_view || self.visible.misses(world) || nowhere {
+        let unseen = nowhere || self.ends.reaches_nothing;
+        if unseen || self.sights.iter().all(|sight| sight.misses_shadow(world)) {
             return Some(Skip::OutOfView);
         }
         None
@@ -219,7 +215,7 @@ impl Rules {
         let count = match self.options.method {
             Method::ZFail => Count::Fail,
             Method::ZPass => Count::Pass,
-            Method::Auto if self.near.misses(world) => Count::Pass,
+            Method::Auto if self.sights.iter().all(|sight| sight.starts_lit(world)) => Count::Pass,
             Method::Auto => Count::Fail,
         };
         let far = self.far_end(world, count);
@@ -250,14 +246,17 @@ impl Rules {
     /// Its light cap is then clipped in z-fail, which loses nothing by that. Cut where the host's surfaces
     /// are, by the same arithmetic, it has their corners. From any other the rasteriser finds other depths:
     /// a corner is moved by up to half of 1/256 of a pixel, and steep depth by more than any bias.
+    ///
+    /// Of views drawn together: whether that goes for one, and the far plane of none may cut it.
     fn is_cut_by_near_alone(&self, world: &WorldBox) -> bool {
-        let within = |plane: DVec4| {
-            let normal = plane.xyz();
-            let size = normal.length() * world.reach(DVec3::ZERO) + plane.w.abs();
-            world.nearest(normal) + plane.w > 1e-5 * size
-        };
-        self.near_and_far
-            .is_some_and(|[near, far]| within(far) && !within(near))
+        let mut is_cut = false;
+        for sight in &self.sights {
+            match sight.holds(world) {
+                Some([in_near, true]) => is_cut |= !in_near,
+                _ => return false,
+            }
+        }
+        is_cut
     }
 
     /// The nearest end that leaves every shadow whole.
@@ -288,21 +287,6 @@ impl Rules {
         let before = |p: &DVec4| plane.dot(p.xyz() - light * p.w) < 0.999 * p.w;
         !self.origins.iter().all(before)
     }
-}
-
-/// The points from which rays start, such that all others are between them.
-fn origins(view: &View, near_plane: NearPlane) -> Vec<DVec4> {
-    let near = view.near_corners().map(|corner| corner.extend(1.0));
-    if near_plane.ends_faces() {
-        return near.to_vec();
-    }
-    let eye = view.eye();
-    let eye = if eye.w == 0.0 {
-        (-view.sight_lines()[0].normalize()).extend(0.0)
-    } else {
-        eye / eye.w
-    };
-    with(&near, eye)
 }
 
 fn with(points: &[DVec4], last: DVec4) -> Vec<DVec4> {

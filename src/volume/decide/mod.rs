@@ -8,6 +8,8 @@ pub(crate) mod hull;
 pub(crate) mod method;
 pub(crate) mod near_light_cap;
 pub(crate) mod near_plane;
+pub(crate) mod reach;
 pub(crate) mod scissor;
+pub(crate) mod sight;
 pub(crate) mod start;
 pub(crate) mod world_box;

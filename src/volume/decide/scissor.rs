@@ -23,6 +23,13 @@ pub(crate) fn of_sphere(view: &View, centre: DVec3, radius: f64, target: [u32; 2
     Some([x, y, width, height])
 }
 
+/// The smallest rectangle that holds two others.
+pub(crate) fn around(a: Rect, b: Rect) -> Rect {
+    let [x, y] = [0, 1].map(|axis| a[axis].min(b[axis]));
+    let [right, bottom] = [0, 1].map(|axis| (a[axis] + a[axis + 2]).max(b[axis] + b[axis + 2]));
+    [x, y, right - x, bottom - y]
+}
+
 /// Bounds of `row . p / w . p` over a sphere, in clip space; all of it where the sphere reaches the
 /// plane w = 0; `None` behind that.
 fn bounds(row: DVec4, w: DVec4, centre: DVec3, radius: f64) -> Option<[f64; 2]> {
@@ -128,6 +135,12 @@ mod tests {
             }
         }
         assert!(tight >= 8, "only {tight} rectangles are tight");
+    }
+
+    #[test]
+    fn two_rectangles_are_in_the_one_around_them() {
+        assert_eq!(around([2, 9, 3, 4], [4, 1, 10, 2]), [2, 1, 12, 12]);
+        assert_eq!(around([0, 0, 8, 8], [2, 3, 1, 1]), [0, 0, 8, 8]);
     }
 
     #[test]

@@ -132,7 +132,7 @@ impl Parts<'_> {
         let buffers = self.buffers.uniforms()?;
         let uniforms: Vec<_> = buffers
             .into_iter()
-            .zip(feed.uniforms().iter().copied())
+            .zip(feed.uniforms(self.pipelines.multiview))
             .collect();
         let bind =
             |layout, storage: &[_]| bind(self.device, self.label, layout, &uniforms, storage);

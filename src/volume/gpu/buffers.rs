@@ -2,6 +2,7 @@
 
 use crate::uploads::Uploads;
 use crate::volume::gpu::grown::{Grower, Grown, spread};
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
 use crate::volume::plan::merged::{BLOCK_BYTES, DRAW_BYTES, Member, MergedDraws};
@@ -39,6 +40,7 @@ pub(crate) struct Buffers {
 /// What a frame has to have in its buffers.
 pub(crate) struct Needs<'a> {
     pub windows: &'a Windows,
+    /// The cameras of all views, a window after the other.
     pub views: &'a [ViewParams],
     pub lights: &'a [LightParams],
     pub work: &'a Work,
@@ -104,7 +106,7 @@ impl Buffers {
         let windows = limits.caster_window.into();
         let of_casters = limits.caster_bytes;
         grow(&mut self.casters, needs.windows.len(), windows, of_casters);
-        let [views, lights] = [needs.views.len(), needs.lights.len()];
+        let [views, lights] = [needs.views.len() / limits.cameras, needs.lights.len()];
         grow(&mut self.views, views, limits.view_window.into(), most);
         grow(&mut self.lights, lights, limits.light_window.into(), most);
         let work = needs.work;
@@ -170,10 +172,10 @@ impl Buffers {
                 uploads.write(casters, offset, &spread(&params, limits.caster_window));
             }
         }
-        self.views
-            .write_changed(uploads, needs.views, limits.view_window);
+        let (views, lights) = ((needs.views, limits.cameras), (needs.lights, 1));
+        self.views.write_changed(uploads, views, limits.view_window);
         self.lights
-            .write_changed(uploads, needs.lights, limits.light_window);
+            .write_changed(uploads, lights, limits.light_window);
         self.write_work(uploads, needs.work, limits);
     }
 
@@ -310,12 +312,17 @@ fn pool(label: &str, place: usize) -> [Grown; LISTS] {
 
 /// Bytes from one uniform window to the next.
 pub(crate) fn window<T>(limits: &wgpu::Limits) -> u32 {
-    (size_of::<T>() as u32).next_multiple_of(limits.min_uniform_buffer_offset_alignment)
+    window_of::<T>(1, limits)
+}
+
+/// The same of windows that hold so many.
+fn window_of<T>(each: usize, limits: &wgpu::Limits) -> u32 {
+    ((each * size_of::<T>()) as u32).next_multiple_of(limits.min_uniform_buffer_offset_alignment)
 }
 
 impl PlanLimits {
     /// What the device's limits allow to those who look for silhouettes in these ways.
-    pub fn of(limits: &wgpu::Limits, ways: &Ways) -> Self {
+    pub fn of(limits: &wgpu::Limits, ways: &Ways, multiview: Multiview) -> Self {
         let storage_bytes = limits
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
@@ -347,7 +354,8 @@ impl PlanLimits {
             casters: usize::try_from(casters).unwrap_or(usize::MAX),
             workgroups: limits.max_compute_workgroups_per_dimension,
             caster_window,
-            view_window: window::<ViewParams>(limits),
+            cameras: multiview.cameras(),
+            view_window: window_of::<ViewParams>(multiview.cameras(), limits),
             light_window: window::<LightParams>(limits),
             batch_window: window::<BatchParams>(limits),
         }

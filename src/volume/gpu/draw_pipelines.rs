@@ -6,6 +6,7 @@ use crate::volume::decide::method::Count;
 use crate::volume::decide::near_plane::NearPlane;
 use crate::volume::gpu::counter::{self, Counter, Counting};
 use crate::volume::gpu::layout::{storage, uniform};
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::faces::Faces;
 use crate::volume::plan::limits::PULLED_BUFFERS;
 use crate::volume::plan::merged::BLOCK_BYTES;
@@ -36,13 +37,6 @@ const SIDE_BIAS_ULPS: i32 = 2;
 /// They lie behind everything that is to be shadowed, but perhaps by less than the depth format can
 /// tell or the rasteriser rounds. (In z-pass they are drawn where rays start beyond them.)
 const DARK_CAP_BIAS_ULPS: i32 = 16;
-
-/// Bytes of a view, a light and, where a draw has but one, a caster, from binding 0 on.
-pub(crate) const UNIFORM_SIZES: [usize; 3] = [
-    size_of::<ViewParams>(),
-    size_of::<LightParams>(),
-    size_of::<CasterParams>(),
-];
 
 /// What the vertex shaders work from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -81,20 +75,36 @@ impl Feed {
         }
     }
 
-    /// The uniform buffers, from binding 0 on. Storage buffers follow.
-    pub(crate) fn uniforms(self) -> &'static [usize] {
+    /// Bytes of the uniform buffers, from binding 0 on: of a view (or the views of a pass), a light and,
+    /// where a draw has but one, a caster. Storage buffers follow.
+    pub(crate) fn uniforms(self, multiview: Multiview) -> impl Iterator<Item = usize> {
+        let sizes = [
+            multiview.cameras() * size_of::<ViewParams>(),
+            size_of::<LightParams>(),
+            size_of::<CasterParams>(),
+        ];
+        sizes.into_iter().take(self.uniform_count())
+    }
+
+    /// How many there are.
+    pub(crate) fn uniform_count(self) -> usize {
         match self {
-            Self::Pulled => &UNIFORM_SIZES[..2],
-            Self::Records => &UNIFORM_SIZES,
+            Self::Pulled => 2,
+            Self::Records => 3,
         }
     }
 
     /// Binds view, light and caster; where they are pulled casters, positions, edges, and sides or caps.
-    pub(crate) fn layout(self, device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
+    pub(crate) fn layout(
+        self,
+        device: &wgpu::Device,
+        label: &str,
+        multiview: Multiview,
+    ) -> wgpu::BindGroupLayout {
         let stage = wgpu::ShaderStages::VERTEX;
-        let sizes = (0..).zip(self.uniforms());
+        let sizes = (0..).zip(self.uniforms(multiview));
         let mut entries: Vec<_> = sizes
-            .map(|(binding, size)| uniform(binding, stage, *size))
+            .map(|(binding, size)| uniform(binding, stage, size))
             .collect();
         if self == Self::Pulled {
             entries.extend((2..2 + PULLED_BUFFERS).map(|binding| storage(binding, stage, true)));
@@ -215,10 +225,10 @@ const KINDS: [(Count, Faces); 6] = [
 
 impl DrawPipelines {
     /// None yet.
-    pub fn new(device: &wgpu::Device, feed: Feed) -> Self {
+    pub fn new(device: &wgpu::Device, feed: Feed, multiview: Multiview) -> Self {
         Self {
             feed,
-            layout: feed.layout(device, LABEL),
+            layout: feed.layout(device, LABEL, multiview),
             pipelines: Vec::new(),
         }
     }
@@ -305,6 +315,7 @@ impl<'a> Factory<'a> {
     ) -> Self {
         let module = |source: String| crate::shader::module(device, LABEL, source);
         let (feed, depth) = (to.feed, descriptor.depth);
+        let source = |depth, near| descriptor.multiview().source(feed.source(depth, near));
         let near = NearPlane::of(device.features(), depth);
         Self {
             device,
@@ -312,10 +323,10 @@ impl<'a> Factory<'a> {
             descriptor,
             feed,
             near,
-            module: module(feed.source(depth, near)),
+            module: module(source(depth, near)),
             clipped: depth
                 .clips_far()
-                .then(|| module(feed.source(DepthConvention::InfiniteReverse, NearPlane::Clipped))),
+                .then(|| module(source(DepthConvention::InfiniteReverse, NearPlane::Clipped))),
             counting: (descriptor.counter == Counter::Exact)
                 .then(|| module(counter::source(descriptor.color_formats.len()))),
             layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -385,7 +396,7 @@ impl<'a> Factory<'a> {
                     ..Default::default()
                 },
                 fragment,
-                multiview_mask: None,
+                multiview_mask: self.descriptor.multiview_mask,
                 cache: self.cache,
             })
     }

@@ -34,15 +34,16 @@ impl Grown {
         }
     }
 
-    /// Has the items written that are not there yet, so many bytes apart.
+    /// Has the items written that are not there yet, so many of them in a window, and so many bytes from one
+    /// window to the next.
     pub fn write_changed<T: bytemuck::NoUninit>(
         &mut self,
         uploads: &mut Uploads,
-        items: &[T],
+        (items, each): (&[T], usize),
         window: u32,
     ) {
         let Some(buffer) = &self.buffer else { return };
-        let bytes = spread(items, window);
+        let bytes = spread_runs(items, each, window);
         let windows = bytes.chunks(window as usize);
         for (offset, new) in (0..).step_by(window as usize).zip(windows) {
             let old = self.written.get(offset..offset + new.len());
@@ -95,10 +96,15 @@ impl Grower<'_> {
 
 /// Items one after another, so many bytes apart.
 pub(crate) fn spread<T: bytemuck::NoUninit>(items: &[T], window: u32) -> Vec<u8> {
-    let window = window as usize;
-    let mut bytes = vec![0; window * items.len()];
-    for (target, item) in bytes.chunks_exact_mut(window).zip(items) {
-        target[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
+    spread_runs(items, 1, window)
+}
+
+/// The same of runs of so many items.
+fn spread_runs<T: bytemuck::NoUninit>(items: &[T], each: usize, window: u32) -> Vec<u8> {
+    let (runs, window) = (items.chunks_exact(each), window as usize);
+    let mut bytes = vec![0; window * runs.len()];
+    for (target, run) in bytes.chunks_exact_mut(window).zip(runs) {
+        target[..size_of_val(run)].copy_from_slice(bytemuck::cast_slice(run));
     }
     bytes
 }

@@ -8,15 +8,16 @@ use crate::volume::ShadowVolumeDescriptor;
 use crate::volume::gpu::counter::Counter;
 use crate::volume::gpu::draw_pipelines::{DrawPipelines, Feed};
 use crate::volume::gpu::reset;
+use crate::volume::multiview::Multiview;
 use crate::volume::silhouette::{Extraction, Way, Ways};
 
 /// The compiled shaders of shadow volumes, created once and shared by any number of
 /// [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer)s (clones are the same set). A renderer compiles nothing if an
 /// earlier one had the same descriptor.
 ///
-/// Pipelines depend on the descriptor's pass (formats, samples, depth convention, counter), `cap_bias_ulps`,
-/// whether volumes may start from away-facing triangles, and how silhouettes are found, but not on its label,
-/// method, caps, extrusion or culling.
+/// What a pipeline depends on is the descriptor's pass (formats, samples, multiview mask, depth convention,
+/// counter), `cap_bias_ulps`, whether volumes may start from away-facing triangles, and where
+/// silhouettes are found; not its label, method, caps, extrusion or culling.
 ///
 /// ```
 /// # use shadows::{wgpu, *};
@@ -53,6 +54,7 @@ struct Compiled {
 struct Kind {
     depth_stencil_format: wgpu::TextureFormat,
     sample_count: u32,
+    multiview: Multiview,
     depth: DepthConvention,
     color_formats: Vec<Option<wgpu::TextureFormat>>,
     cap_bias_ulps: u32,
@@ -70,6 +72,8 @@ pub(crate) struct OwnPipelines {
     pub fed: Option<DrawPipelines>,
     /// Sets counts back to 0.
     pub reset: wgpu::RenderPipeline,
+    /// What all of them draw into.
+    pub multiview: Multiview,
 }
 
 impl VolumePipelines {
@@ -129,6 +133,7 @@ impl VolumePipelines {
             fed: (ways.contain(Way::Vertex))
                 .then(|| self.draws(&mut compiled, descriptor, Feed::Records)),
             reset: self.reset(&mut compiled, descriptor),
+            multiview: descriptor.multiview(),
         }
     }
 
@@ -158,7 +163,7 @@ impl VolumePipelines {
         let kind = Kind::of(descriptor, feed);
         let known = compiled.draws.iter().position(|(known, _)| *known == kind);
         let place = known.unwrap_or_else(|| {
-            let none = DrawPipelines::new(&self.device, feed);
+            let none = DrawPipelines::new(&self.device, feed, descriptor.multiview());
             compiled.draws.push((kind, none));
             compiled.draws.len() - 1
         });
@@ -178,6 +183,7 @@ impl Kind {
         Self {
             depth_stencil_format: descriptor.depth_stencil_format,
             sample_count: descriptor.sample_count,
+            multiview: descriptor.multiview(),
             depth: descriptor.depth,
             color_formats: descriptor.color_formats.to_vec(),
             cap_bias_ulps: descriptor.cap_bias_ulps,

@@ -70,7 +70,7 @@ pub(crate) fn pipeline(
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &targets,
         }),
-        multiview_mask: None,
+        multiview_mask: descriptor.multiview_mask,
         cache,
     })
 }

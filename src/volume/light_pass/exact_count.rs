@@ -1,17 +1,22 @@
 //! A count of volumes that never wraps: its target, its pass, and how light passes read it.
 
+use std::num::NonZeroU32;
+
 use crate::error::ScreenPassError;
 use crate::volume::gpu::counter::{FEATURE, FORMAT};
-use crate::volume::light_pass::join::{bind, layout};
-use crate::volume::light_pass::mask::{
-    check_buffer, check_readable_samples, check_samples, check_size, check_target,
+use crate::volume::light_pass::checks::{
+    check_buffer, check_layers, check_readable, check_samples, check_size, check_target,
 };
+use crate::volume::light_pass::join::bind;
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_depth_alone, has_stencil};
-use crate::wgsl::{EXACT, EXACT_SAMPLES};
+use crate::volume::multiview::Multiview;
+use crate::wgsl::{EXACT, EXACT_LAYERS, EXACT_SAMPLES};
 
 const MARK: &str = include_str!("../../../shaders/volume_mark.wgsl");
 const MARK_SAMPLES: &str = include_str!("../../../shaders/volume_mark_samples.wgsl");
+const MARK_LAYERS: &str = include_str!("../../../shaders/volume_mark_layers.wgsl");
 
 /// Parameters of an [`ExactCount`].
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +32,10 @@ pub struct ExactCountDescriptor<'a> {
     /// Its samples per pixel, 1 (default) or 4; only 1 on wgpu's GL back end, whose shaders cannot read
     /// multisampled textures. Each sample has its own count.
     pub sample_count: u32,
+    /// The layers that a pass draws into all at once, a bit each: that of
+    /// [`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask). Default `None`.
+    /// With a mask there is a count for each view, and `sample_count` is 1.
+    pub multiview_mask: Option<NonZeroU32>,
 }
 
 impl Default for ExactCountDescriptor<'_> {
@@ -36,6 +45,7 @@ impl Default for ExactCountDescriptor<'_> {
             size: [1, 1],
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            multiview_mask: None,
         }
     }
 }
@@ -50,9 +60,11 @@ impl Default for ExactCountDescriptor<'_> {
 ///    kind of light pass works as after counting in the stencil
 ///    ([`light_pass_stencil`](crate::ShadowVolumeRenderer::light_pass_stencil) with its guard,
 ///    [`LightJoin`](crate::LightJoin), [`ShadowMask`](crate::ShadowMask));
-/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample per pixel as
-///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as `texture_multisampled_2d<f32>`,
-///    by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES). (Both are bound as unfilterable floats.)
+/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample a pixel as
+///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as
+///    `texture_multisampled_2d<f32>`, by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES).
+///    (Both are bound as floats that cannot be filtered.) Of several views as `texture_2d_array<f32>`, by
+///    [`wgsl::EXACT_LAYERS`](crate::wgsl::EXACT_LAYERS);
 /// 4. or [`ShadowMask::encode_counts`](crate::ShadowMask::encode_counts), for any later pass.
 ///
 /// GPU memory: four bytes per sample.
@@ -64,6 +76,7 @@ pub struct ExactCount {
     group: wgpu::BindGroup,
     view: wgpu::TextureView,
     depth_stencil_format: wgpu::TextureFormat,
+    multiview: Multiview,
 }
 
 impl ExactCount {
@@ -89,22 +102,24 @@ impl ExactCount {
             true => check_samples(descriptor.sample_count)?,
             false => check_target(device, format, descriptor.sample_count)?,
         }
-        check_readable_samples(device, descriptor.sample_count, "ExactCount")?;
+        let multiview = Multiview(descriptor.multiview_mask);
+        check_readable(device, multiview, descriptor.sample_count, "ExactCount")?;
         let label = match descriptor.label {
             Some(name) => format!("shadows count {name}"),
             None => "shadows count".to_owned(),
         };
         let view = target(device, &label, descriptor);
-        let multisampled = descriptor.sample_count > 1;
-        let layout = layout(device, &label, multisampled);
+        let read = Read::of(descriptor.sample_count, multiview);
+        let layout = read.layout(device, &label);
         let pipeline = ScreenPipeline {
             label: &label,
-            source: source(multisampled),
+            source: source(read),
             fragment: "shadowed",
             layout: &[Some(&layout)],
             target: None,
             depth_stencil_format: Some(format),
             sample_count: descriptor.sample_count,
+            multiview,
             on: On::Marked,
         };
         Ok(Self {
@@ -112,6 +127,7 @@ impl ExactCount {
             group: bind(device, &label, &layout, &view),
             view,
             depth_stencil_format: format,
+            multiview,
             label,
         })
     }
@@ -139,6 +155,7 @@ impl ExactCount {
                 },
             })],
             depth_stencil_attachment: Some(attachment(depth_stencil, None)),
+            multiview_mask: self.multiview.0,
             ..Default::default()
         }))
     }
@@ -164,6 +181,7 @@ impl ExactCount {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(&self.label),
             depth_stencil_attachment: Some(attachment(depth_stencil, Some(cleared))),
+            multiview_mask: self.multiview.0,
             ..Default::default()
         });
         pass.set_pipeline(pipeline);
@@ -192,16 +210,28 @@ impl ExactCount {
     fn check(&self, depth_stencil: &wgpu::TextureView) -> Result<(), ScreenPassError> {
         let own = self.view.texture();
         let needed = [own.width(), own.height(), own.sample_count()];
-        check_buffer(depth_stencil, needed, self.depth_stencil_format)
+        check_buffer(depth_stencil, needed, self.depth_stencil_format)?;
+        check_layers(depth_stencil.texture(), self.multiview)
+    }
+
+    /// Whether it is of the views that are needed.
+    pub(crate) fn check_multiview(&self, needed: Multiview) -> Result<(), ScreenPassError> {
+        let (found, needed) = (self.multiview.0, needed.0);
+        match found == needed {
+            true => Ok(()),
+            false => Err(ScreenPassError::Multiview { found, needed }),
+        }
     }
 }
 
 /// The shader that marks the stencil.
-pub(crate) fn source(multisampled: bool) -> String {
-    match multisampled {
-        false => [SCREEN, EXACT, MARK].join("\n"),
-        true => [SCREEN, EXACT_SAMPLES, MARK_SAMPLES].join("\n"),
-    }
+pub(crate) fn source(read: Read) -> String {
+    let own = [
+        [SCREEN, EXACT, MARK],
+        [SCREEN, EXACT_SAMPLES, MARK_SAMPLES],
+        [SCREEN, EXACT_LAYERS, MARK_LAYERS],
+    ];
+    read.pick(own).join("\n")
 }
 
 fn target(
@@ -211,6 +241,7 @@ fn target(
 ) -> wgpu::TextureView {
     use wgpu::TextureUsages as U;
     let [width, height] = descriptor.size;
+    let multiview = Multiview(descriptor.multiview_mask);
     // Nothing with several samples can be copied into a buffer.
     let copied = match descriptor.sample_count {
         1 => U::COPY_SRC,
@@ -221,7 +252,7 @@ fn target(
         size: wgpu::Extent3d {
             width,
             height,
-            depth_or_array_layers: 1,
+            depth_or_array_layers: multiview.layers(),
         },
         mip_level_count: 1,
         sample_count: descriptor.sample_count,
@@ -232,6 +263,7 @@ fn target(
     });
     texture.create_view(&wgpu::TextureViewDescriptor {
         label: Some(label),
+        dimension: Some(multiview.dimension()),
         ..Default::default()
     })
 }

@@ -1,12 +1,17 @@
 //! Combining ambient and direct light from two targets in a full-screen pass.
 
+use std::num::NonZeroU32;
+
 use crate::error::ScreenPassError;
-use crate::volume::light_pass::mask::{check_readable_samples, check_target};
+use crate::volume::light_pass::checks::{check_layers, check_readable, check_target};
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, is_drawable};
+use crate::volume::multiview::Multiview;
 
 const JOIN: &str = include_str!("../../../shaders/volume_join.wgsl");
 const JOIN_SAMPLES: &str = include_str!("../../../shaders/volume_join_samples.wgsl");
+const JOIN_LAYERS: &str = include_str!("../../../shaders/volume_join_layers.wgsl");
 
 /// Parameters of a [`LightJoin`].
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +26,10 @@ pub struct LightJoinDescriptor<'a> {
     /// Samples per pixel of target, depth-stencil buffer and sources: 1 (default) or 4; only 1 on wgpu's GL
     /// back end, whose shaders cannot read multisampled textures.
     pub sample_count: u32,
+    /// The layers that a pass draws into all at once, a bit each: that of
+    /// [`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask). Default `None`.
+    /// With a mask sources have a layer for each view, too, and `sample_count` is 1.
+    pub multiview_mask: Option<NonZeroU32>,
 }
 
 impl Default for LightJoinDescriptor<'_> {
@@ -30,6 +39,7 @@ impl Default for LightJoinDescriptor<'_> {
             color_format: wgpu::TextureFormat::Rgba8Unorm,
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            multiview_mask: None,
         }
     }
 }
@@ -50,6 +60,7 @@ pub struct LightJoin {
     ambient: wgpu::RenderPipeline,
     lit: wgpu::RenderPipeline,
     sample_count: u32,
+    multiview: Multiview,
 }
 
 impl LightJoin {
@@ -66,15 +77,16 @@ impl LightJoin {
             descriptor.depth_stencil_format,
             descriptor.sample_count,
         )?;
-        check_readable_samples(device, descriptor.sample_count, "LightJoin")?;
+        let multiview = Multiview(descriptor.multiview_mask);
+        check_readable(device, multiview, descriptor.sample_count, "LightJoin")?;
         check_color(device, descriptor.color_format, descriptor.sample_count)?;
         let label = match descriptor.label {
             Some(name) => format!("shadows join {name}"),
             None => "shadows join".to_owned(),
         };
-        let multisampled = descriptor.sample_count > 1;
-        let layout = layout(device, &label, multisampled);
-        let join = if multisampled { JOIN_SAMPLES } else { JOIN };
+        let read = Read::of(descriptor.sample_count, multiview);
+        let layout = read.layout(device, &label);
+        let join = read.pick([JOIN, JOIN_SAMPLES, JOIN_LAYERS]);
         let make = |blend, on| {
             ScreenPipeline {
                 label: &label,
@@ -88,6 +100,7 @@ impl LightJoin {
                 }),
                 depth_stencil_format: Some(descriptor.depth_stencil_format),
                 sample_count: descriptor.sample_count,
+                multiview,
                 on,
             }
             .make(device)
@@ -100,15 +113,17 @@ impl LightJoin {
             layout,
             label,
             sample_count: descriptor.sample_count,
+            multiview,
         })
     }
 
-    /// Binds a picture of the target's size as a source: a view of one layer, in any format that a shader
-    /// reads as float, with the usage `TEXTURE_BINDING`.
+    /// Binds a picture of the target's size to read from, a view of one layer (with a multiview mask, of the
+    /// dimension `D2Array`): any format that a shader reads as float, with the usage `TEXTURE_BINDING`.
     ///
     /// # Errors
     /// [`ScreenPassError::Source`] if it has another number of samples than the target,
-    /// [`ScreenPassError::Unreadable`] if its format or usage is unsuitable.
+    /// [`ScreenPassError::Unreadable`] if its format or usage does not fit, [`ScreenPassError::Layers`] if a
+    /// view has no layer in it.
     pub fn bind(&self, source: &wgpu::TextureView) -> Result<wgpu::BindGroup, ScreenPassError> {
         let samples = source.texture().sample_count();
         if samples != self.sample_count {
@@ -117,6 +132,7 @@ impl LightJoin {
                 needed: self.sample_count,
             });
         }
+        check_layers(source.texture(), self.multiview)?;
         let (format, usage) = (source.texture().format(), source.texture().usage());
         let read_as = format.sample_type(None, Some(self.device.features()));
         let is_float = matches!(read_as, Some(wgpu::TextureSampleType::Float { .. }));
@@ -162,28 +178,7 @@ fn draw(
     pass.draw(0..3, 0..1);
 }
 
-/// Binds one picture, of one sample a pixel or several.
-pub(crate) fn layout(
-    device: &wgpu::Device,
-    label: &str,
-    multisampled: bool,
-) -> wgpu::BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled,
-            },
-            count: None,
-        }],
-    })
-}
-
-/// What [`layout`] describes.
+/// What [`Read::layout`] describes.
 pub(crate) fn bind(
     device: &wgpu::Device,
     label: &str,
@@ -217,6 +212,7 @@ mod tests {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
 
     use super::*;
+    use crate::volume::light_pass::{exact_count, mask};
 
     #[test]
     fn every_shader_is_valid() {
@@ -228,22 +224,13 @@ mod tests {
                 [SCREEN, JOIN_SAMPLES].join("\n"),
                 Capabilities::MULTISAMPLED_SHADING,
             ),
-            (
-                crate::volume::light_pass::exact_count::source(false),
-                Capabilities::empty(),
-            ),
-            (
-                crate::volume::light_pass::exact_count::source(true),
-                Capabilities::empty(),
-            ),
-            (
-                crate::volume::light_pass::mask::counts_source(false),
-                Capabilities::empty(),
-            ),
-            (
-                crate::volume::light_pass::mask::counts_source(true),
-                Capabilities::empty(),
-            ),
+            ([SCREEN, JOIN_LAYERS].join("\n"), Capabilities::MULTIVIEW),
+            (exact_count::source(Read::Plain), Capabilities::empty()),
+            (exact_count::source(Read::Samples), Capabilities::empty()),
+            (exact_count::source(Read::Layers), Capabilities::MULTIVIEW),
+            (mask::counts_source(Read::Plain), Capabilities::empty()),
+            (mask::counts_source(Read::Samples), Capabilities::empty()),
+            (mask::counts_source(Read::Layers), Capabilities::MULTIVIEW),
         ] {
             let module = naga::front::wgsl::parse_str(&source).unwrap();
             Validator::new(ValidationFlags::all(), needed)

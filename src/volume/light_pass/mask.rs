@@ -1,16 +1,24 @@
 //! A mask of what each light reaches, for later passes to sample.
 
+use std::num::NonZeroU32;
+
 use crate::error::ScreenPassError;
 use crate::gl;
 use crate::volume::gpu::counter::{self, Counter};
+use crate::volume::light_pass::checks::{
+    check_buffer, check_layers, check_multiview, check_range, check_readable_samples,
+    check_samples, check_size, check_target,
+};
 use crate::volume::light_pass::exact_count::ExactCount;
-use crate::volume::light_pass::join::layout;
+use crate::volume::light_pass::read::Read;
 use crate::volume::light_pass::screen::{On, SCREEN, ScreenPipeline};
-use crate::volume::light_pass::targets::{DEPTH_STENCIL, has_stencil};
-use crate::wgsl::{EXACT, EXACT_SAMPLES};
+use crate::volume::light_pass::targets::DEPTH_STENCIL;
+use crate::volume::multiview::Multiview;
+use crate::wgsl::{EXACT, EXACT_LAYERS, EXACT_SAMPLES};
 
 const COUNTS: &str = include_str!("../../../shaders/volume_mask_counts.wgsl");
 const COUNTS_SAMPLES: &str = include_str!("../../../shaders/volume_mask_counts_samples.wgsl");
+const COUNTS_LAYERS: &str = include_str!("../../../shaders/volume_mask_counts_layers.wgsl");
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// Parameters of a [`ShadowMask`].
@@ -28,7 +36,12 @@ pub struct ShadowMaskDescriptor<'a> {
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Its samples per pixel, 1 (default) or 4. With 4, the mask holds the fraction of lit samples.
     pub sample_count: u32,
-    /// How the volumes were counted. Default [`Counter::Stencil`]: the mask is filled by
+    /// The layers that a pass draws into all at once, a bit each: that of
+    /// [`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask). Default `None`.
+    /// With a mask `sample_count` is 1, and each light has as many layers as the mask has bits up to its
+    /// last: a view reads `light * layers + view_index`.
+    pub multiview_mask: Option<NonZeroU32>,
+    /// What the volumes were counted in. Default [`Counter::Stencil`]: the mask is filled by
     /// [`encode`](ShadowMask::encode). With [`Counter::Exact`] it is filled by
     /// [`encode_counts`](ShadowMask::encode_counts), `depth_stencil_format` is ignored, and no stencil is
     /// needed.
@@ -43,6 +56,7 @@ impl Default for ShadowMaskDescriptor<'_> {
             lights: 1,
             depth_stencil_format: DEPTH_STENCIL,
             sample_count: 1,
+            multiview_mask: None,
             counter: Counter::Stencil,
         }
     }
@@ -74,6 +88,7 @@ pub struct ShadowMask {
     depth_stencil_format: wgpu::TextureFormat,
     counter: Counter,
     sample_count: u32,
+    multiview: Multiview,
 }
 
 /// Where samples are drawn and resolved. Not into the layer itself: resolved into layers, the mask of
@@ -97,7 +112,9 @@ impl ShadowMask {
         let limits = device.limits();
         let [width, height] = descriptor.size;
         check_size(descriptor.size, &limits)?;
-        let most = most_lights(device, &limits);
+        let multiview = Multiview(descriptor.multiview_mask);
+        check_multiview(device, multiview, descriptor.sample_count, "ShadowMask")?;
+        let most = most_layers(device, &limits) / multiview.layers();
         check_range("number of lights", descriptor.lights, most)?;
         let (samples, by_stencil) = (
             descriptor.sample_count,
@@ -132,30 +149,37 @@ impl ShadowMask {
         };
         use wgpu::TextureUsages as U;
         let readable = U::TEXTURE_BINDING | U::COPY_SRC | U::COPY_DST;
-        let mask = texture(gl::array_layers(device, descriptor.lights), 1, readable);
+        let layers = descriptor.lights * multiview.layers();
+        let mask = texture(gl::array_layers(device, layers), 1, readable);
         let samples = (samples > 1 && by_stencil).then(|| Samples {
-            drawn: layer_of(&texture(1, descriptor.sample_count, U::empty()), &label, 0),
-            resolved: layer_of(&texture(1, 1, U::COPY_SRC), &label, 0),
+            drawn: layer_of(
+                &texture(1, descriptor.sample_count, U::empty()),
+                &label,
+                0,
+                multiview,
+            ),
+            resolved: layer_of(&texture(1, 1, U::COPY_SRC), &label, 0, multiview),
         });
         Ok(Self {
             pipeline: match by_stencil {
                 true => by_stencil_pipeline(device, &label, descriptor),
-                false => by_counts_pipeline(device, &label, descriptor.sample_count),
+                false => by_counts_pipeline(device, &label, descriptor),
             },
             view: mask.create_view(&wgpu::TextureViewDescriptor {
                 label: Some(&label),
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
-                array_layer_count: Some(descriptor.lights),
+                array_layer_count: Some(layers),
                 ..Default::default()
             }),
             layers: (0..descriptor.lights)
-                .map(|layer| layer_of(&mask, &label, layer))
+                .map(|light| layer_of(&mask, &label, light, multiview))
                 .collect(),
             samples,
             texture: mask,
             depth_stencil_format: descriptor.depth_stencil_format,
             counter: descriptor.counter,
             sample_count: descriptor.sample_count,
+            multiview,
             label,
         })
     }
@@ -177,6 +201,7 @@ impl ShadowMask {
         let samples = samples.map_or(1, |s| s.drawn.texture().sample_count());
         let needed = [self.texture.width(), self.texture.height(), samples];
         check_buffer(depth_stencil, needed, self.depth_stencil_format)?;
+        check_layers(depth_stencil.texture(), self.multiview)?;
         let (view, resolve_target) = match &self.samples {
             Some(samples) => (&samples.drawn, Some(&samples.resolved)),
             None => (layer, None),
@@ -197,6 +222,7 @@ impl ShadowMask {
                 depth_ops: None,
                 stencil_ops: None,
             }),
+            multiview_mask: self.multiview.0,
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
@@ -213,8 +239,8 @@ impl ShadowMask {
     /// where the count is 0, otherwise 0; with several samples, the fraction of lit ones.
     ///
     /// # Errors
-    /// [`ScreenPassError`] if there is no such layer, if the mask was made for another counter, or if the
-    /// counts have another size or number of samples. Nothing is then recorded.
+    /// [`ScreenPassError`] if there is no such layer, the mask was made for another counter, or the
+    /// counts are of another size, number of samples or multiview mask. Nothing is then recorded.
     pub fn encode_counts(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -225,6 +251,7 @@ impl ShadowMask {
         let [width, height] = [self.texture.width(), self.texture.height()];
         let needed = [width, height, self.sample_count];
         check_buffer(counts.view(), needed, counter::FORMAT)?;
+        counts.check_multiview(self.multiview)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(&self.label),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -236,6 +263,7 @@ impl ShadowMask {
                     store: wgpu::StoreOp::Store,
                 },
             })],
+            multiview_mask: self.multiview.0,
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
@@ -286,36 +314,46 @@ fn by_stencil_pipeline(
         target: Some(FORMAT.into()),
         depth_stencil_format: Some(descriptor.depth_stencil_format),
         sample_count: descriptor.sample_count,
+        multiview: Multiview(descriptor.multiview_mask),
         on: On::Lit,
     }
     .make(device)
 }
 
-/// Reads exact counts of so many samples.
-fn by_counts_pipeline(device: &wgpu::Device, label: &str, samples: u32) -> wgpu::RenderPipeline {
+/// Reads exact counts.
+fn by_counts_pipeline(
+    device: &wgpu::Device,
+    label: &str,
+    descriptor: &ShadowMaskDescriptor<'_>,
+) -> wgpu::RenderPipeline {
+    let multiview = Multiview(descriptor.multiview_mask);
+    let read = Read::of(descriptor.sample_count, multiview);
     ScreenPipeline {
         label,
-        source: counts_source(samples > 1),
+        source: counts_source(read),
         fragment: "counted",
-        layout: &[Some(&layout(device, label, samples > 1))],
+        layout: &[Some(&read.layout(device, label))],
         target: Some(FORMAT.into()),
         depth_stencil_format: None,
         sample_count: 1,
+        multiview,
         on: On::Everything,
     }
     .make(device)
 }
 
 /// The shader that reads them.
-pub(crate) fn counts_source(multisampled: bool) -> String {
-    match multisampled {
-        false => [SCREEN, EXACT, COUNTS].join("\n"),
-        true => [SCREEN, EXACT_SAMPLES, COUNTS_SAMPLES].join("\n"),
-    }
+pub(crate) fn counts_source(read: Read) -> String {
+    let own = [
+        [SCREEN, EXACT, COUNTS],
+        [SCREEN, EXACT_SAMPLES, COUNTS_SAMPLES],
+        [SCREEN, EXACT_LAYERS, COUNTS_LAYERS],
+    ];
+    read.pick(own).join("\n")
 }
 
 /// As many as an array has layers.
-fn most_lights(device: &wgpu::Device, limits: &wgpu::Limits) -> u32 {
+fn most_layers(device: &wgpu::Device, limits: &wgpu::Limits) -> u32 {
     let layers = limits.max_texture_array_layers;
     match gl::array_layers(device, layers) > layers {
         true => layers - 1,
@@ -323,80 +361,18 @@ fn most_lights(device: &wgpu::Device, limits: &wgpu::Limits) -> u32 {
     }
 }
 
-/// Whether a depth-stencil buffer has the width, height, samples and format that were announced.
-pub(crate) fn check_buffer(
-    buffer: &wgpu::TextureView,
-    needed: [u32; 3],
-    needed_format: wgpu::TextureFormat,
-) -> Result<(), ScreenPassError> {
-    let buffer = buffer.texture();
-    let found = [buffer.width(), buffer.height(), buffer.sample_count()];
-    if found == needed && buffer.format() == needed_format {
-        return Ok(());
-    }
-    Err(ScreenPassError::Buffer {
-        found,
-        found_format: buffer.format(),
-        needed,
-        needed_format,
-    })
-}
-
-fn layer_of(texture: &wgpu::Texture, label: &str, layer: u32) -> wgpu::TextureView {
+/// What passes draw into: the layer of a light, or those of its views.
+fn layer_of(
+    texture: &wgpu::Texture,
+    label: &str,
+    light: u32,
+    multiview: Multiview,
+) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor {
         label: Some(label),
-        dimension: Some(wgpu::TextureViewDimension::D2),
-        base_array_layer: layer,
-        array_layer_count: Some(1),
+        dimension: Some(multiview.dimension()),
+        base_array_layer: light * multiview.layers(),
+        array_layer_count: Some(multiview.layers()),
         ..Default::default()
     })
-}
-
-/// A target's width and height.
-pub(crate) fn check_size(
-    [width, height]: [u32; 2],
-    limits: &wgpu::Limits,
-) -> Result<(), ScreenPassError> {
-    check_range("width", width, limits.max_texture_dimension_2d)?;
-    check_range("height", height, limits.max_texture_dimension_2d)
-}
-
-fn check_range(what: &'static str, value: u32, limit: u32) -> Result<(), ScreenPassError> {
-    if (1..=limit).contains(&value) {
-        return Ok(());
-    }
-    Err(ScreenPassError::Range { what, value, limit })
-}
-
-/// Whether shaders can read targets of so many samples.
-pub(crate) fn check_readable_samples(
-    device: &wgpu::Device,
-    samples: u32,
-    what: &'static str,
-) -> Result<(), ScreenPassError> {
-    match samples > 1 && gl::is_gl(device) {
-        true => Err(ScreenPassError::SamplesOnGl { samples, what }),
-        false => Ok(()),
-    }
-}
-
-/// The pass's depth-stencil format and sample count.
-pub(crate) fn check_target(
-    device: &wgpu::Device,
-    format: wgpu::TextureFormat,
-    samples: u32,
-) -> Result<(), ScreenPassError> {
-    let usable = device.features().contains(format.required_features());
-    if !has_stencil(format) || !usable {
-        return Err(ScreenPassError::Format(format));
-    }
-    check_samples(samples)
-}
-
-/// The pass's sample count.
-pub(crate) fn check_samples(samples: u32) -> Result<(), ScreenPassError> {
-    match samples {
-        1 | 4 => Ok(()),
-        _ => Err(ScreenPassError::SampleCount(samples)),
-    }
 }

@@ -1,5 +1,7 @@
 //! Pipelines that cover the screen where the stencil count says so.
 
+use crate::volume::multiview::Multiview;
+
 /// A vertex shader `screen` that covers the screen, and a fragment shader `one`.
 pub(crate) const SCREEN: &str = include_str!("../../../shaders/volume_screen.wgsl");
 
@@ -13,6 +15,7 @@ pub(crate) struct ScreenPipeline<'a> {
     /// `None` if the pass has no such buffer.
     pub depth_stencil_format: Option<wgpu::TextureFormat>,
     pub sample_count: u32,
+    pub multiview: Multiview,
     pub on: On,
 }
 
@@ -66,7 +69,7 @@ impl ScreenPipeline<'_> {
                 compilation_options: options(),
                 targets: &targets,
             }),
-            multiview_mask: None,
+            multiview_mask: self.multiview.0,
             cache: None,
         })
     }

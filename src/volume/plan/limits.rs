@@ -89,9 +89,21 @@ pub(crate) struct PlanLimits {
     pub casters: usize,
     /// Workgroups in one dimension of a dispatch.
     pub workgroups: u32,
+    /// Cameras in one window of the views: see `multiview.rs`.
+    pub cameras: usize,
     /// Bytes from one caster's, view's, light's and batch's parameters to the next's.
     pub caster_window: u32,
     pub view_window: u32,
     pub light_window: u32,
     pub batch_window: u32,
+}
+
+impl PlanLimits {
+    /// Views, or sets of views that are drawn together, whose cameras fit the buffer.
+    pub fn passes(&self) -> usize {
+        // Dynamic offsets are 32 bits wide.
+        let bytes = self.buffer_bytes.min(u64::from(u32::MAX));
+        let windows = bytes / u64::from(self.view_window);
+        usize::try_from(windows).map_or(self.casters, |windows| windows.min(self.casters))
+    }
 }

@@ -1,4 +1,4 @@
-//! One light in one view: what is decided for each caster, and the draws that follow from it.
+//! One light in one view, or in those that are drawn together: what is decided for each caster, and the draws that follow from it.
 
 use glam::Mat4;
 
@@ -76,7 +76,7 @@ impl Pair {
             self.let_go(number, shared);
         }
         if anew {
-            self.situation = Some(*situation);
+            self.situation = Some(situation.clone());
             self.choices = Some(Choices::new(situation, options, keep));
             self.scissor = options.scissor(situation);
         }

@@ -5,6 +5,7 @@ use crate::volume::ShadowVolumeFrame;
 use crate::volume::decide::decision::{Choices, KnownCaster};
 use crate::volume::decide::facing::{self, ObjectLight};
 use crate::volume::decide::method::Options;
+use crate::volume::multiview::Multiview;
 use crate::volume::plan::cache::VolumeCache;
 use crate::volume::plan::limits::PlanLimits;
 use crate::volume::plan::merged::MergedDraws;
@@ -22,7 +23,8 @@ pub(crate) struct Volumes {
     pub windows: Windows,
     pub merged: MergedDraws,
     lights: Vec<Light>,
-    /// How many views there are.
+    multiview: Multiview,
+    /// How many views there are; of those that are drawn together, one.
     views: usize,
 }
 
@@ -38,12 +40,13 @@ struct Light {
 
 impl Volumes {
     /// `bytes`: the largest storage buffer that can be made and bound.
-    pub fn new(bytes: u64) -> Self {
+    pub fn new(bytes: u64, multiview: Multiview) -> Self {
         Self {
             casters: SceneCasters::default(),
             windows: Windows::default(),
             merged: MergedDraws::new(bytes),
             lights: Vec::new(),
+            multiview,
             views: 0,
         }
     }
@@ -77,7 +80,8 @@ impl Volumes {
             windows: &mut self.windows,
             merged: &mut self.merged,
         };
-        self.views = frame.views.len();
+        let multiview = self.multiview;
+        self.views = frame.views.len() / multiview.views();
         for light in self
             .lights
             .drain(frame.lights.len().min(self.lights.len())..)
@@ -95,7 +99,7 @@ impl Volumes {
             light.pairs.resize_with(self.views, Pair::default);
             light.update(frame.lights[place].light, &changes, shared.casters);
             for (view, pair) in light.pairs.iter_mut().enumerate() {
-                if let Some(situation) = frame.situation(place, view) {
+                if let Some(situation) = frame.situation(multiview, place, view) {
                     let lights = &light.of_casters[..];
                     pair.decide(&situation, (options, keep), (&changes, lights), &mut shared);
                 }
@@ -154,34 +158,37 @@ impl Light {
 /// Whether lights, views and casters are as few as the device's buffers can describe.
 pub(crate) fn check_counts(
     frame: &ShadowVolumeFrame<'_>,
+    multiview: Multiview,
     options: Options,
     limits: &PlanLimits,
 ) -> Result<(), ShadowVolumeError> {
     let limit = limits.casters;
-    for (what, count) in [("lights", frame.lights.len()), ("views", frame.views.len())] {
+    let [lights, views] = [frame.lights.len(), frame.views.len()];
+    let most_views = limits.passes().saturating_mul(multiview.views());
+    for (what, count, limit) in [("lights", lights, limit), ("views", views, most_views)] {
         if count > limit {
             return Err(ShadowVolumeError::TooMany { what, count, limit });
         }
     }
-    let pairs = frame.lights.len().saturating_mul(frame.views.len());
+    let pairs = lights.saturating_mul(views / multiview.views());
     if frame.casters.len().saturating_mul(pairs) <= limit {
         return Ok(());
     }
-    match drawn(frame, options) {
+    match drawn(frame, multiview, options) {
         count if count > limit => Err(ShadowVolumeError::TooManyCasters { count, limit }),
         _ => Ok(()),
     }
 }
 
 /// How many casters are drawn, those under two lights counted twice.
-fn drawn(frame: &ShadowVolumeFrame<'_>, options: Options) -> usize {
+fn drawn(frame: &ShadowVolumeFrame<'_>, multiview: Multiview, options: Options) -> usize {
     // The way makes no difference.
     let known = |caster: &Caster| KnownCaster::new(caster, Way::Cpu);
     let known: Vec<KnownCaster> = frame.casters.iter().map(known).collect();
     let mut count = 0;
     for light in 0..frame.lights.len() {
-        for view in 0..frame.views.len() {
-            let Some(of) = frame.situation(light, view) else {
+        for view in 0..frame.views.len() / multiview.views() {
+            let Some(of) = frame.situation(multiview, light, view) else {
                 continue;
             };
             let choices = Choices::new(&of, options, false);

@@ -14,6 +14,7 @@ pub(crate) struct Drawn<'a> {
     pub volumes: &'a Volumes,
     pub cache: &'a VolumeCache,
     pub buffers: &'a Buffers,
+    /// The view, or the first camera that shaders find of several.
     pub view: &'a ViewParams,
     pub light: &'a LightParams,
 }

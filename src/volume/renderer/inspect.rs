@@ -25,7 +25,7 @@ impl ShadowVolumeRenderer {
         numbers.filter_map(|&number| pair.state(number)).collect()
     }
 
-    /// What the debug views draw from.
+    /// What is drawn under a light in a view.
     pub(crate) fn drawn(&self, light: usize, view: usize) -> Result<Drawn<'_>, VolumeRenderError> {
         let [lights, views] = self.volumes.counts();
         let no_such = VolumeRenderError::NoSuch {
@@ -39,9 +39,23 @@ impl ShadowVolumeRenderer {
             volumes: &self.volumes,
             cache: &self.cache,
             buffers: &self.buffers,
-            view: self.views.get(view).ok_or(no_such)?,
+            view: self.views.get(view * self.limits.cameras).ok_or(no_such)?,
             light: self.lights.get(light).ok_or(no_such)?,
         })
+    }
+
+    /// The same for what shows one view a pass.
+    pub(crate) fn drawn_alone(
+        &self,
+        light: usize,
+        view: usize,
+    ) -> Result<Drawn<'_>, VolumeRenderError> {
+        match self.pipelines.multiview.0 {
+            None => self.drawn(light, view),
+            Some(_) => Err(VolumeRenderError::Multiview(
+                self.pipelines.multiview.views(),
+            )),
+        }
     }
 
     pub(crate) fn depth(&self) -> DepthConvention {
@@ -68,7 +82,7 @@ impl ShadowVolumeRenderer {
             light as u32 * self.limits.light_window,
             caster * self.limits.caster_window,
         ];
-        let uniforms = Feed::of(draw.key.way).uniforms().len();
+        let uniforms = Feed::of(draw.key.way).uniform_count();
         pass.set_bind_group(0, group, &offsets[..uniforms]);
         true
     }

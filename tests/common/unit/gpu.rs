@@ -69,10 +69,12 @@ impl Gpu {
             }
         };
         let support = Support::of_adapter(&adapter);
-        // For timing, and for trying other arithmetic in shaders.
+        // For timing, for every kind of layered target, and for trying other arithmetic in shaders.
         let tools = adapter.features()
             & (wgpu::Features::TIMESTAMP_QUERY
                 | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
+                | wgpu::Features::SELECTIVE_MULTIVIEW
+                | wgpu::Features::MULTISAMPLE_ARRAY
                 | wgpu::Features::SHADER_F64);
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {

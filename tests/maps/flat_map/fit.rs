@@ -2,8 +2,8 @@
 
 use shadows::glam::{Affine3A, Mat4, Vec3, Vec3Swizzles as _, camera::rh};
 use shadows::{
-    Bias, Caster, DepthConvention, Kernel, Radius, ShadowFrame, ShadowMap, ShadowMapDescriptor,
-    View, VogelDisk,
+    Bias, Caster, DepthConvention, Kernel, MapSettings, Radius, ShadowFrame, ShadowMap,
+    ShadowMapDescriptor, View, VogelDisk,
 };
 
 use super::{drawn, field, interior, of_size, sun, wrong};
@@ -210,7 +210,10 @@ fn a_fitted_map_reaches_as_far_as_its_kernels() {
         let kernel = Kernel::Vogel(VogelDisk { radius, taps: 64 });
         let lit = |beyond: f32| {
             let descriptor = ShadowMapDescriptor {
-                reach: kernel.radius(),
+                settings: MapSettings {
+                    reach: kernel.radius(),
+                    ..Default::default()
+                },
                 ..of_size(256, Bias::default())
             };
             let map = drawn(&gpu, &descriptor, &frame);

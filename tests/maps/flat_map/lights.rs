@@ -19,11 +19,10 @@ fn points() -> Vec<(Vec3, Vec3)> {
         .collect()
 }
 
-fn seen(gpu: &Gpu, map: &ShadowMap, kernel: Kernel, flat_lights: FlatLights) -> Vec<f32> {
+fn seen(gpu: &Gpu, map: &ShadowMap, kernel: Kernel, lights: FlatLights) -> Vec<f32> {
     let descriptor = PcfDescriptor {
         kernel,
-        map: MapKind::Flat,
-        flat_lights,
+        map: MapKind::Flat(lights),
         ..Default::default()
     };
     ask(gpu, AnyMap::Flat(map), &descriptor, 0, &points())

@@ -150,7 +150,7 @@ fn drawn(gpu: &Gpu, truth: &Truth, layers: u32, kernel: Kernel) -> Vec<f64> {
     });
     let sampler = PcfDescriptor {
         kernel,
-        map: MapKind::Atlas,
+        map: MapKind::ATLAS,
         ..Default::default()
     };
     let points: Vec<(Vec3, Vec3)> = truth.points.iter().map(|point| (*point, Vec3::Y)).collect();

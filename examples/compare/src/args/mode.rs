@@ -24,7 +24,7 @@ use Mode::{Arithmetic, Compare, Cost, Growth, HardCases, Sweep, Temporal};
 
 /// The modes that have a use for an option. The others have scenes, sizes and techniques of their own.
 /// Options that are not here are of use to all.
-const USES: [(&str, &[Mode]); 18] = [
+const USES: [(&str, &[Mode]); 19] = [
     ("scenes", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
     ("ground", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
     ("time", &[Compare, Sweep, Temporal, Cost, Arithmetic]),
@@ -41,6 +41,7 @@ const USES: [(&str, &[Mode]); 18] = [
     ("export", &[Compare]),
     ("error_at_most", &[Sweep]),
     ("time_at_most", &[Sweep]),
+    ("cases", &[HardCases]),
     ("rounds", &[HardCases, Arithmetic]),
     ("steps", &[Temporal]),
 ];

@@ -16,7 +16,10 @@ impl Rules for Inline {
         let module = work.module;
         let callee = &module.functions[*callee];
         let value = formula(module, callee)?;
-        let arguments = work.arguments(old);
+        let [given, arguments] = [work.given(old), work.arguments(old)];
+        if are_constant(&given, work.function) {
+            return None;
+        }
         Some(in_place(callee, value, &arguments, work))
     }
 }
@@ -29,13 +32,36 @@ fn formula(module: &Module, function: &Function) -> Option<Value> {
     let plain = |statement: &Statement| match statement {
         Statement::Emit(_) => true,
         Statement::Call {
-            function, result, ..
-        } => result.is_some() && formula(module, &module.functions[*function]).is_some(),
+            function: callee,
+            arguments,
+            result,
+        } => {
+            result.is_some()
+                && !are_constant(arguments, function)
+                && formula(module, &module.functions[*callee]).is_some()
+        }
         _ => false,
     };
     match *last {
         Statement::Return { value } if before.iter().all(plain) => value,
         _ => None,
+    }
+}
+
+/// Whether a function is given constants alone: there is no arithmetic to choose then, and in its place naga 30
+/// would emit a constant twice once a pipeline's constants are known, which is not valid.
+fn are_constant(arguments: &[Value], function: &Function) -> bool {
+    let one = |value: &Value| is_constant(*value, function);
+    !arguments.is_empty() && arguments.iter().all(one)
+}
+
+fn is_constant(value: Value, function: &Function) -> bool {
+    use Expression as E;
+    match &function.expressions[value] {
+        E::Literal(_) | E::Constant(_) | E::ZeroValue(_) => true,
+        E::Splat { value, .. } => is_constant(*value, function),
+        E::Compose { components, .. } => are_constant(components, function),
+        _ => false,
     }
 }
 

@@ -29,6 +29,7 @@ use host::terminal::{note, say};
 pub struct Plan {
     pub variants: Vec<Variant>,
     pub scenes: Vec<Scene>,
+    /// Those of the hard cases that have such a name are tried there.
     pub techniques: Vec<Technique>,
     /// Of the scenes' pictures.
     pub size: [u32; 2],
@@ -61,57 +62,51 @@ pub fn variants(names: &[String]) -> Result<Vec<Variant>> {
     Ok(chosen)
 }
 
-/// Of the hard cases' techniques: each kernel's way to compare, each way to find silhouettes, both methods.
-const NAMES: [&str; 7] = [
+/// What is tried where nothing else is asked for, of the hard cases' techniques: each kernel's way to compare,
+/// each kind of map, each way to find silhouettes, both methods.
+pub const NAMES: [&str; 10] = [
     "cube-hard",
+    "cube-2x2",
     "cube-7x7",
     "cube-disk",
     "flat-2x2",
+    "atlas-2x2",
+    "volume-cpu",
     "volume-compute",
     "volume-vertex",
     "volume-zfail",
 ];
 
-/// The techniques that hard cases are tried with.
-///
-/// # Errors
-/// If one has no row in the table of techniques.
-pub fn techniques() -> Result<Vec<Technique>> {
-    let mut all = hard::techniques()?;
-    all.retain(|technique| NAMES.contains(&technique.name.as_ref()));
-    Ok(all)
-}
-
-/// Draws everything, writes the table and says how many were more wrong than they may be.
+/// Draws everything and says how many were more wrong than they may be. The table is written after each variant:
+/// all of them take long.
 ///
 /// # Errors
 /// If the device cannot do what a technique needs, or nothing can be written to `dir`.
 pub fn run(gpu: &Gpu, plan: &Plan, command: &str, dir: &Path) -> Result<usize> {
     let cases: Vec<hard::cases::Case> = hard::cases::all().collect();
-    let techniques = techniques()?;
+    let mut techniques = hard::techniques()?;
+    techniques.retain(|all| plan.techniques.iter().any(|asked| asked.name == all.name));
     let steps = plan.variants.len() * (cases.len() * plan.rounds as usize + plan.scenes.len());
     let bar = progress(steps as u64, "arithmetic");
     let trials = Trials::new(gpu, plan, &cases, &techniques)?;
-    let rows = plan.variants.iter().map(|variant| {
-        let row = trials.under(*variant, &bar);
-        row.with_context(|| variant.name)
-    });
-    let rows = rows.collect::<Result<_>>()?;
-    bar.finish_and_clear();
-    let table = Table {
+    let mut table = Table {
         driver: describe(&gpu.info),
         date: date::date(date::now()),
         command: command.into(),
         size: plan.size,
         rounds: plan.rounds,
-        scenes: plan.scenes.iter().map(|scene| scene.name.clone()).collect(),
-        rows,
+        rows: Vec::new(),
     };
-    let files = vec![
-        File::new("arithmetic.md", table.markdown()),
-        File::new("arithmetic.json", format!("{:#}\n", table.json())),
-    ];
-    output::write(dir, files)?;
+    for variant in &plan.variants {
+        let row = trials.under(*variant, &bar);
+        table.rows.push(row.with_context(|| variant.name)?);
+        let files = vec![
+            File::new("arithmetic.md", table.markdown()),
+            File::new("arithmetic.json", format!("{:#}\n", table.json())),
+        ];
+        output::write(dir, files)?;
+    }
+    bar.finish_and_clear();
     let failures = table.failures();
     failures.iter().for_each(|failure| note(failure));
     say(&dir.join("arithmetic.md").display().to_string())?;

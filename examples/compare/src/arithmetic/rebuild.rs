@@ -97,11 +97,17 @@ impl Work<'_> {
         &self.function.expressions[old]
     }
 
-    /// The arguments of the call that has this result, as they have become.
-    pub fn arguments(&self, result: Value) -> Vec<Value> {
+    /// The arguments of the call that has this result, as they were.
+    pub fn given(&self, result: Value) -> Vec<Value> {
         let call = self.calls.iter().find(|(call, _)| *call == result);
         let (_, arguments) = call.expect("every result is of a call");
-        arguments.iter().map(|old| self.of(*old)).collect()
+        arguments.clone()
+    }
+
+    /// The same, as they have become.
+    pub fn arguments(&self, result: Value) -> Vec<Value> {
+        let given = self.given(result);
+        given.iter().map(|old| self.of(*old)).collect()
     }
 
     pub fn add(&mut self, expression: Expression) -> Value {

@@ -4,18 +4,20 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::trial::{Kinds, Row, Wrong};
+use super::trial::{Found, Row};
 
-/// Everything that was drawn.
+/// Everything that was drawn. The first row is of the variant that changes nothing.
 pub struct Table {
     pub driver: String,
     pub date: String,
     pub command: String,
     pub size: [u32; 2],
     pub rounds: u32,
-    pub scenes: Vec<String>,
     pub rows: Vec<Row>,
 }
+
+/// A picture of a variant and the same as it is written.
+type Pair<'a> = (&'a Found, &'a Found);
 
 impl Table {
     /// What should have passed and did not, a line each.
@@ -36,91 +38,88 @@ impl Table {
         let _ = writeln!(
             text,
             "# Arithmetic that drivers may choose\n\nWritten by `{}` on {}, {}.\n\n\
-             Scenes at {width}x{height} pixels, hard cases in {} rounds, maps and volumes: wrong pixels \
-             in per cent of those that face the light, and (behind the stroke) how many of them are \
-             interior, the worst of the kind's techniques.\n",
+             Scenes at {width}x{height} pixels, hard cases in {} rounds. By how much more is wrong than \
+             without other arithmetic, at most: in points of a per cent of the pixels that face the light, \
+             and in interior pixels, and where that is.\n",
             self.command, self.date, self.driver, self.rounds
         );
-        self.variants(&mut text);
-        self.grown(&mut text);
+        self.greatest(&mut text);
+        self.risen(&mut text);
+        for failure in self.failures() {
+            let _ = writeln!(text, "- **FAILS**: {failure}.");
+        }
         text
     }
 
-    fn variants(&self, text: &mut String) {
-        let mut heads: Vec<String> = Vec::new();
-        for scene in &self.scenes {
-            heads.extend([format!("{scene}, maps"), format!("{scene}, volumes")]);
-        }
-        let _ = writeln!(
-            text,
-            "| Variant | {} | hard cases that fail |\n|---{}|---|",
-            heads.join(" | "),
-            "|---".repeat(heads.len())
+    /// A row of each variant, beside what it came to as written.
+    fn against_plain<'a>(&'a self, row: &'a Row) -> Vec<Pair<'a>> {
+        let plain = self.rows.first().map(|plain| plain.found.as_slice());
+        row.found.iter().zip(plain.unwrap_or_default()).collect()
+    }
+
+    fn greatest(&self, text: &mut String) {
+        text.push_str(
+            "| Variant | maps, wrong | maps, interior | volumes, wrong | volumes, interior | fail |\n\
+             |---|---|---|---|---|--:|\n",
         );
-        for row in &self.rows {
-            let cells: Vec<String> = row.scenes.iter().flatten().map(cell).collect();
-            let failed = row.failures.len();
-            let _ = writeln!(
-                text,
-                "| `{}` | {} | {failed} |",
-                row.variant.name,
-                cells.join(" | ")
-            );
-        }
-        text.push('\n');
-        for row in &self.rows {
-            let _ = writeln!(text, "- `{}`: {}.", row.variant.name, row.variant.what);
+        for row in self.rows.iter().skip(1) {
+            let _ = write!(text, "| `{}` |", row.variant.name);
+            for is_volume in [false, true] {
+                let mut pairs = self.against_plain(row);
+                pairs.retain(|(now, _)| now.is_volume == is_volume);
+                let _ = write!(
+                    text,
+                    " {} | {} |",
+                    most_wrong(&pairs),
+                    most_interior(&pairs)
+                );
+            }
+            let _ = writeln!(text, " {} |", row.failures.len());
         }
         text.push('\n');
     }
 
-    /// The hard cases that some variant makes more wrong than the first.
-    fn grown(&self, text: &mut String) {
-        let Some((plain, others)) = self.rows.split_first() else {
-            return;
-        };
-        let names: Vec<&str> = self.rows.iter().map(|row| row.variant.name).collect();
-        let _ = writeln!(
-            text,
-            "Hard cases that some variant makes more wrong than `{}`:\n\n\
-             | Case | | {} |\n|---|---{}|",
-            plain.variant.name,
-            names.join(" | "),
-            "|---".repeat(names.len())
+    /// What some variant gives more interior pixels.
+    fn risen(&self, text: &mut String) {
+        text.push_str(
+            "More interior pixels than as written:\n\n\
+             | Case or scene | Technique | Variant | as written | now | wrong, as written | now |\n\
+             |---|---|---|--:|--:|--:|--:|\n",
         );
-        for (place, (case, _)) in plain.cases.iter().enumerate() {
-            for (kind, name) in ["maps", "volumes"].into_iter().enumerate() {
-                let of = |row: &Row| row.cases[place].1[kind];
-                let before = of(plain);
-                let worse = |row: &Row| is_worse(of(row), before);
-                if others.iter().any(worse) {
-                    let cells: Vec<String> = self.rows.iter().map(|row| cell(&of(row))).collect();
-                    let _ = writeln!(text, "| {case} | {name} | {} |", cells.join(" | "));
+        for row in self.rows.iter().skip(1) {
+            for (now, before) in self.against_plain(row) {
+                if now.wrong.interior > before.wrong.interior {
+                    let _ = writeln!(
+                        text,
+                        "| {} | `{}` | `{}` | {} | {} | {:.4} % | {:.4} % |",
+                        now.what,
+                        now.technique,
+                        row.variant.name,
+                        before.wrong.interior,
+                        now.wrong.interior,
+                        before.wrong.percent,
+                        now.wrong.percent,
+                    );
                 }
             }
         }
         text.push('\n');
-        for failure in self.failures() {
-            let _ = writeln!(text, "- **FAILS**: {failure}.");
-        }
     }
 
     /// For machines.
     pub fn json(&self) -> Value {
-        let kinds = |kinds: &Kinds| {
-            let [maps, volumes] = kinds
-                .map(|wrong| json!({ "wrong_percent": wrong.percent, "interior": wrong.interior }));
-            json!({ "maps": maps, "volumes": volumes })
+        let found = |found: &Found| {
+            json!({
+                "what": found.what,
+                "technique": found.technique,
+                "wrong_percent": found.wrong.percent,
+                "interior": found.wrong.interior,
+            })
         };
         let row = |row: &Row| {
-            let scenes = self.scenes.iter().zip(&row.scenes);
-            let scenes = scenes.map(|(name, found)| (name.clone(), kinds(found)));
-            let cases = row.cases.iter();
-            let cases = cases.map(|(name, found)| ((*name).to_owned(), kinds(found)));
             json!({
                 "variant": row.variant.name,
-                "scenes": scenes.collect::<serde_json::Map<_, _>>(),
-                "hard_cases": cases.collect::<serde_json::Map<_, _>>(),
+                "found": row.found.iter().map(found).collect::<Vec<_>>(),
                 "failures": row.failures,
             })
         };
@@ -135,14 +134,25 @@ impl Table {
     }
 }
 
-/// By more than the wrong pixels vary anyway, or in the interior.
-fn is_worse(now: Wrong, before: Wrong) -> bool {
-    now.interior > before.interior || now.percent > 1.05 * before.percent + 0.002
+fn most_wrong(pairs: &[Pair<'_>]) -> String {
+    let rise = |(now, before): &Pair<'_>| now.wrong.percent - before.wrong.percent;
+    let most = pairs.iter().max_by(|a, b| rise(a).total_cmp(&rise(b)));
+    match most.filter(|pair| rise(pair) > 0.0) {
+        Some(pair) => format!(
+            "{:.4} ({}, `{}`)",
+            rise(pair),
+            pair.0.what,
+            pair.0.technique
+        ),
+        None => "0".into(),
+    }
 }
 
-fn cell(wrong: &Wrong) -> String {
-    match wrong.percent {
-        0.0 => "0".into(),
-        percent => format!("{percent:.4} / {}", wrong.interior),
+fn most_interior(pairs: &[Pair<'_>]) -> String {
+    let rise = |(now, before): &Pair<'_>| now.wrong.interior.saturating_sub(before.wrong.interior);
+    let most = pairs.iter().max_by_key(|pair| rise(pair));
+    match most.filter(|pair| rise(pair) > 0) {
+        Some(pair) => format!("{} ({}, `{}`)", rise(pair), pair.0.what, pair.0.technique),
+        None => "0".into(),
     }
 }

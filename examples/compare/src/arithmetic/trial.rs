@@ -14,7 +14,7 @@ use crate::stage::Stage;
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 
-/// Wrong pixels of a kind of technique, the worst of its techniques.
+/// A picture's wrong pixels, or a case's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrong {
     /// In per cent of the pixels that face the light.
@@ -23,22 +23,32 @@ pub struct Wrong {
     pub interior: usize,
 }
 
-impl Wrong {
-    fn worst(&mut self, other: Self) {
-        self.percent = self.percent.max(other.percent);
-        self.interior = self.interior.max(other.interior);
-    }
+/// What a technique came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The scene or the case.
+    pub what: String,
+    pub technique: String,
+    pub is_volume: bool,
+    pub wrong: Wrong,
 }
 
-/// Maps and volumes.
-pub type Kinds = [Wrong; 2];
+impl Found {
+    fn new(what: &str, technique: &Technique, wrong: Wrong) -> Self {
+        Self {
+            what: what.into(),
+            technique: technique.name.to_string(),
+            is_volume: matches!(technique.config, Config::Volume(_)),
+            wrong,
+        }
+    }
+}
 
 /// One variant.
 pub struct Row {
     pub variant: Variant,
-    /// As many as there are scenes.
-    pub scenes: Vec<Kinds>,
-    pub cases: Vec<(&'static str, Kinds)>,
+    /// The scenes, then the hard cases; the same of each variant, in the same order.
+    pub found: Vec<Found>,
     /// What failed in the hard cases, known limits being what they are there.
     pub failures: Vec<String>,
 }
@@ -78,13 +88,12 @@ impl<'a> Trials<'a> {
     pub fn under(&self, variant: Variant, bar: &ProgressBar) -> Result<Row> {
         let mut row = Row {
             variant,
-            scenes: Vec::new(),
-            cases: Vec::new(),
+            found: Vec::new(),
             failures: Vec::new(),
         };
         let installed = variant.install(self.plan.size);
         for (scene, truth) in self.plan.scenes.iter().zip(&self.truths) {
-            row.scenes.push(self.scene(scene, truth)?);
+            row.found.extend(self.scene(scene, truth)?);
             bar.inc(1);
         }
         drop(installed);
@@ -97,50 +106,39 @@ impl<'a> Trials<'a> {
                 limits: bounds::of(variant.name),
             };
             let found = trial.run(self.plan.rounds, bar)?;
-            let mut kinds = Kinds::default();
             for (technique, outcome) in self.techniques.iter().zip(&found.outcomes) {
                 let Some(outcome) = outcome else { continue };
-                if !is_textbook(technique) {
-                    kinds[kind(technique)].worst(Wrong {
-                        percent: outcome.wrong_percent(),
-                        interior: outcome.interior(),
-                    });
-                }
+                let wrong = Wrong {
+                    percent: outcome.wrong_percent(),
+                    interior: outcome.interior(),
+                };
+                row.found.push(Found::new(case.name, technique, wrong));
                 let failures = outcome.failures.iter();
                 let named =
                     failures.map(|what| format!("{}, {}: {what}", case.name, technique.name));
                 row.failures.extend(named);
             }
-            row.cases.push((case.name, kinds));
         }
         Ok(row)
     }
 
-    fn scene(&self, scene: &host::scene::Scene, truth: &ReferenceImage) -> Result<Kinds> {
+    fn scene(&self, scene: &host::scene::Scene, truth: &ReferenceImage) -> Result<Vec<Found>> {
         let stage = Stage::new(self.gpu, scene.clone(), self.plan.size)?;
-        let mut kinds = Kinds::default();
+        let mut all = Vec::new();
         for technique in &self.plan.techniques {
-            if !technique.config.applies_to(scene.light().kind()) || is_textbook(technique) {
+            if !technique.config.applies_to(scene.light().kind()) {
                 continue;
             }
             let mut shadow = Shadow::new(self.gpu, &stage.renderer, technique.clone())?;
             let picture = stage.picture(self.gpu, &mut shadow, &stage.inputs)?;
             let found = truth.compare(&picture.visibility, shadow.interior())?;
             let wrong = found.false_lit + found.false_shadow;
-            kinds[kind(technique)].worst(Wrong {
+            let wrong = Wrong {
                 percent: 100.0 * wrong as f64 / found.lit_facing.max(1) as f64,
                 interior: found.false_lit_interior + found.false_shadow_interior,
-            });
+            };
+            all.push(Found::new(&scene.name, technique, wrong));
         }
-        Ok(kinds)
+        Ok(all)
     }
-}
-
-fn kind(technique: &Technique) -> usize {
-    usize::from(matches!(technique.config, Config::Volume(_)))
-}
-
-/// What is there to be beaten.
-fn is_textbook(technique: &Technique) -> bool {
-    technique.name.ends_with("textbook")
 }

@@ -4,7 +4,7 @@ use shadows::{Counter, ShadowVolumeDescriptor, Silhouettes, wgpu};
 
 use super::cases::Case;
 use super::limits::{self, Limit};
-use super::{FINE, SIXTEEN_BITS};
+use super::{ATLAS_NAMES, FINE, SIXTEEN_BITS};
 use crate::technique::{Config, Technique};
 use host::gpu::Gpu;
 
@@ -50,6 +50,10 @@ fn anywhere(case: &Case, technique: &Technique, software: bool) -> Expect {
     let usual = match &technique.config {
         _ if technique.name == SIXTEEN_BITS && !case.sixteen_bits => return Expect::Nothing,
         _ if FINE.iter().any(|fine| fine.1 == technique.name) && !case.fine => {
+            return Expect::Nothing;
+        }
+        Config::Atlas { .. } if case.frames.is_some() => case.maps,
+        _ if case.frames.is_some() || ATLAS_NAMES.contains(&technique.name.as_ref()) => {
             return Expect::Nothing;
         }
         Config::Cube { .. } | Config::Flat { .. } | Config::Atlas { .. } => case.maps,

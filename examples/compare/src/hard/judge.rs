@@ -31,7 +31,32 @@ pub fn judge(
     expect: Expect,
 ) -> Result<Outcome> {
     let found = reference.compare(frame.visibility, frame.interior)?;
-    let unlit = lit_where_nothing_can_be(reference, frame);
+    let lit = Lit {
+        visibility: frame.visibility,
+        may_wrap: frame.may_wrap,
+        reach: frame.reach,
+    };
+    Ok(judge_found(what, reference, &found, &lit, expect))
+}
+
+/// What a picture says where the comparison with the reference does not ask.
+pub struct Lit<'a> {
+    pub visibility: &'a [u8],
+    /// See [`Frame::may_wrap`].
+    pub may_wrap: bool,
+    /// See [`Frame::reach`].
+    pub reach: Option<(DVec3, f32)>,
+}
+
+/// Judges by a comparison with the reference.
+pub fn judge_found(
+    what: &str,
+    reference: &ReferenceImage,
+    found: &Comparison,
+    lit: &Lit<'_>,
+    expect: Expect,
+) -> Outcome {
+    let unlit = lit_where_nothing_can_be(reference, lit);
     let mut outcome = Outcome {
         counted: found.lit_facing,
         wrong: found.false_lit + found.false_shadow + unlit,
@@ -45,10 +70,10 @@ pub fn judge(
         // Whether it is within its bound is asked of a round; loss that no interior pixel sees is
         // to be said, too.
         Expect::Limit(limit) if outcome.wrong > 0 => Some(limit.why),
-        _ if interior == 0 => return Ok(outcome),
+        _ if interior == 0 => return outcome,
         Expect::Rare(why) => Some(why),
-        Expect::Streaks(why) if !has_blocks(&found, reference.width() as usize) => Some(why),
-        Expect::Wraps if frame.may_wrap && only_falsely_lit(&outcome, unlit) => {
+        Expect::Streaks(why) if !has_blocks(found, reference.width() as usize) => Some(why),
+        Expect::Wraps if lit.may_wrap && only_falsely_lit(&outcome, unlit) => {
             Some("8-bit counts wrap at 256, which `may_wrap` reports")
         }
         _ => None,
@@ -57,10 +82,10 @@ pub fn judge(
         Some(why) => outcome.limits.push(why),
         None => outcome.failures.push(format!(
             "{what}: {interior} interior pixels are wrong{}",
-            places(reference, &found)
+            places(reference, found)
         )),
     }
-    Ok(outcome)
+    outcome
 }
 
 /// The first few wrong interior pixels: where in the picture, and what is seen there.
@@ -96,14 +121,14 @@ fn only_falsely_lit(outcome: &Outcome, unlit: usize) -> bool {
 
 /// Pixels that are lit where the reference sees nothing or what is beyond the light's range, nor
 /// anything else beside it: edges are rounded to parts of a pixel.
-fn lit_where_nothing_can_be(reference: &ReferenceImage, frame: &Frame<'_>) -> usize {
+fn lit_where_nothing_can_be(reference: &ReferenceImage, lit: &Lit<'_>) -> usize {
     let (width, height) = (reference.width() as usize, reference.height() as usize);
     let unlit: Vec<bool> = reference
         .classes()
         .enumerate()
         .map(|(pixel, class)| match class {
             Class::Background => true,
-            Class::OutOfRange => is_beyond(reference, pixel, frame.reach),
+            Class::OutOfRange => is_beyond(reference, pixel, lit.reach),
             _ => false,
         })
         .collect();
@@ -113,7 +138,7 @@ fn lit_where_nothing_can_be(reference: &ReferenceImage, frame: &Frame<'_>) -> us
         rows.all(|row| around(pixel % width, width).all(|column| unlit[row * width + column]))
     };
     (0..unlit.len())
-        .filter(|&pixel| frame.visibility[pixel] != 0 && alone(pixel))
+        .filter(|&pixel| lit.visibility[pixel] != 0 && alone(pixel))
         .count()
 }
 

@@ -111,6 +111,31 @@ pub const ON_HARDWARE: [Known; 1] = [known("Grazing light", "volume*", SNAPPED, 
 
 /// All of them.
 pub const ALL: &[Known] = &[
+    known(
+        "Tiles beside foreign ones",
+        "atlas-disk",
+        RIM,
+        [0.024, 0.0005, 5.4],
+    ),
+    known(
+        "A light becomes another kind",
+        "atlas-disk",
+        RIM,
+        [0.01, 0.0005, 0.51],
+    ),
+    known(
+        "Casters move under a budget",
+        "atlas-disk",
+        RIM,
+        [0.01, 0.0005, 0.51],
+    ),
+    known(
+        "Cascades of other cameras",
+        "atlas-disk",
+        RIM,
+        [0.01, 0.0005, 0.71],
+    ),
+    known("Two views of a sun", "atlas-disk", RIM, [0.01, 0.0005, 0.2]),
     known("Grazing light", "atlas-*", FINE_GRAZING, [0.0, 0.13, 9.1]),
     known(
         "Light very near a caster",

@@ -6,10 +6,30 @@ use serde_json::{Value, json};
 
 use super::outcome::Outcome;
 use super::seams::FACTOR;
-use super::{CHEAP_NAMES, causes};
+use super::{ATLAS_NAMES, CHEAP_NAMES, causes};
 
 /// Pictures side by side on the sheet.
 const COLUMNS: usize = 6;
+
+/// A table of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Usual,
+    Atlas,
+    Cheap,
+}
+
+impl Part {
+    fn has(self, technique: &str) -> bool {
+        match self {
+            Self::Usual => ![ATLAS_NAMES.as_slice(), &CHEAP_NAMES]
+                .concat()
+                .contains(&technique),
+            Self::Atlas => technique == "atlas-2x2" || ATLAS_NAMES.contains(&technique),
+            Self::Cheap => CHEAP_NAMES.contains(&technique),
+        }
+    }
+}
 
 /// A case and what each technique made of it.
 pub struct Row {
@@ -20,6 +40,8 @@ pub struct Row {
     pub outcomes: Vec<Option<Outcome>>,
     /// The first of its situations, shaded.
     pub picture: Vec<[u8; 3]>,
+    /// Whether it is what an atlas goes through.
+    pub of_atlas: bool,
 }
 
 /// Everything that was tried.
@@ -82,7 +104,8 @@ impl Table {
              `volume-compute` uses here, and `Cpu` on a software adapter.\n",
             self.command, self.date, self.driver, self.rounds, self.way
         );
-        self.results(&mut text, false);
+        self.results(&mut text, Part::Usual);
+        self.atlas(&mut text);
         self.cheap(&mut text);
         self.limits(&mut text);
         self.seams(&mut text);
@@ -91,15 +114,16 @@ impl Table {
         text
     }
 
-    /// The cheap techniques, on the cases on which they are tried; or all others on all cases.
-    fn results(&self, text: &mut String, cheap: bool) {
-        let is_shown = |at: &usize| CHEAP_NAMES.contains(&self.techniques[*at].as_str()) == cheap;
+    /// A part's techniques on its cases.
+    fn results(&self, text: &mut String, part: Part) {
+        let is_shown = |at: &usize| part.has(&self.techniques[*at]);
         let shown: Vec<usize> = (0..self.techniques.len()).filter(is_shown).collect();
         let names: Vec<&str> = shown.iter().map(|&at| &*self.techniques[at]).collect();
         let _ = writeln!(text, "| Case | {} |", names.join(" | "));
         let _ = writeln!(text, "|---{}|", "|---".repeat(shown.len()));
         for row in &self.rows {
-            if cheap && shown.iter().all(|&at| row.outcomes[at].is_none()) {
+            let tried = shown.iter().any(|&at| row.outcomes[at].is_some());
+            if row.of_atlas != (part == Part::Atlas) || (part == Part::Cheap && !tried) {
                 continue;
             }
             let cells: Vec<String> = shown.iter().map(|&at| cell(&row.outcomes[at])).collect();
@@ -115,7 +139,17 @@ impl Table {
              need a plane that receives, `baked` one sample per pixel. `-`: not tried. The truth is that of a \
              light without a size; of soft edges, the darker half counts as shadow.\n\n",
         );
-        self.results(text, true);
+        self.results(text, Part::Cheap);
+    }
+
+    fn atlas(&self, text: &mut String) {
+        text.push_str(
+            "## Atlas and cascades\n\n\
+             What only an atlas can get wrong, which keeps from frame to frame what did not change: many lights at once, several \
+             frames and views, each light's picture against its own truth. Of cascades, interior is judged by \
+             the texels of the one that a pixel reads, not by the widest.\n\n",
+        );
+        self.results(text, Part::Atlas);
     }
 
     fn limits(&self, text: &mut String) {

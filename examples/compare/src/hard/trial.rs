@@ -7,6 +7,7 @@ use shadows::reference::Interior;
 use shadows::{Caster, DepthConvention, HomogeneousLight, wgpu};
 
 use super::SIZE;
+use super::atlas::{Frames, play};
 use super::cases::Case;
 use super::expect::{Expect, expected, is_software};
 use super::judge::{Frame, judge};
@@ -72,6 +73,7 @@ impl Trial<'_> {
             answer,
             outcomes,
             picture,
+            of_atlas: self.case.frames.is_some(),
         })
     }
 
@@ -96,7 +98,46 @@ impl Trial<'_> {
                 picture = shaded;
             }
         }
+        for frames in self.frames(round) {
+            let what = format!("round {round}, {}", frames.what);
+            let shaded = self.course(&frames, &what, &mut outcomes);
+            let shaded = shaded.with_context(|| format!("{}: {what}", self.case.name))?;
+            if picture.is_empty() {
+                picture = shaded;
+            }
+        }
         Ok((outcomes, picture))
+    }
+
+    fn frames(&self, round: u32) -> Vec<Frames> {
+        let frames = self.case.frames;
+        frames.map_or_else(Vec::new, |frames| frames(&mut Random(u64::from(round))))
+    }
+
+    /// What an atlas goes through under each technique that reads one; its first frame as the last of
+    /// them shows it.
+    fn course(
+        &self,
+        frames: &Frames,
+        what: &str,
+        outcomes: &mut [Option<Outcome>],
+    ) -> Result<Vec<[u8; 3]>> {
+        let truth = frames.truth()?;
+        let mut shaded = Vec::new();
+        for (technique, outcome) in self.techniques.iter().zip(outcomes) {
+            let expect = self.expected(technique);
+            if expect == Expect::Nothing {
+                continue;
+            }
+            let shown = play(self.gpu, frames, technique, |module| module)?;
+            for light in &shown {
+                let found = light.judge(what, &truth, &light.visibility, expect)?;
+                outcome.get_or_insert_default().add(found);
+            }
+            let first = shown.into_iter().rfind(|of| of.at[0] == 0 && of.at[1] == 0);
+            shaded = first.map_or_else(Vec::new, |first| first.shaded);
+        }
+        Ok(shaded)
     }
 
     /// One situation under each technique that applies; as the last of them shows it.

@@ -78,8 +78,8 @@ impl Studio {
 /// Techniques whose map has another default, such as the textbook's, keep it.
 fn with_bias(mut technique: Technique, bias: Bias) -> Technique {
     match &mut technique.config {
-        Config::Cube { map, .. } if bias != Bias::default() => map.bias = bias,
-        Config::Flat { map, .. } => map.bias = bias,
+        Config::Cube { map, .. } if bias != Bias::default() => map.settings.bias = bias,
+        Config::Flat { map, .. } => map.settings.bias = bias,
         _ => {}
     }
     technique

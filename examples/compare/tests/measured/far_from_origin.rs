@@ -339,7 +339,7 @@ fn errors_by_derivatives(
     let map = cube_map(gpu, 1024, light, &stage.scene_gpu.casters);
     let descriptor = PcfDescriptor {
         kernel,
-        map: MapKind::Cube,
+        map: MapKind::CUBE,
         ..Default::default()
     };
     let sampler = PcfSampler::new(&gpu.device, &gpu.queue, &descriptor).unwrap();

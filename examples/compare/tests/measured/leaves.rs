@@ -88,7 +88,7 @@ fn draw_masked(stage: &Stage, pass: &mut wgpu::RenderPass<'_>, asked: &HostDraw<
 /// What a spot's map shows, with the host's casters drawn into it or without.
 fn flat(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     let mut map = ShadowMap::new(&gpu.device, &ShadowMapDescriptor::default()).unwrap();
-    let sampler = sampler(gpu, MapKind::Flat);
+    let sampler = sampler(gpu, MapKind::FLAT);
     let spot = SpotLight::new(LAMP, -LAMP, 0.9, 30.0);
     let casters = casters(stage);
     let frame = ShadowFrame::new(FlatLight::Spot(spot), &casters);
@@ -113,7 +113,7 @@ fn flat(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
 fn cube(gpu: &Gpu, stage: &Stage, own: bool) -> (Vec<u8>, Interior) {
     let descriptor = CubeShadowMapDescriptor::default();
     let mut map = CubeShadowMap::new(&gpu.device, &descriptor).unwrap();
-    let sampler = sampler(gpu, MapKind::Cube);
+    let sampler = sampler(gpu, MapKind::CUBE);
     let casters = casters(stage);
     let frame = CubeFrame::new(stage.inputs.point_light(), &casters);
     map.prepare(&gpu.device, &gpu.queue, &frame).unwrap();

@@ -3,6 +3,7 @@
 
 mod against_reference;
 mod arithmetic;
+mod atlas_cases;
 mod baked;
 mod cascades;
 #[path = "../../../../tests/common/mod.rs"]

@@ -187,7 +187,7 @@ const MODES: [(&str, &[&str]); 7] = [
             "time-at-most",
         ],
     ),
-    ("--hard-cases", &["rounds"]),
+    ("--hard-cases", &["case", "rounds"]),
     (
         "--temporal",
         &[
@@ -234,7 +234,7 @@ fn bare(mode: &str) -> &str {
 }
 
 /// A value that each option takes.
-const VALUES: [(&str, &str); 20] = [
+const VALUES: [(&str, &str); 21] = [
     ("scene", "--scene x.obj"),
     ("ground", "--ground none --scene x.obj"),
     ("time", "--time night"),
@@ -251,6 +251,7 @@ const VALUES: [(&str, &str); 20] = [
     ("export", "--export"),
     ("error-at-most", "--error-at-most 0.1"),
     ("time-at-most", "--time-at-most 2ms"),
+    ("case", "--case Scale"),
     ("rounds", "--rounds 2"),
     ("steps", "--steps 2"),
     ("adapter", "--adapter llvm"),

@@ -52,15 +52,18 @@ Config::Cube { map, sampler }
 ("cube-textbook 512", {
 let map = CubeShadowMapDescriptor {
     size: 512,
-    bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0, position_ulps: 0.0 },
     encoding: DepthEncoding::LinearDistance,
+    settings: MapSettings {
+        bias: Bias { normal_offset: 0.0, constant: 0.0, slope_scale: 0.0, position_ulps: 0.0 },
+        sides: CasterSides::Both,
+        ..Default::default()
+    },
     cull_casters: false,
-    sides: CasterSides::Both,
     ..Default::default()
 };
 let sampler = PcfDescriptor {
     kernel: Kernel::Hard,
-    encoding: DepthEncoding::LinearDistance,
+    map: MapKind::Cube(DepthEncoding::LinearDistance),
     textbook: true,
     ..Default::default()
 };
@@ -69,18 +72,24 @@ Config::Cube { map, sampler }
 ("cube-2x2 1024, linear 16 bits", {
 let map = CubeShadowMapDescriptor {
     encoding: DepthEncoding::LinearDistance,
-    format: wgpu::TextureFormat::Depth16Unorm,
+    settings: MapSettings {
+        format: wgpu::TextureFormat::Depth16Unorm,
+        ..Default::default()
+    },
     ..Default::default()
 };
 let sampler = PcfDescriptor {
-    encoding: DepthEncoding::LinearDistance,
+    map: MapKind::Cube(DepthEncoding::LinearDistance),
     ..Default::default()
 };
 Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, fourfold bias", {
 let map = CubeShadowMapDescriptor {
-    bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0, position_ulps: 4.0 },
+    settings: MapSettings {
+        bias: Bias { normal_offset: 0.4, constant: 0.2, slope_scale: 0.0, position_ulps: 4.0 },
+        ..Default::default()
+    },
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();
@@ -88,7 +97,10 @@ Config::Cube { map, sampler }
 }),
 ("cube-2x2 1024, far sides", {
 let map = CubeShadowMapDescriptor {
-    sides: CasterSides::Far,
+    settings: MapSettings {
+        sides: CasterSides::Far,
+        ..Default::default()
+    },
     ..Default::default()
 };
 let sampler = PcfDescriptor::default();
@@ -101,7 +113,7 @@ let map = ShadowMapDescriptor {
 };
 let sampler = PcfDescriptor {
     kernel: Kernel::RandomDisk(RandomDisk { radius: Radius::Texels(3.0), around: 8, rings: 4, size: 8, early_out: false }),
-    map: MapKind::Flat,
+    map: MapKind::FLAT,
     ..Default::default()
 };
 Config::Flat { map, sampler }

@@ -1,6 +1,8 @@
 //! The hard cases: what each is, and the answer that every technique should give.
 
+mod atlas;
 mod camera;
+mod cascades;
 mod depth;
 mod flat;
 mod frames;
@@ -8,6 +10,9 @@ mod light;
 pub mod mesh;
 mod place;
 mod views;
+
+use super::atlas::Frames;
+use anyhow::{Result, ensure};
 
 pub use super::course::Course;
 use super::expect::Expect;
@@ -37,6 +42,8 @@ pub struct Case {
     pub seams: bool,
     /// What a technique has been through before.
     pub course: Course,
+    /// In place of situations, what an atlas goes through; other techniques are not tried.
+    pub frames: Option<fn(&mut Random) -> Vec<Frames>>,
 }
 
 impl Case {
@@ -52,7 +59,24 @@ impl Case {
         cheap: &[],
         seams: false,
         course: Course::Fresh,
+        frames: None,
     };
+}
+
+/// Those whose name begins with one of these, or all where none is given.
+///
+/// # Errors
+/// If none begins so.
+pub fn chosen(starts: &[String]) -> Result<Vec<Case>> {
+    for start in starts {
+        let known = all().any(|case| case.name.starts_with(start.as_str()));
+        ensure!(known, "no hard case's name begins with {start:?}");
+    }
+    let asked = |case: &Case| {
+        let mut starts = starts.iter();
+        starts.len() == 0 || starts.any(|start| case.name.starts_with(start.as_str()))
+    };
+    Ok(all().filter(asked).collect())
 }
 
 /// Every case, in the order of the table.
@@ -66,4 +90,6 @@ pub fn all() -> impl Iterator<Item = Case> {
         .chain(frames::CASES)
         .chain(flat::CASES)
         .chain(depth::CASES)
+        .chain(atlas::CASES)
+        .chain(cascades::CASES)
 }

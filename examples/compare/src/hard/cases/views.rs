@@ -7,7 +7,7 @@ use crate::hard::situation::Situation;
 use host::random::Random;
 use host::scene::{Scene, courtyard, spheres, teapot};
 
-const NEAR_EDGE: &str =
+pub(super) const NEAR_EDGE: &str =
     "an edge or a contact passes within 1/256 pixel of the pixel's centre, where rasterisers round";
 
 pub const CASES: [Case; 3] = [
