@@ -56,7 +56,7 @@ pub struct Support {
     /// Multiview: shadow volumes of several views in one pass
     /// ([`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)).
     pub multiview: bool,
-    /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
+    /// Storage buffers in vertex shaders: for shadow volumes that pull their vertices.
     pub vertex_storage: bool,
     /// Compute shaders with indirect draws: for finding silhouettes on the GPU.
     pub compute: bool,

@@ -49,7 +49,7 @@ pub struct CubeCross {
 }
 
 impl CubeCross {
-    /// Makes the pipeline.
+    /// Creates the pipeline.
     ///
     /// # Errors
     /// [`DebugPassError`] if a format or the sample count of the pass does not fit.

@@ -21,17 +21,17 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// How depths are stored, drawn and compared. With `LinearDistance` there is no
     /// [`slope_scale`](crate::Bias::slope_scale).
     pub settings: MapSettings,
-    /// Whether casters go only on the faces they touch. Default true; false draws every caster on
-    /// every face, for measuring what culling is worth.
+    /// Whether casters are drawn only on the faces they touch. Default true; false draws every caster on
+    /// every face, to measure the benefit of culling.
     #[doc(hidden)]
     pub cull_casters: bool,
     /// Whether faces whose content has not changed are left alone. Default true; false redraws every face
     /// every frame, to measure the benefit.
     #[doc(hidden)]
     pub cache: bool,
-    /// Whether static casters are kept in a second layer under those that move. Default
-    /// [`StaticLayers::Auto`]. Without `cache` there are none, and [`StaticLayers::AtLeast`] is
-    /// refused.
+    /// Whether static casters are cached in a second layer under those that move. Default
+    /// [`StaticLayers::Auto`]. Without `cache` there are no such layers, and [`StaticLayers::AtLeast`] is
+    /// rejected.
     pub static_layers: StaticLayers,
 }
 

@@ -15,14 +15,14 @@ pub struct ShadowMapDescriptor<'a> {
     pub size: u32,
     /// How depths are stored, drawn and compared.
     pub settings: MapSettings,
-    /// Whether casters before the near plane are pulled onto it, on devices with
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On others a
-    /// directional light's near plane lies before all casters, and a spot loses what is nearer
-    /// than its [`near`](SpotLight::near). False for trying what those see.
+    /// Whether casters in front of the near plane are pulled onto it, on devices with
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On other devices,
+    /// a directional light's near plane is placed in front of all casters, and a spot loses casters nearer
+    /// than its [`near`](SpotLight::near). False to see the result of such devices.
     #[doc(hidden)]
     pub unclipped_depth: bool,
-    /// Whether a map whose content has not changed is left alone. Default true; false draws every
-    /// frame, for measuring what that is worth.
+    /// Whether a map whose content has not changed is left alone. Default true; false redraws it every frame,
+    /// to measure the benefit.
     #[doc(hidden)]
     pub cache: bool,
 }

@@ -146,7 +146,7 @@ impl Kernel {
     }
 
     /// Whether it reads such maps: [`HardwareBilinear`](Self::HardwareBilinear) reads only
-    /// [`MajorAxis`](DepthEncoding::MajorAxis), of which a plane's depths are linear over a face.
+    /// [`MajorAxis`](DepthEncoding::MajorAxis), in which the depths of a plane are linear over a face.
     pub fn reads(self, map: MapKind) -> bool {
         self != Self::HardwareBilinear || map.encoding() == DepthEncoding::MajorAxis
     }

@@ -6,25 +6,25 @@ use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowAtlas, ShadowMap};
 const TILE_WHOLE: &str = include_str!("../../shaders/tile_whole.wgsl");
 const CUBE_TEXEL: &str = include_str!("../../shaders/cube_texel.wgsl");
 
-/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads, and what its shader needs to know of that kind.
+/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads, and what its shader needs to know about it.
 /// [`AnyMap::kind`] is the kind of a given map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MapKind {
-    /// [`CubeShadowMap`]s whose texels hold this: point lights.
+    /// [`CubeShadowMap`]s with this encoding: point lights.
     Cube(DepthEncoding),
-    /// [`ShadowMap`]s that are prepared for these lights: spots, directional lights or both.
+    /// [`ShadowMap`]s prepared for these lights: spots, directional lights or both.
     Flat(FlatLights),
-    /// [`ShadowAtlas`]es, and those of their lights that are of these kinds.
+    /// [`ShadowAtlas`]es, with lights of these kinds.
     Atlas(LightKinds),
 }
 
 impl MapKind {
-    /// Cube maps as they are by default: [`DepthEncoding::MajorAxis`].
+    /// Cube maps with the default encoding: [`DepthEncoding::MajorAxis`].
     pub const CUBE: Self = Self::Cube(DepthEncoding::MajorAxis);
-    /// Flat maps, whichever light they are prepared for.
+    /// Flat maps, prepared for any light.
     pub const FLAT: Self = Self::Flat(FlatLights::Any);
-    /// Atlases, and all of their lights.
+    /// Atlases, with lights of all kinds.
     pub const ATLAS: Self = Self::Atlas(LightKinds::ALL);
 
     /// What the texels hold. Flat maps and atlases know one encoding.

@@ -27,8 +27,7 @@ pub struct PcfDescriptor<'a> {
     /// then its default, or [`Kernel::Hard`]. Default false.
     #[doc(hidden)]
     pub textbook: bool,
-    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on; other ways for
-    /// trying what devices without gathers see.
+    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that is reliable.
     #[doc(hidden)]
     pub gather: Gather,
 }

@@ -26,10 +26,10 @@ pub enum Interior {
     /// For shadow volumes. Over the surrounding 3 x 3 pixels (those inside the picture), the reference agrees
     /// (only [`Class::Lit`] is lit), none is background, and there is no depth edge.
     Screen,
-    /// For cube shadow maps of a point light. Beyond what [`Screen`](Self::Screen) asks, the
-    /// reference says the same wherever a light ray within 1.5 texels plus the kernel's radius of
-    /// the pixel's own meets the tangent plane. A ray that misses the plane is an edge. So is the edge of a shadow
-    /// that lies beyond the light's range, whose texels such a map holds all the same.
+    /// For cube shadow maps of a point light. In addition to the conditions of [`Screen`](Self::Screen), the
+    /// reference agrees wherever a light ray within 1.5 texels plus the kernel's radius of the pixel's own meets
+    /// the tangent plane. A ray that misses the plane counts as an edge, and so does the edge of a shadow beyond
+    /// the light's range, because a map holds that, too.
     Map {
         /// Texels along the edge of a cube face; at least 1.
         face_size: u32,

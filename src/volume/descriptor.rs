@@ -83,7 +83,7 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// for more work, for measuring what that is worth.
     #[doc(hidden)]
     pub caps: Caps,
-    /// How far volumes reach. Default [`Extrusion::ToRange`]. Volumes of a light without a range, where the
+    /// How far volumes extend. Default [`Extrusion::ToRange`]. Volumes of a light without a range, where the
     /// receivers are not known, are infinite: that is what a host says who wants them so. `Infinite` is for
     /// measuring what ending them is worth.
     #[doc(hidden)]

@@ -33,7 +33,7 @@ impl VolumeCone {
     }
 }
 
-/// A light, as far as shadow volumes need it.
+/// A light, reduced to what shadow volumes need.
 ///
 /// ```
 /// use shadows::{PointLight, VolumeLight, glam::Vec3};
@@ -51,8 +51,8 @@ pub struct VolumeLight {
     /// volumes end and draws are clipped where the cone does. Outside of it may be shadow or none: the
     /// host's light pass leaves it dark. `None`, the default: all around. Directional lights ignore it.
     pub cone: Option<VolumeCone>,
-    /// The casters whose shadows it casts are on any of these layers, a bit each ([`Caster::layers`]).
-    /// Default all.
+    /// It casts the shadows of casters on any of these layers, one bit each ([`Caster::layers`]). Default
+    /// all.
     pub layers: u32,
     /// Its owner: it casts no shadow of casters with the same owner ([`Caster::owner`]), such as a lamp's own
     /// shade. Default `None`.
@@ -168,7 +168,7 @@ pub struct ShadowVolumeFrame<'a> {
     /// The lights of this frame. A light is identified by its index in this list: one that keeps its index
     /// and does not move keeps all of its volumes.
     pub lights: &'a [VolumeLight],
-    /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen. With a
+    /// The cameras, also identified by their index: one, two eyes, or a split screen. With a
     /// [`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask) sets of views, one after another.
     pub views: &'a [VolumeView],
     /// Bounds in world space of everything that receives shadows: all surfaces in the passes' depth buffers,

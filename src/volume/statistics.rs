@@ -44,9 +44,9 @@ impl From<Skip> for CasterState {
     }
 }
 
-/// What the last [`prepare`](crate::ShadowVolumeRenderer::prepare) came to. What is said of casters is
-/// summed over all lights and views: one that two lights shine on is counted twice. Views that a pass draws
-/// together ([`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)) are one.
+/// The result of the last [`prepare`](crate::ShadowVolumeRenderer::prepare). Casters are summed over all
+/// lights and views: one that two lights shine on is counted twice. Views that a pass draws together
+/// ([`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)) are one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct VolumeStatistics {

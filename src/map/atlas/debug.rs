@@ -68,7 +68,7 @@ struct Instance {
 }
 
 impl AtlasDebug {
-    /// Makes the pipeline.
+    /// Creates the pipeline.
     ///
     /// # Errors
     /// [`DebugPassError`] if a format or the sample count of the pass does not fit.

@@ -31,9 +31,9 @@ pub struct ShadowAtlasDescriptor<'a> {
     pub memory: u64,
     /// How depths are stored, drawn and compared.
     pub settings: MapSettings,
-    /// The most tiles drawn in one `prepare`; default none. At least 1. See
-    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait and what the
-    /// budget does not count.
+    /// The maximum number of tiles drawn per `prepare`, at least 1; default no limit. See
+    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait, and what the
+    /// budget does not include.
     pub max_tiles_per_frame: Option<u32>,
     /// Whether static casters are cached in layers under those that move. Default [`StaticLayers::Auto`].
     pub static_layers: StaticLayers,

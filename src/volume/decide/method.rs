@@ -49,8 +49,8 @@ pub enum Method {
     /// z-pass for each caster for which it is proven correct in this frame, z-fail for the others.
     #[default]
     Auto,
-    /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
-    /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    /// z-pass for all casters, for comparison. **Incorrect whenever a caster lies between the near rectangle
+    /// and the light**: part or all of the screen is then inverted.
     #[doc(hidden)]
     ZPass,
     /// z-fail for all casters: always right, for those too that the host does not draw

@@ -60,11 +60,10 @@ impl Default for ExactCountDescriptor<'_> {
 ///    kind of light pass works as after counting in the stencil
 ///    ([`light_pass_stencil`](crate::ShadowVolumeRenderer::light_pass_stencil) with its guard,
 ///    [`LightJoin`](crate::LightJoin), [`ShadowMask`](crate::ShadowMask));
-/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample a pixel as
-///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as
-///    `texture_multisampled_2d<f32>`, by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES).
-///    (Both are bound as floats that cannot be filtered.) Of several views as `texture_2d_array<f32>`, by
-///    [`wgsl::EXACT_LAYERS`](crate::wgsl::EXACT_LAYERS);
+/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample per pixel as
+///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as `texture_multisampled_2d<f32>`,
+///    by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES). (Both are bound as unfilterable floats.) Of
+///    several views as `texture_2d_array<f32>`, by [`wgsl::EXACT_LAYERS`](crate::wgsl::EXACT_LAYERS);
 /// 4. or [`ShadowMask::encode_counts`](crate::ShadowMask::encode_counts), for any later pass.
 ///
 /// GPU memory: four bytes per sample.
