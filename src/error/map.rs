@@ -20,7 +20,7 @@ pub struct BiasError {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapSettingsError {
-    /// The format is none that a map can have.
+    /// Maps do not support the format.
     #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
     Format(wgpu::TextureFormat),
     /// The bias is out of range.
@@ -228,7 +228,7 @@ pub enum PcfError {
         "MapKind::Atlas has no kind of light, so that all would be dark; pass LightKinds::ALL or at least one"
     )]
     NoLightKinds,
-    /// A prefix with which a name is none.
+    /// A prefix that does not form valid names.
     #[error(
         "the prefix of a module does not form valid WGSL names; pass letters, digits and underscores, not starting with a digit or with two underscores"
     )]

@@ -7,7 +7,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum TileSizeError {
     /// A size that is not a power of two, smaller than the smallest tile, or larger than a layer.
-    #[error("{field} = {texels} is no size of a tile; pass a power of two from {least} to {most}")]
+    #[error(
+        "{field} = {texels} is not a valid tile size; pass a power of two from {least} to {most}"
+    )]
     Size {
         /// The field.
         field: &'static str,
