@@ -2,10 +2,10 @@
 //! material's bind group. Runs without a window, and compares each light's visibility with exact ray casting.
 //!
 //! ```text
-//! cargo run --release --manifest-path examples/bevy/Cargo.toml -- target/bevy.png
+//! cargo run --release --ignore-rust-version --manifest-path examples/bevy/Cargo.toml -- target/bevy.png
 //! ```
 //!
-//! Rust older than 1.97.1 needs `--ignore-rust-version`, which Bevy's shader language asks for and does not use.
+//! `--ignore-rust-version` is for Rust older than 1.97.1, which the shader language of Bevy requires without using it.
 
 mod material;
 mod shadow;
