@@ -518,6 +518,7 @@ fn exact_count(gpu: &Gpu, label: Option<&str>, renderer: &Renderer) -> Result<Ex
         size: renderer.size(),
         depth_stencil_format: renderer.depth_stencil_format(),
         sample_count: renderer.look().samples,
+        ..Default::default()
     };
     Ok(ExactCount::new(&gpu.device, &descriptor)?)
 }
