@@ -1,4 +1,4 @@
-//! A host in full, from device to pixels: one box, one floor, one point light, one picture.
+//! A complete host, from device to pixels: one box, one floor, one point light, one picture.
 
 use shadows::glam::{Affine3A, Mat4, Vec3, camera::rh};
 use shadows::{mesh::Adjacency, wgpu, wgpu::util::DeviceExt as _, *};

@@ -2,28 +2,28 @@
 //!
 #![cfg_attr(doc, doc = include_str!("../docs/picture.md"))]
 //!
-//! The host owns the window, the device, the frame graph and the meshes. This crate takes the host's
-//! device, meshes and lights, and returns bind groups, WGSL and render passes. It never creates a
-//! device, submits, polls or blocks. It owns shadow textures, pipelines and scratch buffers, nothing else.
+//! The host owns the window, the device, the frame graph and the meshes. This crate takes the host's device,
+//! meshes and lights, and returns bind groups, WGSL and render passes. It never creates a device, submits,
+//! polls or blocks. It owns shadow textures, pipelines and scratch buffers, and nothing else.
 //!
-//! Guides: [`choosing`] a technique, [`adding`] the crate to an engine, and its known [`limits`].
+//! Guides: [`choosing`] a technique, [`adding`] the crate to an engine, and the known [`limits`].
 //!
 //! | | what it is | what it is for |
 //! |---|---|---|
-//! | [`CubeShadowMap`] | depth of the casters on six cube faces | a point light |
-//! | [`ShadowMap`] | depth of the casters on one square | a spot or a directional light |
+//! | [`CubeShadowMap`] | depth of casters on six cube faces | a point light |
+//! | [`ShadowMap`] | depth of casters on one square | a spot or a directional light |
 //! | [`ShadowAtlas`] | all lights of a scene as tiles of one texture | many lights of any kind in one bind group, cascades |
 //! | [`PcfSampler`] | the filters through which receivers read a map | one tap to contact hardening, without acne or seams |
 //! | [`ShadowVolumeRenderer`] | stencil shadow volumes | shadows exact to the pixel, for point and directional lights |
-//! | [`BlobShadow`] | an ellipsoid for each caster, with a computed penumbra | soft shadows of thousands of things whose shape does not matter |
+//! | [`BlobShadow`] | an ellipsoid for each caster, with a computed penumbra | soft shadows of thousands of objects whose shape does not matter |
 //! | [`PlanarShadow`] | casters projected onto planes | a floor or a wall as the only receiver, exact to the pixel |
-//! | [`PlanarSoftShadow`] | the same, averaged over points of an area light | soft shadows on one rectangle |
+//! | [`PlanarSoftShadow`] | the same, averaged over an area light | soft shadows on one rectangle |
 //! | [`ProjectedShadow`] | pictures of casters, projected onto receivers | few receivers; coloured and translucent casters |
-//! | [`mesh::Adjacency`] | welded edges and their triangles | what volumes are made from; any triangle mesh will do |
+//! | [`mesh::Adjacency`] | welded edges and their triangles | input of shadow volumes; any triangle mesh will do |
 //! | `reference` (feature) | exact visibility by ray casting in f64 | measuring the error of all of the above; light maps |
 //!
-//! Each type has the same three calls: `new` for what never changes, `prepare` once a frame for the CPU's
-//! part, and `encode` (into the host's encoder) or `render` (into the host's pass) for the GPU's.
+//! Each type has the same three calls: `new` for what never changes, `prepare` once per frame for the CPU's
+//! work, and `encode` (into the host's encoder) or `render` (into the host's pass) for the GPU's.
 //!
 //! # Dependencies
 //!
@@ -34,13 +34,13 @@
 //! ```
 //!
 //! Back ends (Vulkan, Metal, Direct3D 12, GL) are default features of wgpu. This crate enables none of them
-//! (except `webgpu` on the web), so without a dependency of your own on wgpu no adapter is found. The versions
-//! are wgpu 30 and glam 0.33, re-exported as `shadows::wgpu` and `shadows::glam`.
+//! (except `webgpu` on the web), so without your own dependency on wgpu, no adapter is found. The versions are
+//! wgpu 30 and glam 0.33, re-exported as `shadows::wgpu` and `shadows::glam`.
 //!
-//! # A host, complete
+//! # A complete host
 //!
-//! One triangle above a floor, its shadow by a map and by volumes. This test runs on wgpu's driverless device; in
-//! a real host only the creation of the device differs.
+//! One triangle above a floor, with its shadow from a map and from volumes. This example runs as a test on wgpu's
+//! driverless device; in a real host, only the creation of the device differs.
 //!
 //! ```
 //! use shadows::glam::{Affine3A, Mat4, Vec3, camera::rh};
@@ -149,23 +149,24 @@
 //!
 //! # Which one
 //!
-//! Shadow volumes are exact for any mesh: no resolution, no bias, no leaks. They cost the fill of the area
-//! that they draw on screen. Shadow maps cost their texels, whatever the screen shows, and are as exact as
-//! those texels are small. The example `compare` measures time and error of both on your own scene. More in
-//! [`choosing`]; `docs/numerics.md` in the repository explains why the results are right.
+//! Shadow volumes are exact for any mesh: no resolution, no bias, no leaks. Their cost is the fill of the
+//! area that they cover on screen. The cost of shadow maps is their texels, whatever the screen shows, and
+//! their accuracy depends on the size of those texels. The example `compare` measures time and error of both
+//! on your own scene. See [`choosing`] for more; `docs/numerics.md` in the repository explains why the
+//! results are correct.
 //!
-//! # What a version may add
+//! # Compatibility
 //!
 //! Errors, statistics and choices (enums of a descriptor) are `#[non_exhaustive]`: new variants and fields are
-//! not breaking changes. Make descriptors and frames with `..Default::default()` or from their `new`, so that
-//! a new field does not break your code. Lights, [`Bias`], [`mesh::Bounds`], the parameters of kernels,
+//! not breaking changes. Create descriptors and frames with `..Default::default()` or with their `new`, so that
+//! new fields do not break your code. Lights, [`Bias`], [`mesh::Bounds`], the parameters of kernels,
 //! [`CubeFace`], [`mesh::MeshKind`] and [`DepthConvention`] are exhaustive: hosts construct or match on them, and
-//! changing them is a breaking release.
+//! changing them requires a breaking release.
 //!
 //! # Features
 //!
-//! - `reference` (off): exact visibility in f64 for measuring error. Not for frames. It needs Rust 1.89;
-//!   everything else 1.88.
+//! - `reference` (off): exact visibility in f64, for measuring errors rather than rendering frames. Needs
+//!   Rust 1.89; everything else needs 1.88.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -185,6 +186,7 @@ pub use {glam, wgpu};
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
 /// [first]: https://docs.rs/crate/shadows/latest/source/examples/first_shadow.rs
+/// [front]: crate#a-complete-host
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../docs/adding.md")]
 pub mod adding {}

@@ -21,23 +21,22 @@ pub struct PointLight {
     pub position: Vec3,
     /// Distance beyond which the light has no effect; greater than 0.
     ///
-    /// Casters wholly beyond it are not drawn. A receiver beyond it is unlit by this light:
+    /// Casters that lie entirely beyond it are not drawn. A receiver beyond it is not lit by this light:
     /// [`PcfSampler`](crate::PcfSampler) returns visibility 0 there.
     pub range: f32,
-    /// Distance along the major axis at which the frusta of a [`CubeShadowMap`] begin; greater than
-    /// 0, less than `range`, and no less than 1.2e-38 of it. Shadow volumes do not use it.
+    /// Distance along the major axis at which the frusta of a [`CubeShadowMap`] begin; greater than 0, less
+    /// than `range`, and at least 1.2e-38 times `range`. Shadow volumes do not use it.
     ///
-    /// `None` (default) leaves it to the map. In the usual format, `Depth32Float`, that is 2^-24 of
-    /// the range: with infinite reverse-Z in floats a small value costs no precision (Upchurch and
-    /// Desbrun, "Tightening the Precision of Perspective Rendering", 2012). In fixed point it would,
-    /// and the map takes the square root of the format's step, 1/256 of the range for
-    /// `Depth16Unorm`, 1/4096 for `Depth24Plus`: a step at the range is then as wide as the
-    /// near plane is far from the light.
-    /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) has 2^-24 in every format.
+    /// `None` (default) lets the map choose. In the usual format, `Depth32Float`, that is 2^-24 of the range:
+    /// with infinite reverse-Z in floats a small value costs no precision (Upchurch and Desbrun, "Tightening
+    /// the Precision of Perspective Rendering", 2012). In fixed point it would, so the map uses the square
+    /// root of the format's step: 1/256 of the range for `Depth16Unorm`, 1/4096 for `Depth24Plus`. The depth
+    /// step at the range then equals the distance of the near plane.
+    /// [`LinearDistance`](crate::DepthEncoding::LinearDistance) uses 2^-24 in every format.
     ///
     /// Casters nearer than this are pulled onto that plane where the device has
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL, and so cast on all that is beyond it;
-    /// elsewhere they cast nothing. What receives before the plane is lit.
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL, and so cast on everything beyond it;
+    /// elsewhere they cast nothing. Receivers in front of the plane are lit.
     ///
     /// [`CubeShadowMap`]: crate::CubeShadowMap
     pub near: Option<f32>,
@@ -86,17 +85,17 @@ impl PointLight {
 pub struct SpotLight {
     /// Position in world space.
     pub position: Vec3,
-    /// Where it shines, of any length but 0.
+    /// The direction in which it shines, of any length but 0.
     pub direction: Vec3,
-    /// Angle from the direction to the cone's side, in radians; greater than 0, less than pi / 2.
-    /// The map's square is drawn around the cone. How light falls off toward the side is the
-    /// host's: the map knows shadows only, and what is outside it is lit.
+    /// Angle between the direction and the cone's side, in radians; greater than 0, less than pi / 2. The map
+    /// is a square around the cone. The falloff toward the side is up to the host: the map holds nothing but
+    /// shadows, and everything outside it is lit.
     pub half_angle: f32,
-    /// Distance beyond which the light has no effect; greater than 0. A receiver beyond it is
-    /// unlit by this light: visibility 0.
+    /// Distance beyond which the light has no effect; greater than 0. A receiver beyond it is not lit by this
+    /// light: visibility 0.
     pub range: f32,
-    /// Distance along the direction at which the shadow map's frustum begins. `None` (default)
-    /// leaves it to the map: see [`PointLight::near`].
+    /// Distance along the direction at which the shadow map's frustum begins. `None` (default) lets the map
+    /// choose: see [`PointLight::near`].
     pub near: Option<f32>,
 }
 
@@ -223,10 +222,10 @@ impl From<DirectionalLight> for Light {
 /// A light as a point of projective space: `w = 1` for a point light at `xyz`, `w = 0` for a
 /// directional light that shines *from* the direction `xyz` (of any length but 0).
 ///
-/// This is the form in which shadow volumes take their light, so that one code path serves both
-/// kinds (Everitt and Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002).
+/// Shadow volumes take lights in this form, so that one code path serves both kinds (Everitt and Kilgard,
+/// "Practical and Robust Stenciled Shadow Volumes", 2002).
 ///
-/// One is made from any kind of light, or by `try_from` from a vector, which refuses another `w`.
+/// It converts from any kind of light, and by `try_from` from a vector, which rejects any other `w`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HomogeneousLight(pub(crate) Vec4);
 
@@ -236,9 +235,8 @@ impl HomogeneousLight {
         Self(Vec4::new(position.x, position.y, position.z, 1.0))
     }
 
-    /// A light at a point of world space in f64, in a world whose coordinates are counted from
-    /// `origin`: see [`Caster::placed`](crate::Caster::placed). A directional light is the same from
-    /// everywhere.
+    /// A light at a point of world space in f64, for a host that renders relative to `origin`: see
+    /// [`Caster::placed`](crate::Caster::placed). A directional light does not depend on the origin.
     pub fn placed(position: DVec3, origin: DVec3) -> Self {
         Self::point((position - origin).as_vec3())
     }

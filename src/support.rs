@@ -1,4 +1,4 @@
-//! What an adapter offers, what of it is worth asking for, and what is used where it is missing.
+//! What an adapter offers, which of its features are worth requesting, and what replaces missing ones.
 
 use std::fmt;
 use std::future::Future as _;
@@ -7,25 +7,26 @@ use std::task::{Context, Poll, Waker};
 
 use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 
-/// The abilities of an adapter that matter to shadows.
+/// The capabilities of an adapter that matter to shadows.
 ///
-/// Everything in this crate runs with WebGPU's default limits and without any feature. For each field that
-/// is `false`, [`fallbacks`](Self::fallbacks) tells what is used instead.
+/// Everything in this crate runs with WebGPU's default limits and without any features. For each field that
+/// is `false`, [`fallbacks`](Self::fallbacks) names the replacement.
 ///
 /// # wgpu's GL back end
-/// It has restrictions that the fields do not express:
-/// - It converts clip z to `2 z - w`, which loses most of the precision of reverse-Z, and everything
-///   farther away than 2^23 near planes. Shadow maps avoid this: their fragments write the depth, so they hold the
-///   same values as elsewhere, but have no early depth test. A host that draws into a map itself
-///   ([`encode_with`](crate::ShadowAtlas::encode_with)) must do the same. The host's own depth buffer has
-///   the loss, and shadow volumes depend on it: of 260 random scenes that are exact elsewhere, 257
-///   are exact there (`tests/volume/random.rs`). 1.4 % of the pixels of receivers a million near planes away are
-///   wrong, and 0.07 % (at light caps) in a host that does not compute its positions with
-///   [`wgsl::POSITION`](crate::wgsl::POSITION).
-/// - Textures of several samples cannot be read in shaders: [`LightJoin`](crate::LightJoin) and
+/// This back end has restrictions that the fields do not express:
+/// - It converts clip z to `2 z - w`, which loses most of the precision of reverse-Z, and everything beyond 2^23
+///   times the near distance. Shadow maps avoid this: their fragment shaders write the depth, so they hold the
+///   same values as elsewhere, but without an early depth test. A host that draws into a map itself
+///   ([`encode_with`](crate::ShadowAtlas::encode_with)) must do the same. The host's own depth buffer suffers the
+///   loss, and shadow volumes depend on it: of 260 random scenes that are exact elsewhere, 257 are exact there
+///   (`tests/volume/random.rs`). On receivers a million near distances away, 1.4 % of the pixels are wrong; in a
+///   host that does not compute its positions with [`wgsl::POSITION`](crate::wgsl::POSITION), 0.07 % are (at light
+///   caps).
+/// - Shaders cannot read multisampled textures: [`LightJoin`](crate::LightJoin) and
 ///   [`ExactCount`](crate::ExactCount) take one sample.
-/// - Cube maps cannot be read as cubes ([`CubeShadowMap::view`](crate::CubeShadowMap::view)) and have a
-///   spare layer, as a [`ShadowMask`](crate::ShadowMask) may, and depth is not copied ([`StaticLayers`](crate::StaticLayers)).
+/// - Cube maps cannot be read as cubes ([`CubeShadowMap::view`](crate::CubeShadowMap::view)) and have an unused
+///   additional layer, as a [`ShadowMask`](crate::ShadowMask) may. Depth cannot be copied
+///   ([`StaticLayers`](crate::StaticLayers)).
 ///
 /// ```
 /// # fn host(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
@@ -40,40 +41,40 @@ use wgpu::{AdapterInfo, Backend, DownlevelFlags, Features, Limits};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Support {
-    /// Depth clip control: shadow volumes under projections with a finite far plane, and casters in
-    /// maps that are nearer to their light than its near plane.
+    /// Depth clip control: for shadow volumes under projections with a finite far plane, and for casters
+    /// nearer to a map's light than its near plane.
     pub depth_clip_control: bool,
-    /// Clip distances: under projections with a finite far plane the faces of shadow volumes are cut at the
-    /// near plane, as the host's surfaces are. Without, up to 90 % of the interior pixels of single
-    /// pictures were wrong on an NVIDIA H200 where the near plane cuts a caster (`docs/gpu.md`).
+    /// Clip distances: under projections with a finite far plane, the faces of shadow volumes are clipped at
+    /// the near plane, as the host's surfaces are. Without them, up to 90 % of the interior pixels of single
+    /// pictures were wrong on an NVIDIA H200 where the near plane intersects a caster (`docs/gpu.md`).
     pub clip_distances: bool,
-    /// `Depth32FloatStencil8`: stencil beside float depth.
+    /// `Depth32FloatStencil8`: stencil together with float depth.
     pub depth32float_stencil8: bool,
-    /// Blending in `R32Float`: shadow volumes that count without wrapping
+    /// Blending in `R32Float`: for shadow volumes that count without wrapping
     /// ([`Counter::Exact`](crate::Counter::Exact)).
     pub float32_blending: bool,
     /// Multiview: shadow volumes of several views in one pass
     /// ([`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)).
     pub multiview: bool,
-    /// Storage buffers in vertex shaders: shadow volumes that pull their vertices.
+    /// Storage buffers in vertex shaders: for shadow volumes that pull their vertices.
     pub vertex_storage: bool,
-    /// Compute shaders with indirect draws: silhouettes found on the GPU.
+    /// Compute shaders with indirect draws: for finding silhouettes on the GPU.
     pub compute: bool,
-    /// Samplers with a border: flat maps are lit beyond their edge without a test in the shader.
+    /// Samplers with a border colour: flat maps are lit beyond their edge without a test in the shader.
     pub clamp_to_border: bool,
-    /// Texture gathers: square kernels read four texels of a map at once. Every device has them
-    /// but those of the GL back end without compute shaders, which are WebGL 2 and OpenGL ES 3.0.
+    /// Texture gathers: square kernels read four texels of a map at once. All devices have them except those
+    /// of the GL back end without compute shaders, that is WebGL 2 and OpenGL ES 3.0.
     pub gather: bool,
     limits: Limits,
 }
 
-/// What is missing from an adapter and what is done instead.
+/// A capability that an adapter lacks, and its replacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Fallback {
-    /// The missing ability.
+    /// The missing capability.
     pub missing: &'static str,
-    /// What is used in its place.
+    /// What replaces it.
     pub instead: &'static str,
 }
 
@@ -91,7 +92,7 @@ const COMPUTE: DownlevelFlags =
 pub(crate) const STORAGE_BUFFERS: u32 = 7;
 
 impl Support {
-    /// Asks an adapter, before the host creates its device.
+    /// Queries an adapter, before the host creates its device.
     pub fn of_adapter(adapter: &wgpu::Adapter) -> Self {
         Self::new(
             adapter.features(),
@@ -123,10 +124,10 @@ impl Support {
         }
     }
 
-    /// The depth-stencil format to make the host's buffer of, and to name in every descriptor of
-    /// shadow volumes: `Depth32FloatStencil8`, their default, where the adapter has it and the device
-    /// is created with [`features`](Self::features); otherwise `Depth24PlusStencil8`, which every device
-    /// has. [`ShadowVolumeDescriptor::depth_stencil_format`](crate::ShadowVolumeDescriptor::depth_stencil_format)
+    /// The depth-stencil format to use for the host's buffer, and in every descriptor of shadow volumes:
+    /// `Depth32FloatStencil8`, their default, if the adapter has it (the device must then be created with
+    /// [`features`](Self::features)); otherwise `Depth24PlusStencil8`, which every device has.
+    /// [`ShadowVolumeDescriptor::depth_stencil_format`](crate::ShadowVolumeDescriptor::depth_stencil_format)
     /// states what that costs.
     pub fn depth_stencil_format(&self) -> wgpu::TextureFormat {
         match self.depth32float_stencil8 {
@@ -135,7 +136,7 @@ impl Support {
         }
     }
 
-    /// The features to ask for; never more than the adapter has.
+    /// The features to request; never more than the adapter has.
     pub fn features(&self) -> Features {
         [
             (self.depth_clip_control, Features::DEPTH_CLIP_CONTROL),
@@ -163,7 +164,7 @@ impl Support {
         }
     }
 
-    /// What is missing, and what is done instead. Empty where everything is there.
+    /// What is missing, and what replaces it. Empty if nothing is missing.
     pub fn fallbacks(&self) -> Vec<Fallback> {
         [
             (

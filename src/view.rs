@@ -1,4 +1,4 @@
-//! The host's camera, as far as shadows need it: one matrix and its depth convention.
+//! The host's camera, reduced to what shadows need: one matrix and its depth convention.
 
 use glam::{DMat4, DVec3, DVec4, Mat4, Vec4Swizzles};
 
@@ -6,15 +6,15 @@ use crate::error::ViewError;
 
 /// How the host's projection maps distance to depth.
 ///
-/// WebGPU's clip space is `0 <= z <= w`, y up. Right-handed or left-handed view spaces both work:
-/// only the product `clip_from_world` counts.
+/// WebGPU's clip space is `0 <= z <= w`, y up. Right-handed or left-handed view spaces both work: only the
+/// product `clip_from_world` matters.
 ///
 /// Exhaustive, because a host's own projection depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DepthConvention {
-    /// 1 at the near plane, 0 at infinity: clip z is `near` for every point. The convention to
-    /// choose where there is a choice (Lengyel, "Projection Matrix Tricks", 2007; Upchurch and
-    /// Desbrun, 2012): a vertex at infinity lands at exactly z = 0 and nothing is clipped far.
+    /// 1 at the near plane, 0 at infinity: clip z is `near` for every point. Choose it if you can (Lengyel,
+    /// "Projection Matrix Tricks", 2007; Upchurch and Desbrun, 2012): a vertex at infinity lands exactly at z
+    /// = 0, and nothing is clipped at the far end.
     #[default]
     InfiniteReverse,
     /// 1 at the near plane, 0 at a finite far plane. Shadow volumes then need the device feature
@@ -26,7 +26,7 @@ pub enum DepthConvention {
 }
 
 impl DepthConvention {
-    /// The comparison by which a fragment strictly nearer than the stored depth passes.
+    /// The depth comparison that passes fragments strictly nearer than the stored depth.
     pub fn nearer(self) -> wgpu::CompareFunction {
         match self {
             Self::Standard => wgpu::CompareFunction::Less,
@@ -34,7 +34,7 @@ impl DepthConvention {
         }
     }
 
-    /// The comparison by which a fragment as near as the stored depth, or nearer, passes.
+    /// The depth comparison that passes fragments nearer than the stored depth or equal to it.
     pub fn nearer_or_equal(self) -> wgpu::CompareFunction {
         match self {
             Self::Standard => wgpu::CompareFunction::LessEqual,
@@ -42,7 +42,7 @@ impl DepthConvention {
         }
     }
 
-    /// The depth that means "nothing drawn here", to clear a depth buffer with.
+    /// The value to clear a depth buffer with.
     pub fn clear_depth(self) -> f32 {
         match self {
             Self::Standard => 1.0,
@@ -50,7 +50,7 @@ impl DepthConvention {
         }
     }
 
-    /// Whether what lies beyond the far plane would be clipped without
+    /// Whether geometry beyond the far plane would be clipped without
     /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL).
     pub fn clips_far(self) -> bool {
         self != Self::InfiniteReverse
@@ -104,12 +104,12 @@ impl View {
         })
     }
 
-    /// A view from a matrix in f64, in a world whose coordinates are counted from `origin`: see
+    /// A view from a matrix in f64, for a host that renders relative to `origin`: see
     /// [`Caster::placed`](crate::Caster::placed). The host draws with the view's own
     /// [`clip_from_world`](Self::clip_from_world).
     ///
     /// # Errors
-    /// As [`new`](Self::new), for the matrix from `origin`, rounded to f32.
+    /// Like [`new`](Self::new), for the matrix relative to `origin`, rounded to f32.
     pub fn placed(
         clip_from_world: DMat4,
         origin: DVec3,
@@ -134,8 +134,7 @@ impl View {
         self.eye
     }
 
-    /// The corners of the near rectangle in world space: x, y of clip space (-1,-1), (1,-1),
-    /// (1,1), (-1,1).
+    /// The corners of the near rectangle in world space, in the order (-1,-1), (1,-1), (1,1), (-1,1).
     pub fn near_corners(&self) -> [DVec3; 4] {
         self.near_corners
     }
@@ -191,7 +190,7 @@ impl View {
 
     /// A sphere around the near rectangle: centre and radius in world space.
     ///
-    /// Every ray along which the host sees something starts inside it.
+    /// Every ray from the eye to something visible starts inside it.
     pub fn near_sphere(&self) -> (DVec3, f64) {
         let centre = self.near_corners.iter().sum::<DVec3>() / 4.0;
         let radius = self

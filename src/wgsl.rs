@@ -1,12 +1,12 @@
-//! The shaders, as text.
+//! WGSL source text for the host's own shaders.
 //!
-//! Everything a host may see is prefixed `shadows_` (functions) or `Shadows` (types), takes
-//! textures and samplers as parameters, and works pasted into a host's own shader.
+//! All public names are prefixed with `shadows_` (functions) or `Shadows` (types). Functions take textures
+//! and samplers as parameters, and work when pasted into a host's own shader.
 
-/// Vertex positions in the arithmetic that shadow volumes use, so that depths come out bit-equal:
-/// `shadows_clip_position(clip_from_world, world_from_object, position)`. Give the vertex
-/// output `@invariant @builtin(position)`, in a struct that is not the fragment stage's input, too: GLSL ES
-/// has that word for outputs alone, and naga writes it wherever it stands.
+/// Computes vertex positions with the same arithmetic as shadow volumes, so that depths are bit-identical:
+/// `shadows_clip_position(clip_from_world, world_from_object, position)`. Give the vertex output
+/// `@invariant @builtin(position)`, in a struct that is not also the fragment stage's input: GLSL ES allows
+/// that keyword on outputs only, but naga writes it in both places.
 pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 
 /// Reads a [`ShadowMask`](crate::ShadowMask): `shadows_mask(mask, pixel, light)`, 1 lit, 0 in shadow. Of a mask
@@ -14,27 +14,26 @@ pub const POSITION: &str = include_str!("../shaders/position.wgsl");
 /// [`ShadowMaskDescriptor::multiview_mask`](crate::ShadowMaskDescriptor::multiview_mask).
 pub const MASK: &str = include_str!("../shaders/volume_mask.wgsl");
 
-/// Any of this crate's WGSL as a module for naga_oil, which hosts name by `path`, e.g.
-/// `shadows::pcf`:
+/// Any of this crate's WGSL as a module for naga_oil, named by `path`, such as `shadows::pcf`:
 ///
 /// ```
 /// let module = shadows::wgsl::import_module("shadows::mask", shadows::wgsl::MASK);
 /// assert!(module.starts_with("#define_import_path shadows::mask\n"));
 /// ```
 ///
-/// and then `#import shadows::mask::shadows_mask` in the host's shader. Two samplers for the same kind
-/// of map share their functions' names when pasted, and are two modules when imported. The text is
-/// no plain WGSL: naga itself refuses the first line.
+/// and then `#import shadows::mask::shadows_mask` in the host's shader. Two samplers for the same kind of map
+/// have functions of the same names, which clash when pasted but not as separate modules. The text is not
+/// plain WGSL: naga itself rejects the first line.
 pub fn import_module(path: &str, wgsl: &str) -> String {
     format!("#define_import_path {path}\n{wgsl}")
 }
 
-/// Reads an [`ExactCount`](crate::ExactCount) of one sample a pixel:
+/// Reads an [`ExactCount`](crate::ExactCount) with one sample per pixel:
 /// `shadows_exact_visibility(counts, pixel)`, 1 lit, 0 in shadow.
 pub const EXACT: &str = include_str!("../shaders/volume_exact.wgsl");
 
-/// Reads an [`ExactCount`](crate::ExactCount) of several samples a pixel:
-/// `shadows_exact_lit_samples(counts, pixel)`, a bit for each sample, to be a fragment shader's
+/// Reads an [`ExactCount`](crate::ExactCount) with several samples per pixel:
+/// `shadows_exact_lit_samples(counts, pixel)`, one bit per sample, for use as a fragment shader's
 /// `@builtin(sample_mask)`.
 pub const EXACT_SAMPLES: &str = include_str!("../shaders/volume_exact_samples.wgsl");
 
@@ -45,7 +44,8 @@ pub const EXACT_LAYERS: &str = include_str!("../shaders/volume_exact_layers.wgsl
 
 /// Reads a [`PlanarSoftShadow`](crate::PlanarSoftShadow) through bindings of your own:
 /// `shadows_planar_soft(counts, linear, rectangle, world)`, 1 lit, 0 in shadow.
-/// [`PlanarSoftShadow::wgsl_module`](crate::PlanarSoftShadow::wgsl_module) has it with the bindings declared.
+/// [`PlanarSoftShadow::wgsl_module`](crate::PlanarSoftShadow::wgsl_module) returns it with the bindings
+/// declared.
 pub const PLANAR_SOFT: &str = include_str!("../shaders/planar_soft.wgsl");
 
 /// Depth of casters on one face of a cube map, or on a flat map.

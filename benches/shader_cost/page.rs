@@ -11,25 +11,25 @@ const HEAD: &str = "# What the shaders cost on a GPU
 cargo bench --bench shader_cost -- --page docs/shader-cost.md
 ```
 
-Counted, not timed: Mesa's RADV compiles every shader for RDNA2 on its null device, as wgpu has it
-compiled on Vulkan (naga's bounds checks, loops bounded), and the instructions are those of its assembly.
-The same Mesa gives the same counts on any machine, so a change of one instruction is seen; CI compares
-them with what is kept for its version of Mesa. What they do not say: how long textures take, what is in
-a cache, how pixels diverge.
+Counted, not timed: Mesa's RADV compiles every shader for RDNA2 on its null device, in the same way as wgpu
+does on Vulkan (with naga's bounds checks and bounded loops), and the instructions are those of its assembly.
+The same Mesa gives the same counts on any machine, so a change by one instruction is detected; CI compares
+them with those recorded for its version of Mesa. They do not cover the latency of textures, caches, or
+divergence between pixels.
 
-- **VALU**: vector instructions of the path that nearly all pixels take, a loop's times its trips. What
-  only pixels at an edge of the map or at a plane's horizon go through is left out.
+- **VALU**: vector instructions on the path that nearly all pixels take, with loops multiplied by their
+  iterations. Code that only runs for pixels at an edge of the map or at a plane's horizon is left out.
 - **texture**: texture instructions on the same path; a gather of four texels is one.
-- **waves**: how many waves of 32 a SIMD holds at a time (32 at best), from the vector registers. More of
-  them hide more of the textures' latency.
+- **waves**: how many waves of 32 a SIMD holds at a time (at most 32), according to the vector registers. More
+  waves hide more of the textures' latency.
 
 ";
 
 const RECEIVERS: &str = "## Receivers
 
-Over a Lambert shader with one light that has no shadow. *Normal given*: the host passes its geometric
-normal, which saves the derivatives. `peer` rows do what other engines' shaders do, in WGSL of our own.
-What all of them get wrong is measured in [speed-vs-error.md](speed-vs-error.md#instructions-against-error).
+In addition to a Lambert shader with one light and no shadow. *Normal given*: the host passes its geometric
+normal, which saves the derivatives. `peer` rows do what other engines' shaders do, in WGSL of our own. For
+the errors of all of them, see [speed-vs-error.md](speed-vs-error.md#instructions-against-error).
 
 | | VALU | normal given | texture | VGPRs | waves |
 |---|--:|--:|--:|--:|--:|

@@ -1,4 +1,4 @@
-//! What blob shadows are made from.
+//! Parameters of blob shadows.
 
 use super::records::STRIDE;
 use crate::error::BlobShadowError;
@@ -9,24 +9,25 @@ const MOST_STRIPS: u32 = 64;
 /// Lights and views, at most, as uniform buffers of 64 KiB hold them.
 pub(super) const MOST: u32 = 256;
 
-/// How to make a [`BlobShadow`](crate::BlobShadow).
+/// Parameters of a [`BlobShadow`](crate::BlobShadow).
 #[derive(Clone, Copy, Debug)]
 pub struct BlobShadowDescriptor<'a> {
-    /// Names the GPU objects, after "shadows blobs". Default none.
+    /// Name of its GPU objects in debuggers, after "shadows blobs". Default none.
     pub label: Option<&'a str>,
-    /// Lights of a frame, at most: 1 (default) to 256, and to what the device's
-    /// `max_uniform_buffer_binding_size` holds of 256 bytes each where `receivers` is true: 64 in 16 KiB.
+    /// Maximum number of lights per frame: 1 (default) to 256. If `receivers` is true, 256 bytes for each
+    /// must fit the device's `max_uniform_buffer_binding_size`: 64 lights in 16 KiB.
     pub lights: u32,
-    /// Views of a frame, at most: 1 (default) to 256. Only decals are drawn for a view.
+    /// Maximum number of views per frame: 1 (default) to 256. Only decals use views.
     pub views: u32,
-    /// Strips into which a light's disk is divided to find how much of it is covered: 1 to 64, default 6.
-    /// The error of the area falls with their number (`docs/survey.md` has it), and each costs a square root
-    /// and two divisions a pixel and blob.
+    /// Number of strips into which a light's disk is divided to compute how much of it is covered: 1 to 64,
+    /// default 6. The error in area falls with their number (see `docs/survey.md`); each costs a square root
+    /// and two divisions per pixel and blob.
     pub strips: u32,
-    /// How decals are drawn; `None` (default) if they are not.
+    /// How to draw decals; `None` (default) for no decals.
     pub decals: Option<BlobDecalDescriptor>,
-    /// Whether the host's shaders read the blobs, by [`BlobShadow::wgsl_module`](crate::BlobShadow::wgsl_module).
-    /// Default true. It takes storage buffers, which WebGL 2 has not.
+    /// Whether the host's shaders read the blobs through
+    /// [`BlobShadow::wgsl_module`](crate::BlobShadow::wgsl_module). Default true. Requires storage buffers, which
+    /// WebGL 2 lacks.
     pub receivers: bool,
 }
 
@@ -46,12 +47,12 @@ impl Default for BlobShadowDescriptor<'_> {
 /// The pass in which decals are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlobDecalDescriptor {
-    /// Format of the pass's only colour target, which is multiplied with the visibility in its red, green and
-    /// blue; alpha stays as it is. Default `R8Unorm`: a mask that the host clears to 1 and reads where it adds
-    /// the light. Where the picture itself is the target, ambient light darkens, too.
+    /// Format of the pass's only colour target, whose red, green and blue are multiplied by the visibility;
+    /// alpha is unchanged. Default `R8Unorm`: a mask that the host clears to 1 and reads when it adds the
+    /// light. If the target is the picture itself, ambient light is darkened, too.
     pub target_format: wgpu::TextureFormat,
     /// Format of the pass's depth-stencil attachment, if it has one (default none). It is neither tested nor
-    /// written, so it may be read-only and the texture that is read.
+    /// written, so it may be read-only, and may be the texture that decals read.
     pub depth_stencil_format: Option<wgpu::TextureFormat>,
 }
 

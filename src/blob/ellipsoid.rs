@@ -1,4 +1,4 @@
-//! An ellipsoid that casts a shadow in a caster's place.
+//! The ellipsoid that stands in for a caster.
 
 use glam::{DMat3, DVec3, Vec3};
 
@@ -9,7 +9,7 @@ const SAME_AREA: f64 = std::f64::consts::FRAC_2_SQRT_PI;
 /// How much wider an ellipsoid of a box's volume is than the box: (6 / pi)^(1/3).
 const SAME_VOLUME: f64 = 1.240_700_981_798_799_8;
 
-/// An ellipsoid that blocks light in a caster's place, in world space.
+/// An ellipsoid that blocks light in place of a caster, in world space.
 ///
 /// ```
 /// use shadows::{Blob, glam::Vec3};
@@ -25,13 +25,13 @@ const SAME_VOLUME: f64 = 1.240_700_981_798_799_8;
 pub struct Blob {
     /// Its centre.
     pub centre: Vec3,
-    /// Where a linear map takes the axes of the unit sphere, which it makes the ellipsoid: semi-axes, if they
-    /// are orthogonal, which they need not be.
+    /// The columns of the matrix that maps the unit sphere to the ellipsoid: its semi-axes, if they are
+    /// orthogonal, which they need not be.
     ///
-    /// An ellipsoid that is thinner in a direction than 1/1024 of its largest extent is taken for one of
-    /// that thickness, so what is flat casts a shadow. What has no area (a line, a point) casts none.
+    /// An ellipsoid thinner than 1/1024 of its largest extent is treated as having that thickness, so that
+    /// flat ones cast a shadow. Degenerate ones without an area (a line, a point) cast none.
     pub axes: [Vec3; 3],
-    /// The part of the light that it blocks, 0 (none) to 1 (all).
+    /// The fraction of light that it blocks, from 0 (none) to 1 (all).
     pub opacity: f32,
 }
 
@@ -45,14 +45,14 @@ impl Blob {
         }
     }
 
-    /// The ellipsoid for a caster, from its mesh's bounds and its transform. Of a mesh at many places
-    /// ([`HostInstances`](crate::HostInstances)) it is one around them all.
+    /// The ellipsoid for a caster, from its mesh's bounds and its transform. For an instanced mesh
+    /// ([`HostInstances`](crate::HostInstances)) it is one around all instances.
     ///
-    /// Its centre is that of the bounds. If the mesh comes nowhere near the corners of its bounds, as an
-    /// ellipsoid does not, it is the one that touches the bounds' sides. If the mesh reaches into the corners, as
-    /// a box does, it is wider: by 1.24, so that it has the box's volume, or of a plate by 1.13, so that it has the
-    /// plate's area. Between the two, which is which is judged by the largest distance of a vertex from the centre,
-    /// and what is a plate by its two smaller extents.
+    /// Its centre is that of the bounds. If the mesh stays away from the corners of its bounds, as an ellipsoid
+    /// does, it touches the sides of the bounds. If the mesh reaches into the corners, as a box does, it is wider:
+    /// by a factor of 1.24, which gives it the volume of the box, or for a plate by 1.13, which gives it the area
+    /// of the plate. The largest distance of a vertex from the centre decides between the two cases, with a smooth
+    /// transition, and the two smaller extents decide what counts as a plate.
     pub fn of_caster(caster: &Caster) -> Self {
         let bounds = caster.mesh.bounds();
         let reached = caster.mesh.radius_under(&DMat3::IDENTITY);
@@ -79,7 +79,7 @@ impl Blob {
         }
     }
 
-    /// The same, `factor` times as large.
+    /// The same ellipsoid, scaled by `factor`.
     #[must_use]
     pub fn scaled(self, factor: f32) -> Self {
         Self {

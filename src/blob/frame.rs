@@ -1,23 +1,23 @@
-//! What blob shadows are told each frame.
+//! The input of blob shadows for each frame.
 
 use super::ellipsoid::Blob;
 use crate::error::{BlobShadowError, LightError};
 use crate::mesh::Caster;
 use crate::{HomogeneousLight, View};
 
-/// A light with a size, and how far its shadows are seen.
+/// A light with a size, and the reach of its shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlobLight {
-    /// Where it is. A spot's cone is the host's.
+    /// The light. Applying a spot's cone is up to the host.
     pub light: HomogeneousLight,
-    /// Radius in world units of the disk that shines, which faces each receiver; of a directional light the
-    /// tangent of its angular radius (the sun's is 0.0047). At least 0. One that is seen smaller than 1/4096 of its
-    /// distance counts as that large: its penumbra is then hard for the eye, and there is a width to divide by.
+    /// Radius of the luminous disk in world units, which faces each receiver; for a directional light, the tangent
+    /// of its angular radius (0.0047 for the sun). At least 0. A radius below 1/4096 of the light's distance is
+    /// treated as that size, which looks hard and avoids a division by zero.
     pub radius: f32,
-    /// How far from a caster its shadow is seen, in world units, counted from a sphere around its ellipsoid;
-    /// greater than 0. The shadow is whole up to three quarters of it, fades, and is gone at its end. Decals
-    /// cover no more than this, so a short reach is a cheap one. More than 1e16 counts as that, which `f32` can
-    /// still square and add up.
+    /// How far a caster's shadow extends, in world units, measured from a sphere around its ellipsoid; greater
+    /// than 0. The shadow has full strength up to three quarters of this distance, then fades to nothing at its
+    /// end. Decals cover no more than this, so a short reach is cheap. Values above 1e16 are treated as 1e16,
+    /// which `f32` can still square and add up.
     pub reach: f32,
 }
 
@@ -34,7 +34,7 @@ impl BlobLight {
     /// Checks that its numbers are in range.
     ///
     /// # Errors
-    /// [`BlobShadowError`] names what is wrong, of light 0.
+    /// [`BlobShadowError`] names what is wrong, as that of light 0.
     pub fn validate(&self) -> Result<(), BlobShadowError> {
         self.validate_as(0)
     }
@@ -57,15 +57,15 @@ impl BlobLight {
 /// One frame of a [`BlobShadow`](crate::BlobShadow).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BlobFrame<'a> {
-    /// As many as [`BlobShadowDescriptor::lights`](crate::BlobShadowDescriptor::lights) at most. All blobs
-    /// cast shadows from each.
+    /// At most [`BlobShadowDescriptor::lights`](crate::BlobShadowDescriptor::lights). All blobs cast shadows
+    /// from each of them.
     pub lights: &'a [BlobLight],
-    /// The cameras that decals are drawn for, as many as
-    /// [`BlobShadowDescriptor::views`](crate::BlobShadowDescriptor::views) at most.
+    /// The cameras that decals are drawn for, at most
+    /// [`BlobShadowDescriptor::views`](crate::BlobShadowDescriptor::views).
     pub views: &'a [View],
-    /// Casters, each of which becomes [`Blob::of_caster`]. Their layers and owners count for nothing here.
+    /// Casters, each of which becomes [`Blob::of_caster`]. Their layers and owners are ignored.
     pub casters: &'a [Caster],
-    /// Ellipsoids besides, numbered after the casters.
+    /// Additional ellipsoids, numbered after the casters.
     pub blobs: &'a [Blob],
 }
 

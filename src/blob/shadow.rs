@@ -14,34 +14,34 @@ use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
 
-/// Soft shadows of thousands of casters, each taken for an ellipsoid.
+/// Soft shadows of thousands of casters, each approximated by an ellipsoid.
 ///
-/// How much of a light's disk an ellipsoid covers is computed at each receiver, analytically: no texture, no
-/// resolution, no bias, and the penumbra that the light's size and distance make. The wrong thing is the
-/// shape. Of a caster that is an ellipsoid the shadow is right to a hundredth; of a box it is a box's only from
-/// afar; `docs/survey.md` has the figures.
+/// The share of a light's disk that an ellipsoid covers is computed analytically at each receiver: there is no
+/// texture, no resolution and no bias, and the penumbra follows from the light's size and distance. What is
+/// approximate is the shape. For a caster that is an ellipsoid, the shadow is accurate to a hundredth; that of
+/// a box looks like a box's only from afar. `docs/survey.md` has the figures.
 ///
-/// The shadows of several blobs are multiplied: right where they cover parts of the light independently, too dark
-/// by up to a quarter where two cover the same half of it, too light by as much where they cover
-/// opposite halves. (Area overlap of a light and a blocking sphere as the measure of a soft shadow: Oat and
-/// Sander, "Ambient Aperture Lighting", 2007; here for ellipsoids, by quadrature.)
+/// The shadows of several blobs are multiplied: correct if they cover parts of the light independently, too dark
+/// by up to a quarter if two cover the same half of it, and too light by as much if they cover opposite halves.
+/// (Area overlap of a light and a blocking sphere as the measure of a soft shadow: Oat and Sander, "Ambient
+/// Aperture Lighting", 2007; here for ellipsoids, by quadrature.)
 ///
 /// # Two ways to apply it
 ///
 /// - **Decals** ([`render`](Self::render)): one instanced draw for all blobs, over the host's depth, which
-///   multiplies a target. Each blob costs the pixels that its shadow can reach. For thousands.
+///   multiplies a target. Each blob costs only the pixels that its shadow can reach. For thousands of blobs.
 /// - **A function** ([`wgsl_module`](Self::wgsl_module)): `shadows_blob_visibility(light, position)` for the
-///   host's shader, which needs no depth and no pass, and asks every blob at every pixel. For dozens.
+///   host's shader, which needs no depth buffer and no pass, but evaluates every blob at every pixel. For
+///   dozens of blobs.
 ///
-/// A caster's own surface lies in and about its ellipsoid, and what of it faces away from the light is dark
-/// there. Draw decals before the casters are in the depth, or ask `shadows_blob_visibility_of(light, position,
-/// own)` on a caster, which leaves its own blob out.
+/// A caster's own surface lies in and around its ellipsoid, which darkens the parts of it that face away from
+/// the light. Draw decals before the casters are in the depth buffer, or call
+/// `shadows_blob_visibility_of(light, position, own)` for casters, which leaves out their own blob.
 ///
-/// # What is written again
+/// # What is uploaded
 ///
-/// Casters that are as they were, at the place in the list where they were, are neither checked nor computed again;
-/// ellipsoids, lights and views that are as they were are not uploaded. Of a frame in which nothing has changed
-/// nothing is.
+/// Unchanged casters, at the same place in the list, are neither checked nor computed again; unchanged ellipsoids,
+/// lights and views are not uploaded. In a frame without changes, nothing is uploaded.
 #[derive(Debug)]
 pub struct BlobShadow {
     label: String,
@@ -62,7 +62,7 @@ pub struct BlobShadow {
 }
 
 impl BlobShadow {
-    /// Makes pipeline and buffers.
+    /// Creates the pipelines and buffers.
     ///
     /// # Errors
     /// [`BlobShadowError`] if a count or a format is out of range.
@@ -98,12 +98,12 @@ impl BlobShadow {
         })
     }
 
-    /// Finds what has changed and stages it. (Nothing goes through the queue, which is there as in every
-    /// other `prepare`.)
+    /// Finds what has changed and stages it. (Nothing is written through the queue, which is a parameter only
+    /// because every `prepare` takes one.)
     ///
     /// # Errors
-    /// [`BlobShadowError`] if a light, a caster or a blob is out of range or there are too many; what was
-    /// prepared before then stays.
+    /// [`BlobShadowError`] if a light, a caster or a blob is out of range, or if there are too many; the
+    /// previous result then remains in force.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -149,28 +149,29 @@ impl BlobShadow {
         Ok(())
     }
 
-    /// Records what the last [`prepare`](Self::prepare) found: copies to the GPU, once. What is recorded must
-    /// be submitted, before what draws decals or reads the blobs.
+    /// Records the copies to the GPU that the last [`prepare`](Self::prepare) staged, once. They must be
+    /// submitted before any work that draws decals or reads the blobs.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if self.uploads.record(encoder) {
             self.submissions.watch(encoder);
         }
     }
 
-    /// Takes nothing for written: the next [`prepare`](Self::prepare) uploads everything. For a host that has lost
-    /// what was recorded in a way that cannot be seen from here: a submission that failed. Until then
-    /// [`render`](Self::render) is [`BlobRenderError::NotEncoded`].
+    /// Makes the next [`prepare`](Self::prepare) upload everything again, for a host that has lost recorded work
+    /// in a way that cannot be detected here, such as a failed submission. Until that is encoded,
+    /// [`render`](Self::render) returns [`BlobRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
         self.prepared = None;
         self.forget();
     }
 
-    /// A bind group by which decals read the host's depth: that of what is to be darkened, for as long as the
-    /// host uses this texture. Its whole picture is taken for what the view shows.
+    /// A bind group through which decals read the host's depth texture, which holds the surfaces to be
+    /// darkened. It remains valid as long as the host uses this texture. The whole texture must correspond to
+    /// the view.
     ///
     /// # Errors
-    /// [`BlobShadowError::Depth`] if it is no depth texture of one layer and one sample with
-    /// `TEXTURE_BINDING`; [`BlobShadowError::NoDecals`] if no decals were asked for.
+    /// [`BlobShadowError::Depth`] if it is not a depth texture of one layer and one sample with
+    /// `TEXTURE_BINDING`; [`BlobShadowError::NoDecals`] if the descriptor requested no decals.
     pub fn decal_bind_group(
         &self,
         device: &wgpu::Device,
@@ -182,12 +183,12 @@ impl BlobShadow {
     }
 
     /// Draws all blobs for one of the frame's lights in one of its views: one instanced draw, which multiplies
-    /// the pass's target with the visibility. The pass is as
-    /// [`BlobDecalDescriptor`](crate::BlobDecalDescriptor) says, and its viewport the whole picture. Bind
-    /// group 0, vertex buffer 0 and the index buffer are changed.
+    /// the pass's target by the visibility. The pass must match
+    /// [`BlobDecalDescriptor`](crate::BlobDecalDescriptor), and its viewport must be the whole picture.
+    /// Replaces the pass's bind group 0, vertex buffer 0 and index buffer.
     ///
     /// # Errors
-    /// [`BlobRenderError`] if what was prepared is not on its way to the GPU, or the frame has no such light or
+    /// [`BlobRenderError`] if the prepared data has not been encoded, or if the frame has no such light or
     /// view. Nothing is then drawn.
     pub fn render(
         &self,
@@ -226,11 +227,11 @@ impl BlobShadow {
     /// - `shadows_blob_visibility(light: u32, position: vec3f) -> f32`, 1 lit, 0 in shadow; `position` in world
     ///   space;
     /// - `shadows_blob_visibility_of(light: u32, position: vec3f, own: u32) -> f32`, the same without the shadow
-    ///   of one blob, by its place in the frame (casters first).
+    ///   of one blob, given by its index in the frame (casters first).
     ///
-    /// `light` is the light's place in the frame. One that the frame has not is not shadowed, as long as it is below
+    /// `light` is the light's index in the frame. An index without a light gives no shadow as long as it is below
     /// [`BlobShadowDescriptor::lights`](crate::BlobShadowDescriptor::lights), the length of the array that the
-    /// module reads; beyond that WGSL has it read as any light of the array.
+    /// module reads; beyond that, WGSL may read any light of the array.
     pub fn wgsl_module(&self, group: u32) -> String {
         receivers::source(self.strips, self.most[0], group)
     }
@@ -241,13 +242,13 @@ impl BlobShadow {
         Some(self.receivers.as_ref()?.layout())
     }
 
-    /// What the host's shader reads. Ask for it after every [`prepare`](Self::prepare), which may make it
-    /// anew; `None` as [`bind_group_layout`](Self::bind_group_layout).
+    /// The bindings that the host's shader reads. Fetch it after every [`prepare`](Self::prepare), which may
+    /// recreate it. `None` under the same condition as [`bind_group_layout`](Self::bind_group_layout).
     pub fn bind_group(&self) -> Option<&wgpu::BindGroup> {
         Some(self.receivers.as_ref()?.group())
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> BlobStatistics {
         self.statistics
     }

@@ -8,7 +8,7 @@ use super::{CascadeError, CasterError, LightError, MapSettingsError, TileSizeErr
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ShadowAtlasError {
-    /// Layers that no tiles fill, or that the device does not have.
+    /// The size of layers is not a power of two, or out of the device's range.
     #[error("layer_size = {size} is out of range; pass a power of two from {least} to {limit}")]
     LayerSize {
         /// Texels along a side.
@@ -58,7 +58,7 @@ pub enum ShadowAtlasError {
         /// What is wrong with them.
         source: CascadeError,
     },
-    /// A picture without pixels.
+    /// A view's picture has no pixels.
     #[error("view {index} fills a picture of {width} x {height} pixels; pass at least 1 x 1")]
     Pixels {
         /// Its place in the frame.
@@ -78,7 +78,7 @@ pub enum ShadowAtlasError {
     },
     /// The receivers' bounds are out of range.
     #[error(
-        "receivers from {min:?} to {max:?} are no box; pass finite corners, min no greater than max"
+        "receivers from {min:?} to {max:?} are not a box; pass finite corners, min no greater than max"
     )]
     Receivers {
         /// The corner with the least coordinates.
@@ -86,12 +86,12 @@ pub enum ShadowAtlasError {
         /// The corner with the greatest coordinates.
         max: [f32; 3],
     },
-    /// The tiles do not fit, each as small as it may be.
+    /// The tiles do not fit, even with each as small as allowed.
     #[error(transparent)]
     Space(TileSizeError),
     /// More lights than shaders of the device can read.
     #[error(
-        "{records} records of lights, one for each light, view and cascade, are out of range; the device's shaders read {limit}"
+        "{records} records of lights, one for each light, view and cascade, are out of range; shaders of this device can read {limit}"
     )]
     TooManyLights {
         /// Records needed.
@@ -102,7 +102,7 @@ pub enum ShadowAtlasError {
     /// More lights than one buffer of the device can hold the matrices of: 256 bytes for each of the 8 tiles that a
     /// light may have.
     #[error(
-        "{lights} lights, directional ones counted once for each view, need {size} bytes for their tiles' matrices, {limit} are possible in one buffer (max_buffer_size); pass fewer lights, or ask for more when the device is created"
+        "{lights} lights, directional ones counted once for each view, need {size} bytes for their tiles' matrices, {limit} are allowed in one buffer (max_buffer_size); pass fewer lights, or ask for more when the device is created"
     )]
     TooManyMatrices {
         /// Lights, a directional one once for each view.
@@ -127,7 +127,7 @@ pub enum ShadowAtlasError {
     },
     /// A light or a caster is so far away that a directional light's matrix is not finite.
     #[error(
-        "light {index}: its matrix is not finite in f32; a caster or the receivers are too far away, too large or too small: place all nearer the origin"
+        "light {index}: its matrix is not finite in f32; a caster or the receivers are too far away, too large or too small: move the scene nearer to the origin"
     )]
     BeyondF32 {
         /// The light's place in the frame.

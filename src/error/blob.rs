@@ -9,7 +9,7 @@ use super::{CasterError, LightError};
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BlobShadowError {
-    /// A number of the descriptor.
+    /// A number in the descriptor is out of range.
     #[error("{value} {what} are out of range; pass 1 to {limit}")]
     Range {
         /// `"lights"`, `"views"` or `"strips"`.
@@ -19,15 +19,15 @@ pub enum BlobShadowError {
         /// The largest that works.
         limit: u32,
     },
-    /// Receivers are to read blobs on a device without storage buffers.
+    /// Receivers read blobs, but the device has no storage buffers.
     #[error(
-        "the device has no storage buffers, by which shaders read the blobs; set `receivers` to false and draw decals"
+        "the device has no storage buffers, which shaders need to read the blobs; set `receivers` to false and draw decals"
     )]
     NoStorage,
-    /// Decals cannot be drawn into this target, or not blended there.
+    /// Decals cannot be drawn into this target format, or not blended there.
     #[error("{0:?} cannot be drawn into and blended on this device; pass a colour format that can")]
     TargetFormat(wgpu::TextureFormat),
-    /// The attachment beside the target has no depth and no stencil, or the device lacks its feature.
+    /// The attachment's format has neither depth nor stencil, or the device lacks its feature.
     #[error(
         "depth_stencil_format is {0:?}; pass the format of the pass's depth-stencil attachment, or None if it has none"
     )]
@@ -47,10 +47,10 @@ pub enum BlobShadowError {
         /// Its layers.
         layers: u32,
     },
-    /// There is no pipeline for decals.
+    /// The descriptor requested no decals.
     #[error("no decals were asked for; set `decals` in the BlobShadowDescriptor")]
     NoDecals,
-    /// More lights or views than the descriptor said.
+    /// More lights or views than the descriptor allows.
     #[error(
         "the frame has {count} {what}, the BlobShadow was made for {limit}; raise `{what}` in its descriptor"
     )]
@@ -70,7 +70,7 @@ pub enum BlobShadowError {
         /// The largest number that works.
         limit: u64,
     },
-    /// A light's place.
+    /// A light's position or direction is invalid.
     #[error("light {index}: {error}")]
     Light {
         /// Place in the frame's lights.
@@ -78,7 +78,7 @@ pub enum BlobShadowError {
         /// What is wrong.
         error: LightError,
     },
-    /// A light's size.
+    /// A light's size is invalid.
     #[error(
         "light {index}: its radius {radius} is out of range; pass a finite radius of at least 0"
     )]
@@ -88,7 +88,7 @@ pub enum BlobShadowError {
         /// The radius passed.
         radius: f32,
     },
-    /// How far shadows are seen.
+    /// A light's reach is out of range.
     #[error("light {index}: its reach {reach} is out of range; pass a finite distance above 0")]
     Reach {
         /// Place in the frame's lights.
@@ -96,7 +96,7 @@ pub enum BlobShadowError {
         /// The reach passed.
         reach: f32,
     },
-    /// A caster.
+    /// A caster is invalid.
     #[error(transparent)]
     Caster(#[from] CasterError),
     /// An ellipsoid with a number that is NaN or infinite.
@@ -105,7 +105,7 @@ pub enum BlobShadowError {
         /// Place in the frame's blobs.
         index: usize,
     },
-    /// An ellipsoid that blocks less than nothing or more than all.
+    /// An ellipsoid's opacity is outside 0 to 1.
     #[error("blob {index}: its opacity {opacity} is out of range; pass 0 to 1")]
     Opacity {
         /// Place in the frame's blobs.
@@ -119,22 +119,22 @@ pub enum BlobShadowError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BlobRenderError {
-    /// There is no pipeline for decals.
+    /// The descriptor requested no decals.
     #[error("no decals were asked for; set `decals` in the BlobShadowDescriptor")]
     NoDecals,
-    /// What was prepared is not on its way to the GPU, or nothing was since `new` or `invalidate`.
+    /// The prepared data has not been encoded, or nothing has been prepared since `new` or `invalidate`.
     #[error(
         "render was called before encode; call prepare, then encode, then render in every frame"
     )]
     NotEncoded,
-    /// What was recorded never comes to the GPU.
+    /// The recorded work never reached the GPU.
     #[error(
         "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
     )]
     Dropped,
-    /// The frame that was prepared last has no such light, or no such view.
+    /// The last prepared frame has no such light, or no such view.
     #[error(
-        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views; pass places in its lists"
+        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views; pass indices into its lists"
     )]
     NoSuch {
         /// The light asked for.

@@ -14,10 +14,10 @@ pub enum DebugPassError {
     ColorFormat(wgpu::TextureFormat),
     /// The format has no depth or stencil, or the device was created without it.
     #[error(
-        "{0:?} is no depth-stencil format of this device; pass the pass's own, None if it has none, and ask for the feature of its name where there is one"
+        "{0:?} is not a depth-stencil format of this device; pass that of the pass, None if it has none, and ask for the feature of its name where there is one"
     )]
     DepthStencil(wgpu::TextureFormat),
     /// The sample count is neither 1 nor 4.
-    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    #[error("{0} samples are not supported; pass 1 or 4, which every device has")]
     SampleCount(u32),
 }

@@ -12,7 +12,7 @@ pub enum LightError {
     /// The range is NaN, infinite, zero, negative, or smaller than the least normal `f32`.
     #[error("light range {0} is out of range; pass a finite distance above 0, at least 1.2e-38")]
     Range(f32),
-    /// The near distance is not between 0 and the range, or so small a part of it that the depth at
+    /// The near distance is not between 0 and the range, or so small relative to it that the depth at
     /// the range is 0.
     #[error(
         "light near {near} is out of range; pass None, or 0 < near < range = {range} and no less \
@@ -30,10 +30,10 @@ pub enum LightError {
     /// A directional light without a direction.
     #[error("a directional light needs a direction; (0, 0, 0) was passed")]
     Direction,
-    /// A spot light whose direction is none.
-    #[error("spot direction {0:?} is none; pass a finite vector other than (0, 0, 0)")]
+    /// A spot light without a direction.
+    #[error("spot direction {0:?} is invalid; pass a finite vector other than (0, 0, 0)")]
     SpotDirection([f32; 3]),
-    /// The cone of a spot light is none.
+    /// The cone angle of a spot light is out of range.
     #[error("spot half_angle {0} is out of range; pass radians, 0 < half_angle < pi / 2")]
     HalfAngle(f32),
 }
@@ -48,7 +48,7 @@ pub enum ViewError {
     /// The matrix has no eye: its x, y and w rows are linearly dependent.
     #[error("clip_from_world is singular: its x, y and w rows do not fix an eye")]
     Singular,
-    /// The matrix's z row is not that of the depth convention it is said to have.
+    /// The matrix's z row does not match the specified depth convention.
     #[error(
         "clip_from_world does not map depth as {0:?} does; pass the convention it was built with"
     )]

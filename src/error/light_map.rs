@@ -9,12 +9,12 @@ use crate::reference::bake::TexelRectangle;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LightMapError {
-    /// The map has no texels, or too many a side.
-    #[error("a light map of {} x {} texels is none; pass 1 to 8192 each", .0[0], .0[1])]
+    /// The map has no texels, or too many along a side.
+    #[error("a light map of {} x {} texels is out of range; pass 1 to 8192 each", .0[0], .0[1])]
     Size([u32; 2]),
     /// A receiver's rectangle is empty or not inside the map.
     #[error(
-        "receiver {receiver}: {rectangle:?} is no part of a map of {} x {} texels; pass at least one texel, within the map",
+        "receiver {receiver}: {rectangle:?} is not part of a map of {} x {} texels; pass at least one texel, within the map",
         size[0], size[1]
     )]
     Place {
@@ -25,7 +25,7 @@ pub enum LightMapError {
         /// Columns and rows of the map.
         size: [u32; 2],
     },
-    /// Two receivers have the same texels.
+    /// Two receivers share texels.
     #[error(
         "receivers {} and {} have rectangles with texels in common; give each its own",
         receivers[0], receivers[1]
@@ -34,8 +34,8 @@ pub enum LightMapError {
         /// Places in the list of receivers.
         receivers: [usize; 2],
     },
-    /// The index list is no list of whole triangles.
-    #[error("receiver {receiver}: {count} indices are no multiple of 3; pass 3 per triangle")]
+    /// The number of indices is not a multiple of three.
+    #[error("receiver {receiver}: {count} indices are not a multiple of 3; pass 3 per triangle")]
     IndexCount {
         /// Place in the list of receivers.
         receiver: usize,
@@ -59,7 +59,7 @@ pub enum LightMapError {
     /// A position is not finite in world space: the vertex or the transform is NaN, infinite or
     /// too large.
     #[error(
-        "receiver {receiver}: vertex {vertex} has no finite place in the world; check it and the transform"
+        "receiver {receiver}: vertex {vertex} has no finite position in the world; check it and the transform"
     )]
     Position {
         /// Place in the list of receivers.
@@ -101,7 +101,7 @@ pub enum LightMapError {
         /// Triangle, counted as its indices are.
         triangle: usize,
     },
-    /// Two triangles have the same place in the map.
+    /// Two triangles overlap in the map.
     #[error(
         "receiver {receiver}: triangles {} and {} overlap in texture coordinates; each needs its own place in a light map",
         triangles[0], triangles[1]
@@ -115,24 +115,24 @@ pub enum LightMapError {
     /// More receivers or triangles than 32-bit numbers can count.
     #[error("{0} receivers or triangles are too many; at most 2^32 - 3 are possible")]
     TooLarge(usize),
-    /// The light is not one.
+    /// The light is invalid.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// The radius of a light that is a ball.
+    /// The radius of a spherical light is out of range.
     #[error("light radius {0} is out of range; pass a finite number above 0, or Emitter::Point")]
     Radius(f32),
-    /// The sides of a light that is a rectangle.
+    /// The sides of a rectangular light are invalid.
     #[error(
-        "half_sides {half_sides:?} are no rectangle's around a point light or a spot; pass finite sides that are not parallel, and a sphere for a directional light"
+        "half_sides {half_sides:?} do not form a rectangle around a point light or a spot; pass finite sides that are not parallel, and a sphere for a directional light"
     )]
     Rectangle {
         /// What was passed.
         half_sides: [[f32; 3]; 2],
     },
-    /// No rays at all.
+    /// No rays.
     #[error("0 samples see nothing; pass at least 1 a texel")]
     Samples,
-    /// An image of no light, or of more than it has channels.
+    /// An image for no light, or for more lights than channels.
     #[error("{0} light maps for one image; pass 1 to 4")]
     Channels(usize),
     /// Maps of one image have different sizes.

@@ -20,7 +20,7 @@ pub struct BiasError {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapSettingsError {
-    /// The format is none that a map can have.
+    /// Maps do not support the format.
     #[error("{0:?} cannot be a shadow map; pass Depth32Float, Depth24Plus or Depth16Unorm")]
     Format(wgpu::TextureFormat),
     /// The bias is out of range.
@@ -72,19 +72,19 @@ pub enum CubeShadowMapError {
         "StaticLayers::AtLeast needs copies between depth textures, which wgpu's GL back end does not have; pass Auto or Never"
     )]
     StaticLayers,
-    /// Layers of static casters where there are none.
+    /// Layers of static casters without a cache.
     #[error(
-        "StaticLayers::AtLeast has no effect on a map that is drawn anew every frame (cache: false); pass StaticLayers::Auto or Never"
+        "StaticLayers::AtLeast has no effect on a map that is redrawn every frame (cache: false); pass StaticLayers::Auto or Never"
     )]
     NoStaticLayers,
-    /// A cube view, on a back end that takes the layers of a texture for an array or for a cube.
+    /// A cube view, on a back end that treats the layers of a texture either as an array or as a cube.
     #[error(
-        "wgpu's GL back end reads a texture as layers or as a cube, not as both; read the layers of CubeShadowMap::texture in the order of CubeFace::ALL"
+        "wgpu's GL back end reads a texture either as layers or as a cube; read the layers of CubeShadowMap::texture in the order of CubeFace::ALL"
     )]
     CubeView,
-    /// A view of a map that holds something else.
+    /// A debug view for another encoding than the map's.
     #[error(
-        "the map holds {map:?} depths, the view was made for {cross:?}; make both with the same"
+        "the map holds {map:?} depths, the view was made for {cross:?}; use the same encoding for both"
     )]
     Encoding {
         /// What the map holds.
@@ -117,7 +117,7 @@ pub enum ShadowMapError {
     Caster(#[from] CasterError),
     /// A directional light's map has not as many texels to spare as kernels reach.
     #[error(
-        "kernels that reach {reach} texels need a map of more: a directional light's is made wider by that and one more on each side, at most by half, so pass a size of at least {}, not {size}, or a smaller reach",
+        "kernels that reach {reach} texels need a larger map: that of a directional light is widened by that and one more texel on each side, by at most half, so pass a size of at least {}, not {size}, or a smaller reach",
         (4.0 * (reach + 1.0)).ceil()
     )]
     ReachOfSize {
@@ -129,8 +129,8 @@ pub enum ShadowMapError {
     /// The distance up to which a view shows shadows is out of range.
     #[error("shadow distance {0} is out of range; pass a finite distance above 0")]
     Distance(f32),
-    /// The bounds of the receivers are no box.
-    #[error("receivers from {min:?} to {max:?} are no box; pass finite corners, min <= max")]
+    /// The bounds of the receivers are not a valid box.
+    #[error("receivers from {min:?} to {max:?} are not a box; pass finite corners, min <= max")]
     Receivers {
         /// The smallest corner passed.
         min: [f32; 3],
@@ -140,7 +140,7 @@ pub enum ShadowMapError {
     /// The map lies so far from the origin, or is so large or so narrow, that its matrix is not
     /// finite in `f32`.
     #[error(
-        "the map's matrix is not finite in f32: the light or a caster is too far away, or the cone too narrow; place all nearer the origin, or widen the cone"
+        "the map's matrix is not finite in f32: the light or a caster is too far away, or the cone too narrow; move the scene nearer to the origin, or widen the cone"
     )]
     BeyondF32,
     /// More casters than one buffer of the device can hold.
@@ -169,7 +169,7 @@ pub enum PcfError {
         /// The largest value.
         limit: u32,
     },
-    /// The strata of a random disk are too few, too many or odd in number.
+    /// A random disk has too few strata, too many, or an odd number.
     #[error(
         "around x rings = {around} x {rings} taps are out of range; pass an even product, 8 to {limit}"
     )]
@@ -210,10 +210,10 @@ pub enum PcfError {
     },
     /// Gathers on a device that has none.
     #[error(
-        "the device has no texture gathers (it is a GL device without compute shaders, as WebGL 2); pass Gather::Auto or Gather::Never"
+        "the device has no texture gathers (it is a GL device without compute shaders, such as WebGL 2); pass Gather::Auto or Gather::Never"
     )]
     Gather,
-    /// A kernel that reaches farther than the map was made for.
+    /// The kernel reaches farther than the map was created for.
     #[error(
         "the kernel reaches {kernel:?}, the map was made for {map:?}, and what is farther may be out of date or beside it; make the map with `reach: Radius::{kernel:?}` or more of that unit in its settings, or the sampler with a narrower kernel"
     )]
@@ -228,12 +228,12 @@ pub enum PcfError {
         "MapKind::Atlas has no kind of light, so that all would be dark; pass LightKinds::ALL or at least one"
     )]
     NoLightKinds,
-    /// A prefix with which a name is none.
+    /// A prefix that does not form valid names.
     #[error(
-        "the prefix of a module's names is no beginning of a name in WGSL; pass letters, digits and underscores, the first no digit, and not two underscores first"
+        "the prefix of a module does not form valid WGSL names; pass letters, digits and underscores, not starting with a digit or with two underscores"
     )]
     Prefix,
-    /// A hardware comparison of depths of which a plane's are not linear.
+    /// A hardware comparison of depths in which planes are not linear.
     #[error(
         "HardwareBilinear compares depths along the major axis and was made for {0:?}; pass map: MapKind::CUBE, or another kernel"
     )]

@@ -8,8 +8,10 @@ use super::names::names;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// The index list is no list of whole triangles.
-    #[error("{count} indices are no multiple of {per_triangle}; pass {per_triangle} per triangle")]
+    /// The number of indices is not a multiple of three.
+    #[error(
+        "{count} indices are not a multiple of {per_triangle}; pass {per_triangle} per triangle"
+    )]
     IndexCount {
         /// Length of the list that was passed.
         count: usize,
@@ -47,12 +49,12 @@ pub enum MeshError {
         /// The largest count that works.
         limit: usize,
     },
-    /// The weld tolerance is negative, NaN or not below 1.
+    /// The weld tolerance is negative, NaN, or not below 1.
     #[error("weld tolerance {0} is out of range; it is a fraction of the mesh's size, 0 <= t < 1")]
     Tolerance(f32),
     /// The list given to `from_raw` names a neighbour that shares no edge with its triangle.
     #[error(
-        "triangle {triangle}: the adjacent vertex {vertex} across its edge {edge} forms no triangle of this mesh with that edge"
+        "triangle {triangle}: the adjacent vertex {vertex} across its edge {edge} does not form a triangle of this mesh with that edge"
     )]
     NotAdjacent {
         /// The triangle.
@@ -68,10 +70,10 @@ pub enum MeshError {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CasterMeshError {
-    /// The host's position buffer has a stride or offset that is no multiple of four, or a stride
+    /// The host's position buffer has a stride or offset that is not a multiple of four, or a stride
     /// below 12 bytes.
     #[error(
-        "position stride {stride} and offset {offset} do not fit; both must be multiples of 4 bytes, stride at least 12"
+        "position stride {stride} and offset {offset} are invalid; both must be multiples of 4 bytes, stride at least 12"
     )]
     Layout {
         /// Bytes between positions.
@@ -87,9 +89,9 @@ pub enum CasterMeshError {
         /// The most that work.
         limit: u64,
     },
-    /// The host's indices are no whole triangles, or do not begin at one.
+    /// The host's indices do not form whole triangles, or are misaligned.
     #[error(
-        "{count} indices of {index_size} bytes from byte {offset} do not fit; pass a multiple of 3, and an offset that is a multiple of their size"
+        "{count} indices of {index_size} bytes from byte {offset} are invalid; pass a multiple of 3, and an offset that is a multiple of their size"
     )]
     IndexLayout {
         /// Bytes before the first index.
@@ -109,13 +111,13 @@ pub enum CasterMeshError {
         /// Number of indices.
         count: u32,
     },
-    /// The host's index buffer cannot be drawn with.
+    /// The host's index buffer lacks a usage.
     #[error("the index buffer was created without INDEX; add it to its usages")]
     IndexBufferUsage,
-    /// The host's transforms have a stride or offset that is no multiple of four, or a stride below their
+    /// The host's transforms have a stride or offset that is not a multiple of four, or a stride below their
     /// size.
     #[error(
-        "transform stride {stride} and offset {offset} do not fit; both must be multiples of 4 bytes, stride at least {least}"
+        "transform stride {stride} and offset {offset} are invalid; both must be multiples of 4 bytes, stride at least {least}"
     )]
     InstanceLayout {
         /// Bytes between transforms.
@@ -135,15 +137,15 @@ pub enum CasterMeshError {
         /// Number of transforms.
         count: u32,
     },
-    /// The host's transforms cannot be drawn with.
+    /// The host's buffer of transforms lacks a usage.
     #[error("the buffer of transforms was created without VERTEX; add it to its usages")]
     InstanceBufferUsage,
-    /// Geometry of the host's that has no triangle.
+    /// Host-drawn geometry without triangles.
     #[error("what the host draws has no triangle; pass about how many it has, at least 1")]
     NoTriangles,
-    /// A mesh of many places, or one that the host draws, where one is to be placed many times.
+    /// Instances of a mesh that is itself instanced, or drawn by the host.
     #[error(
-        "only a mesh that is drawn once can be placed many times; pass the mesh that this one was made from"
+        "a mesh that is instanced or host-drawn cannot be instanced again; pass the mesh that this one was made from"
     )]
     NotPlain,
     /// The host's position buffer is too short.
@@ -192,8 +194,8 @@ pub enum CasterMeshError {
         /// The value.
         value: [f32; 3],
     },
-    /// The bounds of the host's positions are no box.
-    #[error("bounds from {min:?} to {max:?} are no box; pass corners with min <= max")]
+    /// The bounds of the host's positions are not a valid box.
+    #[error("bounds from {min:?} to {max:?} are not a box; pass corners with min <= max")]
     Bounds {
         /// The smallest corner passed.
         min: [f32; 3],

@@ -8,22 +8,22 @@ use super::{CasterError, LightError};
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanarShadowError {
-    /// The depth-stencil format is none of the two that have depth and a stencil.
+    /// The depth-stencil format is not one of the two with both depth and stencil.
     #[error(
-        "{0:?} does not fit; planar shadows need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth)"
+        "{0:?} is unsuitable; planar shadows need Depth24PlusStencil8 or Depth32FloatStencil8 (depth with an 8-bit stencil)"
     )]
     Format(wgpu::TextureFormat),
     /// The device was created without the depth-stencil format.
     #[error(
-        "{0:?} needs the device feature of that name: ask for Support::features() when the device is created, or pass what Support::depth_stencil_format() says, here and for the buffer itself"
+        "{0:?} needs the device feature of that name: ask for Support::features() when the device is created, or use the format from Support::depth_stencil_format(), here and for the buffer itself"
     )]
     FormatFeature(wgpu::TextureFormat),
     /// The sample count is neither 1 nor 4.
-    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    #[error("{0} samples are not supported; pass 1 or 4, which every device has")]
     SampleCount(u32),
-    /// A colour format that no target of the pass can have.
+    /// A colour format that the pass's target cannot have.
     #[error(
-        "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can"
+        "color_formats[{place}] is {format:?}, which this device cannot draw into with this number of samples; pass a colour format that it can"
     )]
     ColorFormat {
         /// Place in the list of colour formats.
@@ -43,9 +43,9 @@ pub enum PlanarShadowError {
         /// What the device has.
         available: u64,
     },
-    /// The target that is to be darkened is not there, or cannot be blended.
+    /// The target to be darkened does not exist, or cannot be blended.
     #[error(
-        "PlanarOutput::Darken needs a blendable format at color_formats[{target}], and there is {found:?}; pass the place of one that blends"
+        "PlanarOutput::Darken needs a blendable format at color_formats[{target}], but found {found:?}; pass the index of a target that blends"
     )]
     Target {
         /// Place in the list of colour formats.
@@ -53,9 +53,9 @@ pub enum PlanarShadowError {
         /// The format found there.
         found: Option<wgpu::TextureFormat>,
     },
-    /// Bits of the stencil that are none, several, or used twice.
+    /// Stencil bits that are missing, several, or used twice.
     #[error(
-        "stencil bits shadow {shadow:#04x}, outline {outline:#04x}, receivers {receivers:#04x} do not fit; pass one bit each for the first two, and receivers that share none with them"
+        "stencil bits shadow {shadow:#04x}, outline {outline:#04x}, receivers {receivers:#04x} are invalid; pass one bit each for the first two, and receivers that share no bit with them"
     )]
     Bits {
         /// The bit that marks what is in shadow.
@@ -65,7 +65,7 @@ pub enum PlanarShadowError {
         /// The bits that the host marks receivers with.
         receivers: u8,
     },
-    /// A bias that is not finite or below 0.
+    /// A bias that is not finite, or below 0.
     #[error("bias {field} = {value}; pass a finite number, at least 0")]
     Bias {
         /// The field.
@@ -81,7 +81,7 @@ pub enum PlanarShadowError {
         /// What is wrong with it.
         error: LightError,
     },
-    /// What a light leaves in shadow is no part of a colour.
+    /// A light's shade is outside 0 to 1.
     #[error("light {index}: shade {shade:?} is out of range; pass 0 (black) to 1 (no shadow)")]
     Shade {
         /// Place in the frame's lights.
@@ -89,9 +89,9 @@ pub enum PlanarShadowError {
         /// What was passed.
         shade: [f32; 3],
     },
-    /// A plane that is none.
+    /// An invalid plane.
     #[error(
-        "plane {index}: point {point:?} and normal {normal:?} are no plane; pass finite numbers, and a normal other than (0, 0, 0)"
+        "plane {index}: point {point:?} and normal {normal:?} do not define a plane; pass finite numbers, and a normal other than (0, 0, 0)"
     )]
     Plane {
         /// Place in the frame's planes.
@@ -101,9 +101,9 @@ pub enum PlanarShadowError {
         /// The normal passed.
         normal: [f32; 3],
     },
-    /// A stencil value that says nothing, or that the bits for receivers do not hold.
+    /// A stencil value of 0, or one that the bits for receivers cannot hold.
     #[error(
-        "plane {index}: stencil value {value:#04x} does not fit; pass what the host writes, other than 0, within receiver_bits = {receivers:#04x}"
+        "plane {index}: stencil value {value:#04x} is invalid; pass the value that the host writes, other than 0, within receiver_bits = {receivers:#04x}"
     )]
     Value {
         /// Place in the frame's planes.
@@ -113,8 +113,8 @@ pub enum PlanarShadowError {
         /// The descriptor's bits for receivers.
         receivers: u8,
     },
-    /// An outline of too few corners.
-    #[error("plane {index}: {corners} corners are no outline; pass at least 3")]
+    /// An outline with too few corners.
+    #[error("plane {index}: {corners} corners do not make an outline; pass at least 3")]
     Outline {
         /// Place in the frame's planes.
         index: usize,
@@ -123,7 +123,7 @@ pub enum PlanarShadowError {
     },
     /// A corner that is not finite, or not in the plane.
     #[error(
-        "plane {index}: corner {corner} of its outline, {position:?}, is not in the plane; pass points of the plane (rounding is taken off)"
+        "plane {index}: corner {corner} of its outline, {position:?}, is not in the plane; pass points on the plane (rounding errors are corrected)"
     )]
     Corner {
         /// Place in the frame's planes.
@@ -148,7 +148,7 @@ pub enum PlanarShadowError {
     Caster(#[from] CasterError),
     /// Geometry that only the host can draw, which cannot be projected here.
     #[error(
-        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know its bounds alone; leave it out here, or pass a mesh"
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know only its bounds; leave it out here, or pass a mesh"
     )]
     HostDrawn {
         /// Place in the slice of casters.
@@ -170,17 +170,17 @@ pub enum PlanarShadowError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PlanarRenderError {
-    /// `encode` was not called since the last `prepare`, or neither was since `new` or `invalidate`.
+    /// `encode` has not been called since the last `prepare`, or neither has since `new` or `invalidate`.
     #[error("call prepare, then encode into the encoder of this pass, before render")]
     NotEncoded,
-    /// What was recorded never comes to the GPU.
+    /// The recorded work never reached the GPU.
     #[error(
         "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
     )]
     Dropped,
-    /// The frame that was prepared last has no such light, plane or view.
+    /// The last prepared frame has no such light, plane or view.
     #[error(
-        "{what} {asked} was not prepared: the frame had {count}, counted from 0; pass places in its lists"
+        "{what} {asked} was not prepared: the frame had {count}, counted from 0; pass indices into its lists"
     )]
     NoSuch {
         /// `"light"`, `"plane"` or `"view"`.
@@ -206,7 +206,7 @@ pub enum PlanarSoftShadowError {
         /// The largest that works.
         limit: u32,
     },
-    /// The number of the light's places is 0, or more than 8 bits can count.
+    /// The number of samples is 0, or more than 8 bits can count.
     #[error("samples = {samples} is out of range; pass 1 to {limit}")]
     Samples {
         /// The number passed.
@@ -217,14 +217,14 @@ pub enum PlanarSoftShadowError {
     /// The light is out of range.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// The light has no size.
+    /// The light's shape is invalid.
     #[error(
-        "the shape {0:?} is none; pass finite numbers above 0, and vectors other than (0, 0, 0)"
+        "the shape {0:?} is invalid; pass finite numbers above 0, and vectors other than (0, 0, 0)"
     )]
     Shape(crate::LightShape),
     /// The rectangle has no area.
     #[error(
-        "{0:?} is no rectangle; pass finite vectors, and a width and a height that are not parallel"
+        "{0:?} is not a rectangle; pass finite vectors, and a width and a height that are not parallel"
     )]
     Rectangle(crate::PlanarRectangle),
     /// A caster is out of range.
@@ -232,7 +232,7 @@ pub enum PlanarSoftShadowError {
     Caster(#[from] CasterError),
     /// Geometry that only the host can draw, which cannot be projected here.
     #[error(
-        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know its bounds alone; leave it out here, or pass a mesh"
+        "caster {index} is drawn by the host (CasterMesh::host_drawn), and planar shadows know only its bounds; leave it out here, or pass a mesh"
     )]
     HostDrawn {
         /// Place in the slice of casters.

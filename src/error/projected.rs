@@ -8,7 +8,7 @@ use super::{CasterError, LightError};
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ProjectedShadowError {
-    /// Layers are no power of two, or out of range.
+    /// The size of layers is not a power of two, or out of range.
     #[error(
         "layer_size = {size} texels is out of range; pass a power of two from {least} to {limit}"
     )]
@@ -20,7 +20,7 @@ pub enum ProjectedShadowError {
         /// The largest that works.
         limit: u32,
     },
-    /// Not even one layer.
+    /// Not enough memory for one layer.
     #[error("memory = {memory} bytes is less than one layer needs: {layer} bytes")]
     Memory {
         /// Bytes allowed.
@@ -28,7 +28,7 @@ pub enum ProjectedShadowError {
         /// Bytes of a layer.
         layer: u64,
     },
-    /// A tile is no power of two, or out of range.
+    /// The size of a tile is not a power of two, or out of range.
     #[error(
         "projector {projector}: a tile of {size} texels; pass a power of two from {least} to {most}, the layer's size"
     )]
@@ -68,7 +68,7 @@ pub enum ProjectedShadowError {
         /// Its place among the projector's casters.
         caster: usize,
     },
-    /// More light would come through a caster than falls on it, or less than none.
+    /// A caster's transmittance is outside 0 to 1.
     #[error(
         "projector {projector}: caster {caster} lets {transmittance:?} of red, green and blue light through; pass 0 to 1 for each"
     )]
@@ -82,7 +82,7 @@ pub enum ProjectedShadowError {
     },
     /// The tiles do not fit.
     #[error(
-        "{shadows} shadows need {needed} texels, and there are {bound}; allow more memory, smaller sizes, or fewer shadows"
+        "{shadows} shadows need {needed} texels, but there are {bound}; allow more memory, smaller sizes, or fewer shadows"
     )]
     Space {
         /// Shadows in the frame that have a tile.
@@ -92,8 +92,8 @@ pub enum ProjectedShadowError {
         /// Texels there are.
         bound: u64,
     },
-    /// More projectors than shaders of the device can be told of.
-    #[error("{projectors} projectors are out of range; the device's shaders read {limit}")]
+    /// More projectors than the device's shaders can read.
+    #[error("{projectors} projectors are out of range; shaders of this device can read {limit}")]
     TooManyProjectors {
         /// Projectors in the frame.
         projectors: usize,

@@ -10,8 +10,8 @@ use super::LightError;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ReferenceError {
-    /// The index list is no list of whole triangles.
-    #[error("object {object}: {count} indices are no multiple of 3; pass 3 per triangle")]
+    /// The number of indices is not a multiple of three.
+    #[error("object {object}: {count} indices are not a multiple of 3; pass 3 per triangle")]
     IndexCount {
         /// Place in the list of objects.
         object: usize,
@@ -31,7 +31,7 @@ pub enum ReferenceError {
     /// A position is not finite in world space: the vertex or the transform is NaN, infinite or
     /// too large.
     #[error(
-        "object {object}: vertex {vertex} has no finite place in the world; check it and the transform"
+        "object {object}: vertex {vertex} has no finite position in the world; check it and the transform"
     )]
     Position {
         /// Place in the list of objects.
@@ -42,7 +42,7 @@ pub enum ReferenceError {
     /// More objects or triangles than 32-bit numbers can count.
     #[error("{0} objects or triangles are too many; at most 2^32 - 1 are possible")]
     TooLarge(usize),
-    /// The light is not one.
+    /// The light is invalid.
     #[error(transparent)]
     Light(#[from] LightError),
     /// The picture has no pixels.
@@ -53,7 +53,7 @@ pub enum ReferenceError {
         /// Height in pixels.
         height: u32,
     },
-    /// Rows that the picture does not have, or none.
+    /// No rows, or rows that the picture does not have.
     #[error("a picture of {height} rows has no rows {rows:?}; pass some of 0..{height}")]
     Rows {
         /// The rows asked for.
@@ -88,9 +88,9 @@ pub enum ReferenceError {
         /// What was passed.
         value: f32,
     },
-    /// An interior of shadow map texels that cannot be.
+    /// An impossible interior of shadow map texels.
     #[error(
-        "an interior of {face_size} texels a face, kernel radius {kernel_radius}, does not exist; pass at least 1 texel, a finite radius of at least 0, and for cube maps a point light, for flat maps a finite matrix"
+        "an interior of {face_size} texels a face, kernel radius {kernel_radius}, is impossible; pass at least 1 texel, a finite radius of at least 0, and for cube maps a point light, for flat maps a finite matrix"
     )]
     Interior {
         /// Texels along the edge of a cube face or a flat map.
@@ -98,9 +98,9 @@ pub enum ReferenceError {
         /// Radius of the filter in texels.
         kernel_radius: f32,
     },
-    /// An interior of light map texels that cannot be.
+    /// An impossible interior of light map texels.
     #[error(
-        "an interior around texels of {0} does not exist; pass the side of a texel on the surface, a finite length above 0"
+        "an interior around texels of {0} is impossible; pass the side of a texel on the surface, a finite length above 0"
     )]
     Texel(f32),
 }

@@ -2,12 +2,14 @@
 
 use thiserror::Error;
 
-/// What can be wrong with a [`TileSize`](crate::map::TileSize), or with all of a frame together.
+/// What can be wrong with a [`TileSize`](crate::map::TileSize), or with all of a frame's together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TileSizeError {
-    /// No power of two, smaller than the smallest tile, or larger than a layer.
-    #[error("{field} = {texels} is no size of a tile; pass a power of two from {least} to {most}")]
+    /// A size that is not a power of two, smaller than the smallest tile, or larger than a layer.
+    #[error(
+        "{field} = {texels} is not a valid tile size; pass a power of two from {least} to {most}"
+    )]
     Size {
         /// The field.
         field: &'static str,
@@ -26,9 +28,9 @@ pub enum TileSizeError {
         /// The largest size passed.
         most: u32,
     },
-    /// The lights do not fit, each as small as it may be.
+    /// The lights do not fit, even with each as small as allowed.
     #[error(
-        "{lights} lights need {needed} texels with each as small as it may be, and there are {bound}; allow more memory, smaller sizes, or fewer lights that cast"
+        "{lights} lights need {needed} texels even with each as small as allowed, but there are {bound}; allow more memory, smaller sizes, or fewer lights that cast"
     )]
     Space {
         /// Lights in the frame that cast.

@@ -14,18 +14,18 @@ use super::names::names;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ShadowVolumeError {
-    /// The depth-stencil format is none of the two that have what shadow volumes need.
+    /// The depth-stencil format is not one that shadow volumes support.
     #[error(
-        "{0:?} does not fit; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (an 8-bit stencil beside the depth), or with Counter::Exact Depth32Float or Depth24Plus"
+        "{0:?} is unsuitable; shadow volumes need Depth24PlusStencil8 or Depth32FloatStencil8 (depth with an 8-bit stencil), or with Counter::Exact Depth32Float or Depth24Plus"
     )]
     Format(wgpu::TextureFormat),
     /// The device was created without the depth-stencil format.
     #[error(
-        "{0:?} needs the device feature of that name: ask for Support::features() when the device is created, or pass what Support::depth_stencil_format() says, here and for the buffer itself"
+        "{0:?} needs the device feature of that name: ask for Support::features() when the device is created, or use the format from Support::depth_stencil_format(), here and for the buffer itself"
     )]
     FormatFeature(wgpu::TextureFormat),
     /// The sample count is neither 1 nor 4.
-    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    #[error("{0} samples are not supported; pass 1 or 4, which every device has")]
     SampleCount(u32),
     /// The device was created without a feature that the descriptor needs.
     #[error(
@@ -55,9 +55,9 @@ pub enum ShadowVolumeError {
         "the device has no storage buffers in vertex shaders, which Silhouettes::Compute and Silhouettes::Cpu need; pass Silhouettes::Auto or Silhouettes::Vertex"
     )]
     VertexStorage,
-    /// A colour format that no target of the pass can have.
+    /// A colour format that the pass's target cannot have.
     #[error(
-        "color_formats[{place}] is {format:?}, which this device cannot draw into with as many samples; pass a colour format that it can (with 4 samples, one that is multisampled)"
+        "color_formats[{place}] is {format:?}, which this device cannot draw into with this number of samples; pass a colour format that it can (with 4 samples, one that is multisampled)"
     )]
     ColorFormat {
         /// Place in the list of colour formats.
@@ -73,10 +73,10 @@ pub enum ShadowVolumeError {
         /// The view's convention.
         view: crate::DepthConvention,
     },
-    /// The light or its range.
+    /// The light or its range is invalid.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// A caster.
+    /// A caster is invalid.
     #[error(transparent)]
     Caster(#[from] CasterError),
     /// Views that are to be drawn together.
@@ -84,7 +84,7 @@ pub enum ShadowVolumeError {
     Multiview(#[from] MultiviewError),
     /// The volume of one caster does not fit the device's buffers.
     #[error(
-        "caster {index}: its {what} need {size} bytes in one buffer, {limit} are possible; split the mesh or ask for higher buffer limits"
+        "caster {index}: its {what} need {size} bytes in one buffer, {limit} are allowed; split the mesh or ask for higher buffer limits"
     )]
     TooLarge {
         /// Place in the slice of casters.
@@ -99,25 +99,25 @@ pub enum ShadowVolumeError {
     /// The target size has no pixels.
     #[error("a target of {0:?} pixels has none; pass its width and height, or None")]
     TargetSize([u32; 2]),
-    /// The bounds of the receivers are no box.
-    #[error("receivers from {min:?} to {max:?} are no box; pass finite corners, min <= max")]
+    /// The bounds of the receivers are not a valid box.
+    #[error("receivers from {min:?} to {max:?} are not a box; pass finite corners, min <= max")]
     Receivers {
         /// The smallest corner passed.
         min: [f32; 3],
         /// The largest corner passed.
         max: [f32; 3],
     },
-    /// The positions lie in a buffer of the host, where the CPU cannot read them.
+    /// The positions are in a buffer of the host, where the CPU cannot read them.
     #[error(
-        "caster {index}: its positions are in the host's buffer, and only Silhouettes::Compute reads them there; make the mesh with CasterMesh::new or a renderer that may use compute"
+        "caster {index}: its positions are in the host's buffer, and only Silhouettes::Compute reads them there; create the mesh with CasterMesh::new, or use a renderer that may use compute shaders"
     )]
     HostPositions {
         /// Place in the slice of casters.
         index: usize,
     },
-    /// A mesh for shadow maps alone.
+    /// A mesh for shadow maps only.
     #[error(
-        "caster {index}: its mesh was made without an adjacency (CasterMesh::from_host), by which shadow volumes find its edges; make it with CasterMesh::new or from_host_positions, or leave it to shadow maps"
+        "caster {index}: its mesh was made without an adjacency (CasterMesh::from_host), which shadow volumes need to find its edges; create it with CasterMesh::new or from_host_positions, or use it with shadow maps only"
     )]
     NoAdjacency {
         /// Place in the slice of casters.
@@ -133,8 +133,8 @@ pub enum ShadowVolumeError {
         /// The largest number that works.
         limit: usize,
     },
-    /// More casters than the device's buffers can describe, those that two lights shine on counted twice,
-    /// as are those in two views.
+    /// More casters than the device's buffers can describe; those that two lights shine on count twice,
+    /// as do those in two views.
     #[error(
         "{count} casters are too many for one frame; this device's buffer limits allow {limit}"
     )]
@@ -150,19 +150,19 @@ pub enum ShadowVolumeError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum VolumeRenderError {
-    /// What was prepared is not on its way to the GPU.
+    /// The prepared data has not been encoded.
     #[error(
         "render was called before encode; call prepare, then encode, then render in every frame (and for every view)"
     )]
     NotEncoded,
-    /// What was recorded never comes to the GPU.
+    /// The recorded work never reached the GPU.
     #[error(
         "the encoder that encode recorded into was dropped and not submitted; call prepare and encode again"
     )]
     Dropped,
-    /// The frame that was prepared last has no such light, or no such view.
+    /// The last prepared frame has no such light, or no such view.
     #[error(
-        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views; pass places in its lists"
+        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views; pass indices into its lists"
     )]
     NoSuch {
         /// The light asked for.
@@ -196,9 +196,9 @@ pub enum ScreenPassError {
         /// The largest that works.
         limit: u32,
     },
-    /// The depth-stencil format does not fit, or the device was created without it.
+    /// The depth-stencil format is unsuitable, or the device was created without it.
     #[error(
-        "{0:?} does not fit; pass Depth24PlusStencil8, or Depth32FloatStencil8 on a device with the feature of that name"
+        "{0:?} is unsuitable; pass Depth24PlusStencil8, or Depth32FloatStencil8 on a device with the feature of that name"
     )]
     Format(wgpu::TextureFormat),
     /// The colour format cannot be drawn into and blended on this device, with as many samples.
@@ -207,7 +207,7 @@ pub enum ScreenPassError {
     )]
     ColorFormat(wgpu::TextureFormat),
     /// The sample count is neither 1 nor 4.
-    #[error("{0} samples do not fit; pass 1 or 4, which every device has")]
+    #[error("{0} samples are not supported; pass 1 or 4, which every device has")]
     SampleCount(u32),
     /// Shaders would have to read several samples, on a back end that cannot.
     #[error(

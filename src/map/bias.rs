@@ -1,42 +1,41 @@
-//! Depth bias, in texels of the map, so that it means the same in every scene.
+//! Depth bias in texels of the map, so that one setting suits every scene.
 
 use crate::error::BiasError;
 
 /// How far a receiver is moved before it is compared with the map.
 ///
 /// Every tap is compared with the depth of the receiver's own plane in that tap's direction (see
-/// [`PcfSampler`](crate::PcfSampler)), so the bias does not depend on slope or kernel width. It covers
-/// three things: rounding, the rasteriser's snapping of vertices to 1/256 of a texel (1/16 on
-/// SwiftShader; docs/numerics.md states how much of the defaults remains there), and the bend from one
-/// triangle of a concave surface to the next. The first two fields are in texels: one texel is
-/// `2 d / size` wide at a distance `d` along the major axis. They suit scenes of any scale.
+/// [`PcfSampler`](crate::PcfSampler)), so the bias does not depend on slope or kernel width. It covers three
+/// things: rounding, the rasteriser's snapping of vertices to 1/256 of a texel (1/16 on SwiftShader;
+/// docs/numerics.md states how much margin the defaults leave there), and the bend between neighbouring
+/// triangles of a concave surface. The first two fields are in texels: one texel is `2 d / size` wide at a
+/// distance `d` along the major axis. They work at any scene scale.
 ///
 /// Far from the origin, f32 positions are coarser than texels. The fourth field covers that, in units in
 /// the last place of the receiver's own coordinates; docs/numerics.md derives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bias {
-    /// Distance along the geometric normal toward the light, in texels at the receiver, scaled by
-    /// the sine of the angle between normal and light (no offset where the light falls straight
-    /// on). Default 0.1. At least 0. A larger value hides acne on coarse concave meshes, and leaks more
-    /// light where a caster touches its receiver (Holbert, "Saying Goodbye to Shadow Acne", 2011).
+    /// Distance along the geometric normal toward the light, in texels at the receiver, scaled by the sine of
+    /// the angle between normal and light (no offset at normal incidence). Default 0.1. At least 0. A larger
+    /// value hides acne on coarse concave meshes but leaks more light where a caster touches its receiver
+    /// (Holbert, "Saying Goodbye to Shadow Acne", 2011).
     pub normal_offset: f32,
     /// Distance toward the light, in texels at the receiver. Default 0.05. At least 0.
     pub constant: f32,
-    /// Slope-scaled bias of the rasteriser, away from the light, as a factor of how much a caster's
-    /// depth changes from one texel to the next. Default 0: receivers are compared with their own
-    /// plane, so casters need none. For hosts that sample the map with a comparison of their own.
-    /// At least 0.
+    /// Slope-scaled bias of the rasteriser, away from the light, as a multiple of the change in a caster's
+    /// depth from one texel to the next. Default 0: receivers are compared with their own plane, so casters
+    /// need none. For hosts that sample the map with a comparison of their own. At least 0.
     pub slope_scale: f32,
-    /// How far rounding may have moved a receiver along each axis, in ulps of that coordinate
-    /// (2^-23 of it). Used only where that is more than `normal_offset`. Default 4: the sum of a host's
-    /// transform, the interpolation of world positions and a caster's own rounding. At least 0. Light
-    /// leaks under a caster by the same distance: 0.5 units at a wall at x = 1e6, 0.0005 at x = 1e3. With
-    /// coordinates counted from a nearer origin ([`Caster::placed`](crate::Caster::placed)) there is no leak.
+    /// How far rounding may have moved a receiver along each axis, in ulps of that coordinate (2^-23 of it).
+    /// Used only where it exceeds `normal_offset`. Default 4, which covers the host's transform, the
+    /// interpolation of world positions and the caster's own rounding. At least 0. Light leaks under a caster
+    /// by the same distance: 0.5 units for a wall at x = 1e6, 0.0005 at x = 1e3. With coordinates relative to
+    /// a nearer origin ([`Caster::placed`](crate::Caster::placed)) there is no leak.
     pub position_ulps: f32,
 }
 
 impl Bias {
-    /// No bias at all: for measuring what the defaults are worth. Shows acne.
+    /// No bias at all, for measuring the effect of the defaults. Shows acne.
     pub const NONE: Self = Self {
         normal_offset: 0.0,
         constant: 0.0,

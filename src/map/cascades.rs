@@ -1,36 +1,36 @@
-//! How the maps of a directional light share out what a view shows.
+//! How the maps of a directional light divide the visible scene among themselves.
 
 use crate::error::CascadeError;
 
-/// The cascades of a directional light: maps of equal size, each for what a view shows between two
-/// distances, so that what is near the eye gets the small texels.
+/// The cascades of a directional light: maps of equal size, each covering what a view shows between two
+/// distances, so that texels are smallest near the eye.
 ///
-/// A view in perspective counts distances from its eye, not along its axis, so that none changes when
-/// the camera turns. All of an orthographic view is seen at one scale: it counts from its near plane
-/// along its direction, up to its far plane whatever [`distance`](Self::distance) is, and its cascades
-/// are equally long.
+/// In a perspective view, distances are measured from the eye rather than along the view axis, so none of
+/// them changes when the camera turns. An orthographic view shows everything at one scale: distances are
+/// measured from its near plane along its direction, up to its far plane regardless of
+/// [`distance`](Self::distance), and all cascades are equally long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cascades {
-    /// How many. Default 4. 1 to 8.
+    /// Number of cascades. Default 4. 1 to 8.
     pub count: u32,
     /// Where one ends and the next begins. Default [`CascadeSplit::default`].
     pub split: CascadeSplit,
     /// What each one covers. Default [`CascadeFit::Stable`].
     pub fit: CascadeFit,
-    /// Distance up to which shadows are to be seen, in world units. Default 100. Greater than 0, finite.
-    /// Beyond it, as beyond the view's far plane, all is lit.
+    /// Distance up to which shadows are visible, in world units. Default 100. Greater than 0, finite. Beyond
+    /// it, as beyond the view's far plane, everything is lit.
     pub distance: f32,
-    /// Share of each cascade's length, at its far end, in which it turns into the next one. Default 0.1.
-    /// 0 (the next one begins where it ends) to 0.5.
+    /// Fraction of each cascade's length, at its far end, over which it blends into the next one. Default
+    /// 0.1. 0 (no blending) to 0.5.
     pub blend: f32,
-    /// Share of a cascade's width by which what it covers may move before it is placed and drawn anew.
-    /// Default 1/32: a cascade 30 units wide stays as it is until the camera has walked about one. Its
-    /// texels are by twice that share wider. 0 (it follows texel by texel) to 1/8.
+    /// How far the covered region may move before the cascade is placed and drawn again, as a fraction of the
+    /// cascade's width. Default 1/32: a cascade 30 units wide stays in place until the camera has moved about
+    /// one unit. Texels grow by twice that fraction. 0 (the cascade follows texel by texel) to 1/8.
     pub margin: f32,
 }
 
 impl Cascades {
-    /// The most cascades of one light and view.
+    /// The maximum number of cascades per light and view.
     pub const MOST: u32 = 8;
 
     /// Checks that every number is in its range.
@@ -82,23 +82,24 @@ impl Default for Cascades {
     }
 }
 
-/// The distances at which one cascade ends and the next begins. (An orthographic view sees all at one scale:
-/// there cascades are equally long whatever is asked.)
+/// The distances at which one cascade ends and the next begins. (An orthographic view shows everything at one
+/// scale, so its cascades are equally long whatever the setting.)
 ///
-/// Below, `n` is the distance of the view's near plane and `f` the shadows' or the view's far plane's; the
-/// nearest and farthest that is seen, where the host says so ([`DepthBounds`]).
+/// Below, `n` is the distance of the view's near plane, and `f` is the shadow distance or that of the view's
+/// far plane; if the host passes [`DepthBounds`], they are the nearest and farthest visible distances
+/// instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum CascadeSplit {
-    /// [`Ground`](Self::Ground) where the host says what is seen ([`DepthBounds`]), else
-    /// [`Practical`](Self::Practical) with `lambda` 0.85.
+    /// [`Ground`](Self::Ground) if the host passes [`DepthBounds`], otherwise [`Practical`](Self::Practical)
+    /// with `lambda` 0.85.
     #[default]
     Auto,
-    /// Between two rules (Zhang et al., "Parallel-Split Shadow Maps for Large-scale Virtual
-    /// Environments", 2006): of m cascades from `n` to `f`, the i-th ends at
+    /// A mix of logarithmic and uniform splits (Zhang et al., "Parallel-Split Shadow Maps for Large-scale
+    /// Virtual Environments", 2006): of m cascades from `n` to `f`, the i-th ends at
     /// `lambda * n * (f / n)^(i / m) + (1 - lambda) * (n + (f - n) * i / m)`.
     ///
-    /// For views of which only the near plane is known, which lies far before all that is seen.
+    /// For views whose near plane lies far in front of anything visible, when nothing else is known.
     Practical {
         /// 1: each cascade is as many times as far as the one before it, which wastes the first ones where
         /// nothing is near. 0: all are equally long. 0.85: over flat ground seen from 1.7 above it, for
@@ -106,12 +107,13 @@ pub enum CascadeSplit {
         /// as wide in the world as with the best value for each. 0 to 1.
         lambda: f32,
     },
-    /// For a view of which it is known where what it shows begins: texels are as few pixels wide as can be, in
-    /// the mean over the pixels that show ground from there on.
+    /// For views whose nearest visible distance is known: minimises the mean size of texels in pixels, over
+    /// all pixels that show ground beyond that distance.
     ///
-    /// Of ground that is seen from above it, a distance `d` takes a share of the picture of `1 / d^2`, and the
-    /// texels of a cascade that ends at `e` are `e / d` as many pixels wide. The mean is least where each
-    /// cascade ends `r` times as far as the one before it, and the next one `(r^2 + 1) / 2` times as far again.
+    /// Seen from above, ground at a distance `d` takes up a share of the picture proportional to `1 / d^2`, and
+    /// the texels of a cascade that ends at `e` are a number of pixels wide that is proportional to `e / d`.
+    /// The mean is smallest if a cascade that ends `r` times as far away as the one before it is followed by
+    /// one that ends `(r^2 + 1) / 2` times as far again.
     Ground {
         /// Distance of the nearest surfaces, in world units; what is nearer than that is shadowed by the first
         /// cascade, too. Less than `n` counts as `n`, which is enough where the host passes
@@ -125,34 +127,34 @@ pub enum CascadeSplit {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CascadeFit {
-    /// All around the eye, up to the cascade's far end. A camera that turns in place changes no
-    /// cascade: none is drawn anew, and no shadow flickers. One that walks moves them by whole texels
-    /// that stay where they are in the world. (Of an orthographic view, a sphere around the slice: there a
-    /// turn moves the map by whole texels.)
+    /// Everything around the eye, up to the cascade's far end. Turning the camera in place changes no
+    /// cascade: nothing is redrawn, and no shadow flickers. Moving it shifts them by whole texels, which stay
+    /// fixed in the world. (In an orthographic view, a sphere around the slice: turning then shifts the map
+    /// by whole texels.)
     ///
-    /// Texels are wider than those of a sphere around what is seen: 1.3 times if that is 100 degrees wide
-    /// from corner to corner, 1.7 times at 60, and more at less. See [`Tight`](Self::Tight).
+    /// Texels are wider than those of a sphere around the visible slice: 1.3 times for a field of view of 100
+    /// degrees from corner to corner, 1.7 times for 60, and more for narrower ones. See
+    /// [`Tight`](Self::Tight).
     #[default]
     Stable,
-    /// What is seen, in the light's axes: the smallest texels. They stay where they are in the world
-    /// while the cascade's width does, which goes in steps of a quarter octave as the camera moves and
-    /// turns; shadow edges move by up to a texel then. For narrow views, still pictures, and lights
+    /// Only what is visible, aligned with the light's axes: the smallest texels. They stay fixed in the world
+    /// as long as the cascade's width does. The width changes in steps of a quarter octave as the camera
+    /// moves and turns; shadow edges then move by up to a texel. For narrow views, still pictures, and lights
     /// that move anyway.
     Tight,
 }
 
-/// The depths between which a view's picture shows anything, such as the least and the greatest of its
-/// depth buffer: cascades then divide no more than that (Lauritzen et al., "Sample Distribution Shadow
-/// Maps", 2010).
+/// The range of depths visible in a view's picture, such as the minimum and maximum of its depth buffer.
+/// Cascades then divide only that range (Lauritzen et al., "Sample Distribution Shadow Maps", 2010).
 ///
-/// In world units along the view's axis, from the eye; of an orthographic view from its near plane. A
-/// host that reads them back from an earlier frame adds what the camera may have moved since: what is
-/// seen outside them gets no shadow.
+/// In world units along the view's axis, measured from the eye, or from the near plane of an orthographic
+/// view. A host that reads them back from an earlier frame should widen them by the distance that the camera
+/// may have moved since: anything visible outside them gets no shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthBounds {
-    /// The least depth; at least 0.
+    /// The smallest depth; at least 0.
     pub nearest: f32,
-    /// The greatest depth; finite, no less than `nearest`.
+    /// The largest depth; finite, at least `nearest`.
     pub farthest: f32,
 }
 

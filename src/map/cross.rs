@@ -1,4 +1,4 @@
-//! A cube map unfolded, for a host to look at.
+//! A debug view of a cube map, unfolded into a cross.
 
 use super::cube::CubeShadowMap;
 use super::encoding::DepthEncoding;
@@ -6,10 +6,10 @@ use super::gpu::LightRecord;
 use super::overlay::Overlay;
 use crate::error::{CubeShadowMapError, DebugPassError};
 
-/// How to make a [`CubeCross`].
+/// Parameters of a [`CubeCross`].
 #[derive(Clone, Debug)]
 pub struct CubeCrossDescriptor<'a> {
-    /// Name in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Format of the pass's only colour attachment. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
@@ -33,12 +33,12 @@ impl Default for CubeCrossDescriptor<'_> {
     }
 }
 
-/// Draws a cube map unfolded as a cross into a host's pass, to see what it holds.
+/// Draws a cube map into a host's pass, unfolded as a cross, to show its content.
 ///
-/// Four cells by three of the viewport: +Y above, -X, +Z, +X, -Z in the middle row, -Y below, each
-/// as seen from the light and joined to +Z as on the cube. White is at the light, black at its
-/// range or beyond (along the major axis, or distance, as the map has it), dark blue where no caster
-/// is; the corner cells are left as they were.
+/// The viewport is divided into four by three cells: +Y at the top, -X, +Z, +X, -Z in the middle row, -Y at
+/// the bottom, each as seen from the light and joined to +Z as on the cube. White is at the light, black at
+/// its range or beyond (in distance or along the major axis, according to the map's encoding), and dark blue
+/// where there is no caster. The corner cells are left untouched.
 #[derive(Debug)]
 pub struct CubeCross {
     label: String,
@@ -49,7 +49,7 @@ pub struct CubeCross {
 }
 
 impl CubeCross {
-    /// Makes the pipeline.
+    /// Creates the pipeline.
     ///
     /// # Errors
     /// [`DebugPassError`] if a format or the sample count of the pass does not fit.
@@ -74,7 +74,7 @@ impl CubeCross {
         })
     }
 
-    /// The bind group for a map; it stays right.
+    /// The bind group for a map; it remains valid as long as the map exists.
     ///
     /// # Errors
     /// [`CubeShadowMapError`] if the map has another encoding.
@@ -109,7 +109,7 @@ impl CubeCross {
         }))
     }
 
-    /// Draws into the pass's viewport. Group 0 and the pipeline are set to others after.
+    /// Draws into the pass's viewport. Replaces the pass's pipeline and bind group 0.
     pub fn render(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, group, &[]);

@@ -15,34 +15,33 @@ use crate::clock::Clock;
 use crate::error::CubeShadowMapError;
 use crate::{PointLight, Radius, gl};
 
-/// An omnidirectional depth map for one point light: six faces, drawn only where a caster is, and
-/// only when it has changed. All lights of a scene go into a [`ShadowAtlas`](crate::ShadowAtlas).
+/// An omnidirectional depth map for one point light: six faces, each drawn only if it has casters and only
+/// when they have changed. For all lights of a scene, use a [`ShadowAtlas`](crate::ShadowAtlas).
 ///
-/// By default `Depth32Float`, infinite reverse-Z: a texel holds `near / d`, where `d` is the
-/// distance along the face's major axis, and 0 where no caster is. That is linear over a face for
-/// any plane, which is what lets [`PcfSampler`](crate::PcfSampler) compare every tap with the
-/// receiver's own plane. (Cube maps for point lights: Gerasimov, "Omnidirectional Shadow Mapping",
-/// GPU Gems, 2004.)
+/// By default `Depth32Float`, infinite reverse-Z: a texel holds `near / d`, where `d` is the distance along
+/// the face's major axis, and 0 where there is no caster. For any plane, this is linear over a face, which
+/// lets [`PcfSampler`](crate::PcfSampler) compare every tap with the receiver's own plane. (Cube maps for
+/// point lights: Gerasimov, "Omnidirectional Shadow Mapping", GPU Gems, 2004.)
 ///
-/// # What is drawn again
+/// # What is redrawn
 ///
-/// A face is drawn again only if the light, its casters, their transforms or the revisions of their
-/// meshes have changed since it was drawn. The map finds this by comparison, so there is no flag to
-/// set. The one exception is a mesh that the host deforms in its own buffer: call
-/// [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision) for it. The order of the casters
-/// does not matter.
+/// A face is redrawn only if the light, its casters, their transforms or the revisions of their meshes have
+/// changed since it was last drawn. The map detects this by comparison, so there is no flag to set. The one
+/// exception is a mesh that the host deforms in its own buffer: call
+/// [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision) for it. The order of the casters does not
+/// matter.
 ///
-/// A static scene costs the CPU one comparison of 80 bytes per caster and the GPU nothing. A caster
-/// that moves costs one culling test and the draws of the faces that it left or entered. A
-/// light that moves finds its casters through a tree (boxes over the casters in Morton order), which is
-/// kept between frames where that pays. `docs/benches.md` has what `prepare` takes for 100 to 100,000
-/// casters, and how the tree compares with a linear search and a compute shader.
+/// A static scene costs the CPU one comparison of 80 bytes per caster and the GPU nothing. A moving caster
+/// costs one culling test and the redrawing of the faces it leaves or enters. A moving light finds its
+/// casters through a tree (boxes over the casters in Morton order), which is kept between frames when that
+/// pays off. `docs/benches.md` lists the time of `prepare` for 100 to 100,000 casters, and compares the tree
+/// with a linear search and a compute shader.
 ///
 /// # Accuracy
 ///
-/// A map is as exact as its texels are small. On the 64 spheres of the example `compare` (1280x720
-/// pixels, one bilinear tap) 0.28 % of the pixels are wrong with 512 texels per face, 0.14 % with 1024 and
-/// 0.07 % with 2048. All of them lie at shadow edges.
+/// Accuracy grows with resolution. For the 64 spheres of the example `compare` (1280x720 pixels, one bilinear
+/// tap), 0.28 % of the pixels are wrong with 512 texels per face, 0.14 % with 1024 and 0.07 % with 2048. All
+/// of them lie at shadow edges.
 #[derive(Debug)]
 pub struct CubeShadowMap {
     map: OneLightMap,
@@ -52,7 +51,7 @@ pub struct CubeShadowMap {
 }
 
 impl CubeShadowMap {
-    /// Makes a map with its texture.
+    /// Creates a map and its texture.
     ///
     /// # Errors
     /// [`CubeShadowMapError`] if the size or a setting is out of range.
@@ -100,13 +99,13 @@ impl CubeShadowMap {
         })
     }
 
-    /// Decides which casters go on which faces and which faces are drawn, and stages what that needs.
-    /// (Nothing goes through the queue, which is there as in every other `prepare`: it has its place in
-    /// the order of the encoder, see [`encode`](Self::encode).)
+    /// Decides which casters belong to which faces and which faces to draw, and stages the uploads. (Nothing
+    /// is written through the queue, which is a parameter only because every `prepare` takes one: uploads are
+    /// recorded into the encoder, see [`encode`](Self::encode).)
     ///
     /// # Errors
-    /// [`CubeShadowMapError`] if the light or a caster is out of range, or there are too many. What
-    /// an earlier `prepare` found then still stands.
+    /// [`CubeShadowMapError`] if the light or a caster is out of range, or if there are too many casters. The
+    /// result of an earlier `prepare` then remains in force.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -138,27 +137,28 @@ impl CubeShadowMap {
         Ok(())
     }
 
-    /// Records what the last [`prepare`](Self::prepare) found necessary: its passes, and what it tells
-    /// receivers of the light. Once: a second call before the next `prepare` records nothing.
+    /// Records the work that the last [`prepare`](Self::prepare) found necessary: render passes, and the
+    /// light's data for receivers. Does so once: a second call before the next `prepare` records nothing.
     ///
-    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
-    /// light as they were; of a map that was never drawn they see a dark light. What is recorded
-    /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
+    /// Call it after every `prepare`, whatever the result. Until then, receivers see the previous texels and
+    /// light; a map that has never been drawn makes its light appear dark. The recorded work must be
+    /// submitted: if the encoder is dropped, the next `prepare` redraws everything
     /// ([`CubeStatistics::encoder_dropped`](crate::CubeStatistics)).
     ///
     /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
-    /// missing from what this draws. Their faces are counted
-    /// ([`CubeStatistics::faces_incomplete`](crate::CubeStatistics)) and drawn again in the next frame.
-    /// Hosts that have any call [`encode_with`](Self::encode_with).
+    /// not drawn by this call. Faces that lack them are counted
+    /// ([`CubeStatistics::faces_incomplete`](crate::CubeStatistics)) and redrawn in the next frame. Hosts
+    /// with such casters call [`encode_with`](Self::encode_with) instead.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.map.encode(encoder, None);
         self.statistics.faces_incomplete = self.map.incomplete();
     }
 
-    /// As [`encode`](Self::encode), and asks the host to draw what only it can (skinned, alpha-tested): `draw`
-    /// is called within the pass of each face that such casters touch, after all else on that face. What
-    /// holds for such draws is said at [`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with); compare
-    /// and clear depth are those of the map's [`DepthEncoding`](crate::DepthEncoding).
+    /// Like [`encode`](Self::encode), but also lets the host draw what only it can (skinned or alpha-tested
+    /// meshes): `draw` is called within the pass of each face that such casters touch, after everything else
+    /// on that face. The rules for such draws are given at
+    /// [`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with); the depth comparison and the clear value
+    /// are those of the map's [`DepthEncoding`](crate::DepthEncoding).
     pub fn encode_with(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -167,17 +167,17 @@ impl CubeShadowMap {
         self.map.encode(encoder, Some(&mut draw));
     }
 
-    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has every face drawn again that the
-    /// view shows. What the last one found is forgotten.
+    /// Marks every face as outdated: the next [`prepare`](Self::prepare) redraws all faces that the view
+    /// shows. The result of the last one is discarded.
     ///
-    /// For a host that has written to the map's texture, or has lost what was recorded in a way that
-    /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
+    /// For a host that has written to the map's texture, or has lost recorded work in a way that the map
+    /// cannot detect: an encoder that is kept but never submitted, or a submission that failed.
     pub fn invalidate(&mut self) {
         self.map.invalidate();
     }
 
-    /// The matrix of a face in the last [`prepare`](Self::prepare), world space to clip space; `None`
-    /// before the first. The frame is left-handed: triangles that are counter-clockwise seen from the
+    /// The matrix of a face from world space to clip space, as of the last [`prepare`](Self::prepare); `None`
+    /// before the first. It maps to a left-handed space: triangles that are counter-clockwise seen from the
     /// light are clockwise on the face.
     pub fn clip_from_world(&self, face: CubeFace) -> Option<Mat4> {
         let slot = self.map.slot();
@@ -188,8 +188,8 @@ impl CubeShadowMap {
         Some(from_light * Mat4::from_translation(-projection.origin()))
     }
 
-    /// The texture: six layers in the order of [`CubeFace::ALL`]. On wgpu's GL back end it has a spare
-    /// layer, which nothing is drawn into.
+    /// The texture: six layers in the order of [`CubeFace::ALL`]. On wgpu's GL back end it has an additional,
+    /// unused layer.
     pub fn texture(&self) -> &wgpu::Texture {
         self.map.gpu.texture()
     }
@@ -197,8 +197,8 @@ impl CubeShadowMap {
     /// The map as a cube texture, for hosts that sample it themselves.
     ///
     /// # Errors
-    /// [`CubeShadowMapError::CubeView`] on wgpu's GL back end, which reads a texture as layers, as receivers
-    /// do, or as a cube, and not as both.
+    /// [`CubeShadowMapError::CubeView`] on wgpu's GL back end, which can read a texture either as layers, as
+    /// receivers do, or as a cube, but not both.
     pub fn view(&self) -> Result<&wgpu::TextureView, CubeShadowMapError> {
         self.cube.as_ref().ok_or(CubeShadowMapError::CubeView)
     }
@@ -213,17 +213,17 @@ impl CubeShadowMap {
         self.map.gpu.size()
     }
 
-    /// What texels hold.
+    /// What the texels hold.
     pub fn encoding(&self) -> DepthEncoding {
         self.map.gpu.encoding()
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> CubeStatistics {
         self.statistics
     }
 
-    /// What became of one face in the last [`prepare`](Self::prepare); `None` before the first.
+    /// Statistics of one face in the last [`prepare`](Self::prepare); `None` before the first.
     pub fn face_statistics(&self, face: CubeFace) -> Option<TileStatistics> {
         self.map.tile(face.layer() as usize)
     }

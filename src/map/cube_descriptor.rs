@@ -1,4 +1,4 @@
-//! How a cube map is made, and what it is told each frame.
+//! Parameters of a cube map, and its input for each frame.
 
 use super::encoding::DepthEncoding;
 use super::settings::MapSettings;
@@ -8,10 +8,10 @@ use crate::error::CubeShadowMapError;
 use crate::mesh::Caster;
 use crate::{Bias, PointLight, View};
 
-/// How to make a [`CubeShadowMap`](crate::CubeShadowMap).
+/// Parameters of a [`CubeShadowMap`](crate::CubeShadowMap).
 #[derive(Clone, Debug)]
 pub struct CubeShadowMapDescriptor<'a> {
-    /// Name of the map in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Texels along each side of a face. Default 1024. 1 to the device's
     /// `max_texture_dimension_2d`. Memory: six faces of 4 bytes a texel (2 for `Depth16Unorm`).
@@ -21,24 +21,24 @@ pub struct CubeShadowMapDescriptor<'a> {
     /// How depths are stored, drawn and compared. With `LinearDistance` there is no
     /// [`slope_scale`](crate::Bias::slope_scale).
     pub settings: MapSettings,
-    /// Whether casters go only on the faces they touch. Default true; false draws every caster on
-    /// every face, for measuring what culling is worth.
+    /// Whether casters are drawn only on the faces they touch. Default true; false draws every caster on
+    /// every face, to measure the benefit of culling.
     #[doc(hidden)]
     pub cull_casters: bool,
-    /// Whether faces whose content has not changed are left alone. Default true; false draws every
-    /// face every frame, for measuring what that is worth.
+    /// Whether faces whose content has not changed are left alone. Default true; false redraws every face
+    /// every frame, to measure the benefit.
     #[doc(hidden)]
     pub cache: bool,
-    /// Whether static casters are kept in a second layer under those that move. Default
-    /// [`StaticLayers::Auto`]. Without `cache` there are none, and [`StaticLayers::AtLeast`] is
-    /// refused.
+    /// Whether static casters are cached in a second layer under those that move. Default
+    /// [`StaticLayers::Auto`]. Without `cache` there are no such layers, and [`StaticLayers::AtLeast`] is
+    /// rejected.
     pub static_layers: StaticLayers,
 }
 
 impl CubeShadowMapDescriptor<'_> {
-    /// The method as textbooks have it: six passes with every caster in each, every frame,
-    /// `distance / range` written by the fragment shader. To be read with
-    /// [`PcfDescriptor::textbook`](crate::PcfDescriptor). For comparison, not for use.
+    /// The textbook method: six passes in every frame with all casters in each, and `distance / range`
+    /// written by the fragment shader. To be read with [`PcfDescriptor::textbook`](crate::PcfDescriptor). For
+    /// comparison only.
     pub fn textbook() -> Self {
         Self {
             encoding: DepthEncoding::LinearDistance,
@@ -93,14 +93,14 @@ impl Default for CubeShadowMapDescriptor<'_> {
     }
 }
 
-/// What a [`CubeShadowMap`](crate::CubeShadowMap) is to show this frame.
+/// The input of a [`CubeShadowMap`](crate::CubeShadowMap) for one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct CubeFrame<'a> {
     /// The light.
     pub light: PointLight,
-    /// Everything that may cast; what the light cannot reach is left out by the map itself. Their
-    /// order does not matter, but what is found at another place in the slice than last frame counts
-    /// as moved: take casters out by `swap_remove` rather than by `remove`.
+    /// Everything that may cast; the map itself leaves out what the light cannot reach. The order does not
+    /// matter, but a caster at another index than in the last frame counts as moved: remove casters with
+    /// `swap_remove` rather than `remove`.
     pub casters: &'a [Caster],
     /// The host's camera: faces that no kernel reaches
     /// ([`reach`](MapSettings::reach)) from a visible receiver are put off until one

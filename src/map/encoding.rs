@@ -1,16 +1,16 @@
-//! What the texels of a map hold.
+//! The depth encoding of cube maps.
 
 /// What the texels of a [`CubeShadowMap`](crate::CubeShadowMap) hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DepthEncoding {
-    /// `near / d`, where `d` is the distance along the face's major axis: infinite reverse-Z, 0
-    /// where no caster is. Linear over a face for any plane, and needs no fragment shader.
+    /// `near / d`, where `d` is the distance along the face's major axis: infinite reverse-Z, 0 where there
+    /// is no caster. Linear over a face for any plane, and needs no fragment shader.
     #[default]
     MajorAxis,
-    /// `distance / range` from light to caster, written by the fragment shader, 1 where no caster
-    /// is. Evenly spaced, so the better choice for `Depth16Unorm`; costs about a third more to draw
-    /// than [`MajorAxis`](Self::MajorAxis), since depths are not known before the fragment shader.
+    /// `distance / range` from light to caster, written by the fragment shader, 1 where there is no caster.
+    /// Evenly spaced, so the better choice for `Depth16Unorm`; drawing costs about a third more than with
+    /// [`MajorAxis`](Self::MajorAxis), since depths are not known before the fragment shader.
     LinearDistance,
 }
 
@@ -23,7 +23,7 @@ impl DepthEncoding {
         }
     }
 
-    /// The comparison by which the nearer caster stays.
+    /// The depth comparison that keeps the nearer caster.
     pub fn nearer(self) -> wgpu::CompareFunction {
         match self {
             Self::MajorAxis => wgpu::CompareFunction::Greater,

@@ -13,9 +13,9 @@ use crate::Radius;
 use crate::clock::Clock;
 use crate::error::ShadowMapError;
 
-/// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y turned
-/// over because rows of a texture count down, and z left as it is because WebGPU's clip space has
-/// depth in 0 .. 1 already. (What textbooks for OpenGL call the bias matrix halves z too.)
+/// The matrix from clip space to the space of a texture: x and y from -1 .. 1 to 0 .. 1, y flipped because
+/// the rows of a texture run downwards, and z unchanged because depth in WebGPU's clip space is already in 0
+/// .. 1. (The bias matrix in textbooks for OpenGL also halves z.)
 ///
 /// ```
 /// use shadows::{glam::Vec3, texture_from_clip};
@@ -35,14 +35,14 @@ pub fn texture_from_clip() -> Mat4 {
 /// Surfaces", 1978).
 ///
 /// Reverse-Z, `Depth32Float` by default: a texel holds `near / d` for a spot and `1 - d / range` for a
-/// directional light, `d` along the light's direction, and 0 where no caster is. What lies outside
-/// the map is lit, and so is what lies behind a spot; beyond a spot's range nothing is.
+/// directional light, `d` along the light's direction, and 0 where there is no caster. Receivers outside the
+/// map are lit, as are receivers behind a spot; beyond a spot's range, none is.
 ///
-/// # What is drawn again
+/// # When it is redrawn
 ///
-/// A map that shows all that it must is left alone. This is found by comparing, as for a
-/// [`CubeShadowMap`](crate::CubeShadowMap): of a frame in which nothing has changed, 80 bytes a caster
-/// are read, and nothing is uploaded.
+/// A map whose content is up to date is left alone. This is detected by comparison, as for a
+/// [`CubeShadowMap`](crate::CubeShadowMap): in a frame without changes, 80 bytes per caster are read, and
+/// nothing is uploaded.
 #[derive(Debug)]
 pub struct ShadowMap {
     map: OneLightMap,
@@ -51,7 +51,7 @@ pub struct ShadowMap {
 }
 
 impl ShadowMap {
-    /// Allocates a map.
+    /// Creates a map and its texture.
     ///
     /// # Errors
     /// [`ShadowMapError`] if the size or a setting is out of range.
@@ -101,13 +101,13 @@ impl ShadowMap {
         })
     }
 
-    /// Finds where the map lies, decides which casters go on it and stages what drawing them needs.
-    /// (Nothing goes through the queue, which is there as in every other `prepare`: it has its place in
-    /// the order of the encoder, see [`encode`](Self::encode).)
+    /// Places the map, decides which casters belong on it and stages the uploads. (Nothing is written through
+    /// the queue, which is a parameter only because every `prepare` takes one: uploads are recorded into the
+    /// encoder, see [`encode`](Self::encode).)
     ///
     /// # Errors
-    /// [`ShadowMapError`] if the light, a caster, the view's distance or the receivers' bounds are
-    /// out of range, each by itself or all together in `f32`; the map is then as it was.
+    /// [`ShadowMapError`] if the light, a caster, the view's distance or the receivers' bounds are out of
+    /// range, each on its own or in combination, in `f32`. The map is then unchanged.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -147,25 +147,25 @@ impl ShadowMap {
         Ok(())
     }
 
-    /// Records what the last [`prepare`](Self::prepare) found necessary: its pass, and what it tells
-    /// receivers of the light. Once: a second call before the next `prepare` records nothing.
+    /// Records the work that the last [`prepare`](Self::prepare) found necessary: a render pass, and the
+    /// light's data for receivers. Does so once: a second call before the next `prepare` records nothing.
     ///
-    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
-    /// light as they were; of a map that was never drawn they see a dark light. What is recorded must
-    /// be submitted: if its encoder is dropped, the `prepare` after that draws the map again
+    /// Call it after every `prepare`, whatever the result. Until then, receivers see the previous texels and
+    /// light; a map that has never been drawn makes its light appear dark. The recorded work must be
+    /// submitted: if the encoder is dropped, the next `prepare` redraws the map
     /// ([`ShadowMapStatistics::encoder_dropped`]).
     ///
     /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
-    /// missing from what this draws ([`ShadowMapStatistics::incomplete`]), and the next frame draws the map
-    /// again. Hosts that have any call [`encode_with`](Self::encode_with).
+    /// not drawn by this call ([`ShadowMapStatistics::incomplete`]), and the map is redrawn in the next
+    /// frame. Hosts with such casters call [`encode_with`](Self::encode_with) instead.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.map.encode(encoder, None);
         self.statistics.incomplete = self.map.incomplete() > 0;
     }
 
-    /// As [`encode`](Self::encode), and asks the host to draw what only it can (skinned, alpha-tested): `draw`
-    /// is called within the pass, after all else, if such casters touch the map. What holds for such draws is
-    /// said at [`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with).
+    /// Like [`encode`](Self::encode), but also lets the host draw what only it can (skinned or alpha-tested
+    /// meshes): `draw` is called within the pass, after everything else, if such casters touch the map. The
+    /// rules for such draws are given at [`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with).
     pub fn encode_with(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -174,18 +174,18 @@ impl ShadowMap {
         self.map.encode(encoder, Some(&mut draw));
     }
 
-    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the map drawn again. What the
-    /// last one found is forgotten.
+    /// Marks the map as outdated: the next [`prepare`](Self::prepare) redraws it. The result of the last one
+    /// is discarded.
     ///
-    /// For a host that has written to the map's texture, or has lost what was recorded in a way that
-    /// the map cannot see: an encoder that is kept but never submitted, a submission that failed.
+    /// For a host that has written to the map's texture, or has lost recorded work in a way that the map
+    /// cannot detect: an encoder that is kept but never submitted, or a submission that failed.
     pub fn invalidate(&mut self) {
         self.map.invalidate();
     }
 
-    /// World space to clip space, as the last [`prepare`](Self::prepare) placed the map; `None`
-    /// where nothing casts. The frame is left-handed: triangles that are counter-clockwise seen
-    /// from the light are clockwise on the map.
+    /// World space to clip space, as of the last [`prepare`](Self::prepare); `None` if nothing casts. It maps
+    /// to a left-handed space: triangles that are counter-clockwise seen from the light are clockwise on the
+    /// map.
     pub fn clip_from_world(&self) -> Option<Mat4> {
         Some(self.place.frame()?.clip_from_world())
     }
@@ -201,8 +201,8 @@ impl ShadowMap {
         self.map.gpu.texture()
     }
 
-    /// The map as layer 0 of a 2D array (`texture_2d_array`, `texture_depth_2d_array`), for hosts that
-    /// sample it themselves. On wgpu's GL back end it has a spare layer, which nothing is drawn into.
+    /// The map as layer 0 of a 2D array (`texture_2d_array`, `texture_depth_2d_array`), for hosts that sample
+    /// it themselves. On wgpu's GL back end it has an additional, unused layer.
     pub fn view(&self) -> &wgpu::TextureView {
         self.map.gpu.layers()
     }
@@ -212,7 +212,7 @@ impl ShadowMap {
         self.map.gpu.size()
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> ShadowMapStatistics {
         self.statistics
     }

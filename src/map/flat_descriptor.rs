@@ -1,28 +1,28 @@
-//! What a flat map is made from and told each frame.
+//! Parameters of a flat map, and its input for each frame.
 
 use super::settings::MapSettings;
 use crate::error::ShadowMapError;
 use crate::mesh::{Bounds, Caster};
 use crate::{DirectionalLight, Light, SpotLight, View};
 
-/// How to make a [`ShadowMap`](crate::ShadowMap).
+/// Parameters of a [`ShadowMap`](crate::ShadowMap).
 #[derive(Clone, Debug)]
 pub struct ShadowMapDescriptor<'a> {
-    /// Name of the map in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Texels along each side. Default 2048. 1 to the device's `max_texture_dimension_2d`. Memory:
     /// 4 bytes a texel, 2 as `Depth16Unorm`.
     pub size: u32,
     /// How depths are stored, drawn and compared.
     pub settings: MapSettings,
-    /// Whether casters before the near plane are pulled onto it, on devices with
-    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On others a
-    /// directional light's near plane lies before all casters, and a spot loses what is nearer
-    /// than its [`near`](SpotLight::near). False for trying what those see.
+    /// Whether casters in front of the near plane are pulled onto it, on devices with
+    /// [`DEPTH_CLIP_CONTROL`](wgpu::Features::DEPTH_CLIP_CONTROL) and on GL. Default true. On other devices,
+    /// a directional light's near plane is placed in front of all casters, and a spot loses casters nearer
+    /// than its [`near`](SpotLight::near). False to see the result of such devices.
     #[doc(hidden)]
     pub unclipped_depth: bool,
-    /// Whether a map whose content has not changed is left alone. Default true; false draws every
-    /// frame, for measuring what that is worth.
+    /// Whether a map whose content has not changed is left alone. Default true; false redraws it every frame,
+    /// to measure the benefit.
     #[doc(hidden)]
     pub cache: bool,
 }
@@ -49,15 +49,15 @@ impl Default for ShadowMapDescriptor<'_> {
     }
 }
 
-/// The light of a [`ShadowMap`](crate::ShadowMap): a [`Light`] but for point lights, which no single map can
-/// show, so that nobody can ask for one.
+/// The light of a [`ShadowMap`](crate::ShadowMap): a [`Light`] other than a point light, which does not fit a
+/// single map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FlatLight {
     /// A spot: the map is drawn around its cone.
     Spot(SpotLight),
-    /// A directional light: the map is fitted to the casters, and to the view and the receivers
-    /// where the frame has them.
+    /// A directional light: the map is fitted to the casters, and to the view and the receivers if the frame
+    /// specifies them.
     Directional(DirectionalLight),
 }
 
@@ -82,29 +82,29 @@ impl From<DirectionalLight> for FlatLight {
     }
 }
 
-/// What a [`ShadowMap`](crate::ShadowMap) is to show this frame. A spot's map is its cone, whatever
-/// is seen and receives: there `view` and `receivers` have no effect.
+/// The input of a [`ShadowMap`](crate::ShadowMap) for one frame. A spot's map always covers its cone: `view`
+/// and `receivers` have no effect on it.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowFrame<'a> {
     /// The light.
     pub light: FlatLight,
-    /// Everything that may cast; what cannot be on the map is left out by the map itself.
+    /// Everything that may cast; the map itself leaves out what cannot be on it.
     pub casters: &'a [Caster],
-    /// The host's camera, and the distance from its eye, along its axis and in world units, up to
-    /// which shadows are to be seen. A directional light's map then covers no more than what the view
-    /// shows up to there, or up to its far plane where that is nearer. `None`: everything.
+    /// The host's camera, and the distance from its eye, along its axis and in world units, up to which
+    /// shadows are visible. A directional light's map then covers only what the view shows up to there, or up
+    /// to its far plane if that is nearer. `None`: everything.
     ///
-    /// An orthographic view has no eye to count from (its near plane may even lie behind the camera),
-    /// and shows all of its depth at one scale. It counts from its near to its far plane, whatever the
-    /// distance; for less, pass a view whose far plane is nearer.
+    /// An orthographic view has no eye (its near plane may even lie behind the camera), and shows everything
+    /// at one scale. It is covered from its near to its far plane, whatever the distance; to cover less, pass
+    /// a view with a nearer far plane.
     pub view: Option<(&'a View, f32)>,
-    /// Bounds of all receivers in world space. A directional light's map then covers no more than
-    /// those. `None`: receivers may be anywhere.
+    /// Bounds of all receivers in world space. A directional light's map then covers only those. `None`:
+    /// receivers may be anywhere.
     pub receivers: Option<Bounds>,
 }
 
 impl<'a> ShadowFrame<'a> {
-    /// A frame without a view and without bounds, of a [`SpotLight`] or a [`DirectionalLight`].
+    /// A frame without a view or bounds, for a [`SpotLight`] or a [`DirectionalLight`].
     pub fn new(light: impl Into<FlatLight>, casters: &'a [Caster]) -> Self {
         Self {
             light: light.into(),

@@ -1,4 +1,4 @@
-//! What maps of all kinds are told about their depths.
+//! Depth settings shared by maps of all kinds.
 
 use super::bias::Bias;
 use super::encoding::quantum;
@@ -10,24 +10,24 @@ use crate::error::MapSettingsError;
 /// [`ShadowAtlas`](crate::ShadowAtlas) are stored, drawn and compared. The default needs no tuning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapSettings {
-    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`. The last two round depths to one part in
-    /// 2^24 and 2^16 of their range, and receivers are given one such step as bias: under a point light or a
-    /// spot `d * d / (near * 65536)` at distance `d` in world units, under a directional light 1 / 65536 of the
-    /// depth that its map or cascade covers, with [`LinearDistance`](crate::DepthEncoding::LinearDistance)
-    /// `range / 65536`.
+    /// `Depth32Float` (default), `Depth24Plus` or `Depth16Unorm`. The last two round depths to one part in 2^24
+    /// and 2^16 of their range, and receivers are given one such step as bias: `d * d / (near * 65536)` at
+    /// distance `d` in world units for a point light or a spot, 1 / 65536 of the depth that its map or cascade
+    /// covers for a directional light, and `range / 65536` with
+    /// [`LinearDistance`](crate::DepthEncoding::LinearDistance).
     pub format: wgpu::TextureFormat,
     /// Bias for receivers, in texels. Default [`Bias::default`]. Its `slope_scale` is the rasteriser's.
     pub bias: Bias,
     /// Which sides of casters are drawn. Default [`CasterSides::Nearest`].
     pub sides: CasterSides,
     /// How far kernels reach from a receiver: [`Kernel::radius`](crate::Kernel::radius) of the widest that
-    /// reads the map; [`PcfSampler::bind_group`](crate::PcfSampler::bind_group) refuses wider ones. What only
-    /// such kernels read is kept up to date, too, and what is fitted to a view or to receivers is made that
-    /// much wider. Default 12 texels, as wide as any kernel is by default. Greater than 0, at most 64 texels;
-    /// a reach in world units holds kernels of up to 12 texels, too.
+    /// reads the map; [`PcfSampler::bind_group`](crate::PcfSampler::bind_group) rejects wider ones. Texels
+    /// that only such kernels read are kept up to date, too, and maps fitted to a view or to receivers are
+    /// widened by this much. Default 12 texels, the width of the widest kernel by default. Greater than 0, at
+    /// most 64 texels; a reach in world units also covers kernels of up to 12 texels.
     ///
-    /// Of texels, with one more for rounding, no more than a quarter of a directional light's map or cascade
-    /// ([`ShadowMapError::ReachOfSize`](crate::error::ShadowMapError),
+    /// In texels, with one more for rounding, it may be at most a quarter of a directional light's map or
+    /// cascade ([`ShadowMapError::ReachOfSize`](crate::error::ShadowMapError),
     /// [`CascadeError::ReachOfSize`](crate::error::CascadeError)).
     pub reach: Radius,
 }

@@ -1,4 +1,4 @@
-//! Which sides of casters a map shows.
+//! Which sides of casters are drawn into maps.
 
 use crate::scene::Record;
 
@@ -6,22 +6,21 @@ use crate::scene::Record;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CasterSides {
-    /// The sides that face the light, where that shows the same as both: for closed meshes each of
-    /// whose surfaces encloses a positive volume (found when the mesh is made; never for meshes in
-    /// the host's own buffer), under any transform, if the light is outside the mesh's bounds. Both
-    /// sides of all others. Takes about a third off the time of drawing.
+    /// Only the sides that face the light, where the result is the same as with both: for closed meshes each
+    /// of whose surfaces encloses a positive volume (determined when the mesh is created; never for meshes in
+    /// the host's own buffer), under any transform, as long as the light is outside the mesh's bounds. Both
+    /// sides of all other meshes. Saves about a third of the drawing time.
     ///
     /// On outlines, where a near and a far side meet within a texel, depths may differ from
-    /// [`Both`](Self::Both) by the depth of that texel. A surface that passes through itself and is
-    /// inside out there casts from the far side of that part.
+    /// [`Both`](Self::Both) by the depth of that texel. Where a surface passes through itself and is inside
+    /// out, its far side casts.
     #[default]
     Nearest,
     /// Both sides of every mesh.
     Both,
-    /// Of closed meshes only the sides that look away from the light; meshes that are not closed
-    /// keep both. It hides acne where receivers are compared without their plane, and lets light in
-    /// where thin casters touch receivers. Closed meshes must be wound counter-clockwise seen from
-    /// outside.
+    /// Only the sides of closed meshes that face away from the light; both sides of meshes that are not
+    /// closed. Hides acne where receivers are compared without their plane, but leaks light where thin
+    /// casters touch receivers. Closed meshes must be wound counter-clockwise seen from outside.
     Far,
 }
 

@@ -1,35 +1,35 @@
-//! When static casters are kept in layers of their own.
+//! When static casters are cached in layers of their own.
 
 use crate::error::CubeShadowMapError;
 
-/// Whether the static casters of a face are kept in a second layer of depth, which is copied under
-/// those that move, instead of being drawn again with them.
+/// Whether the static casters of a face are cached in a second depth layer, which is copied before the moving
+/// ones are drawn, instead of being redrawn along with them.
 ///
-/// A caster is static for a face once it has been the same in three draws of that face (more
-/// after layers that were of no use, up to 64); so a scene in which all casters move takes no memory
-/// and copies nothing. A layer is made for each face that has use for one, with as many bytes as
-/// the face. Depths are the same bit for bit with and without.
+/// A caster counts as static for a face once it has stayed the same in three draws of that face (in more, up
+/// to 64, after layers that proved useless), so a scene in which all casters move takes no memory and copies
+/// nothing. A layer is created for each face that benefits from one, and takes as many bytes as the face.
+/// Depths are bit-identical with and without layers.
 ///
 /// Layers need copies between depth textures, which wgpu's GL back end does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StaticLayers {
-    /// Where enough triangles are static for the texels of a face. Nowhere on the GL back end.
+    /// Where a face has enough static triangles relative to its texels. Never on the GL back end.
     ///
-    /// On software drivers one triangle is enough for 1024 texels: 64 on a face of 256 texels a side, 1,024
-    /// on one of 1024. Mesa's llvmpipe draws a small triangle in the time in which it copies 120 to 180 texels
-    /// (`docs/benches.md`), and copies a layer as fast as it clears a face. So a layer costs nothing but
-    /// making it, one copy, which this rule repays within eight frames.
+    /// On software drivers, enough is one triangle per 1024 texels: 64 for a face of 256 texels a side, 1,024
+    /// for one of 1024. Mesa's llvmpipe draws a small triangle in the time it takes to copy 120 to 180 texels
+    /// (`docs/benches.md`), and copies a layer as fast as it clears a face. A layer therefore costs no more
+    /// than the one copy that creates it, which this rule repays within eight frames.
     ///
-    /// On GPUs one triangle is enough for 16 texels. That is an estimate, not a measurement: it assumes that
-    /// clearing is free, that a copied texel moves 12 bytes (read, written, and read again by the pass
-    /// over it) at 500 GB/s, and that 2.5 triangles are drawn per nanosecond. Where you know better, use
+    /// On GPUs, enough is one triangle per 16 texels. That is an estimate, not a measurement: it assumes that
+    /// clearing is free, that a copied texel moves 12 bytes (read, written, and read again by the pass over
+    /// it) at 500 GB/s, and that 2.5 triangles are drawn per nanosecond. If you know better, use
     /// [`AtLeast`](Self::AtLeast).
     #[default]
     Auto,
-    /// Nowhere.
+    /// Never.
     Never,
-    /// Where at least so many triangles are static on a face that is drawn (and at least one).
+    /// Where a face to be drawn has at least this many static triangles (and at least one).
     AtLeast(u64),
 }
 

@@ -1,13 +1,13 @@
-//! What a frame took, for a host to show.
+//! Per-frame statistics, for a host to display.
 
 use std::time::Duration;
 
 use super::one_light::Taken;
 
-/// What the last [`CubeShadowMap::prepare`](crate::CubeShadowMap::prepare) found and the next
-/// `encode` will do.
+/// The result of the last [`CubeShadowMap::prepare`](crate::CubeShadowMap::prepare), which the next `encode`
+/// will carry out.
 ///
-/// Each of the six faces is one of rendered, kept, empty and hidden.
+/// Each of the six faces is rendered, kept, empty or hidden.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CubeStatistics {
@@ -15,17 +15,17 @@ pub struct CubeStatistics {
     pub faces_rendered: u32,
     /// Faces with casters whose content has not changed since they were drawn.
     pub faces_kept: u32,
-    /// Faces without a caster, clear already.
+    /// Faces without a caster that are already clear.
     pub faces_empty: u32,
     /// Faces that changed but can hold no receiver that the view shows.
     pub faces_hidden: u32,
     /// Faces that [`encode`](crate::CubeShadowMap::encode) has drawn without the casters that only the host
     /// can draw: 0 before it, and after [`encode_with`](crate::CubeShadowMap::encode_with).
     pub faces_incomplete: u32,
-    /// Those of `faces_rendered` whose static casters are copied from a second layer
-    /// ([`StaticLayers`](crate::StaticLayers)), not drawn.
+    /// The subset of `faces_rendered` whose static casters are copied from a second layer
+    /// ([`StaticLayers`](crate::StaticLayers)) rather than drawn.
     pub faces_copied: u32,
-    /// Second layers that are drawn, to be copied in this frame and later ones.
+    /// Second layers that are drawn in this frame, to be copied in this one and later ones.
     pub layers_drawn: u32,
     /// Casters that touch a face.
     pub casters_in_range: u32,
@@ -35,35 +35,35 @@ pub struct CubeStatistics {
     pub draws: u32,
     /// Triangles in those draws.
     pub triangles: u64,
-    /// GPU memory held: textures and buffers, without the staging buffers in which `uploaded` waits:
-    /// these are kept, of powers of two from 64 KB on, as many as frames wait for the GPU.
+    /// GPU memory held by textures and buffers. Not included are staging buffers for uploads: they are kept,
+    /// in sizes of powers of two from 64 KB, as many as there are frames in flight.
     pub bytes: u64,
-    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    /// Bytes that `encode` copies to the GPU; 0 if nothing has changed.
     pub uploaded: u64,
-    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
-    /// again. Of a host that prepares and encodes once a frame, always false.
+    /// Whether the result of the previous `prepare` was never encoded, so that this one found the same work
+    /// again. Always false for a host that prepares and encodes once per frame.
     pub not_encoded: bool,
-    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
-    /// the last `prepare`: everything is drawn again.
+    /// Whether an encoder that `encode` had recorded into was dropped instead of submitted since the last
+    /// `prepare`, so that everything is redrawn.
     pub encoder_dropped: bool,
     /// CPU time of `prepare`. Zero on the web, where the standard library has no clock.
     pub prepare: Duration,
 }
 
-/// What became of a tile (a face of a point light, a spot's map, a cascade) in the last `prepare`.
+/// The state of a tile (a face of a point light, a spot's map, a cascade) after the last `prepare`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum TileState {
     /// Will be drawn or cleared by the next `encode`.
     Rendered,
-    /// Has casters and shows them already.
+    /// Has casters and is up to date.
     Kept,
-    /// Has no caster and is clear, or has no texels.
+    /// Has no casters and is clear, or has no texels.
     #[default]
     Empty,
     /// Changed, but can hold no receiver that the view shows.
     Hidden,
-    /// Changed, and waits for a later frame's budget.
+    /// Changed, but waits for the budget of a later frame.
     Postponed,
 }
 
@@ -71,29 +71,29 @@ pub enum TileState {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TileStatistics {
-    /// What became of it.
+    /// Its state.
     pub state: TileState,
     /// Casters that touch it.
     pub casters: u32,
     /// Their triangles.
     pub triangles: u64,
-    /// Frames that it has waited to be drawn, this one included.
+    /// Frames it has waited to be drawn, including this one.
     pub age: u32,
 }
 
-/// What the last [`ShadowMap::prepare`](crate::ShadowMap::prepare) found and the next `encode` will
-/// do.
+/// The result of the last [`ShadowMap::prepare`](crate::ShadowMap::prepare), which the next `encode` will
+/// carry out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShadowMapStatistics {
-    /// Whether the map will be drawn or cleared; false where it shows all that it must already.
+    /// Whether the map will be drawn or cleared; false if it is already up to date.
     pub rendered: bool,
     /// Whether [`encode`](crate::ShadowMap::encode) has drawn it without the casters that only the host can
     /// draw: false before it, and after [`encode_with`](crate::ShadowMap::encode_with).
     pub incomplete: bool,
     /// Casters on the map.
     pub casters_drawn: u32,
-    /// Casters that cannot be on it.
+    /// Casters that cannot be on the map.
     pub casters_outside: u32,
     /// Draw calls.
     pub draws: u32,
@@ -102,13 +102,13 @@ pub struct ShadowMapStatistics {
     /// GPU memory held: texture and buffers, without the staging buffers in which `uploaded` waits:
     /// these are kept, of powers of two from 64 KB on, as many as frames wait for the GPU.
     pub bytes: u64,
-    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    /// Bytes that `encode` copies to the GPU; 0 if nothing has changed.
     pub uploaded: u64,
-    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
-    /// again. Of a host that prepares and encodes once a frame, always false.
+    /// Whether the result of the previous `prepare` was never encoded, so that this one found the same work
+    /// again. Always false for a host that prepares and encodes once per frame.
     pub not_encoded: bool,
-    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
-    /// the last `prepare`: the map is drawn again.
+    /// Whether an encoder that `encode` had recorded into was dropped instead of submitted since the last
+    /// `prepare`, so that the map is redrawn.
     pub encoder_dropped: bool,
     /// CPU time of `prepare`. Zero on the web, where the standard library has no clock.
     pub prepare: Duration,

@@ -7,11 +7,11 @@ use super::weld::weld;
 use super::{Topology, input, raw};
 use crate::error::MeshError;
 
-/// Which rule casts an exact shadow from a mesh at least cost; decided once, when it is built.
-/// Exhaustive: what is not closed is general.
+/// Which method casts an exact shadow volume from a mesh at the lowest cost; decided once, when it is built.
+/// Exhaustive: a mesh that is not closed is general.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeshKind {
-    /// Every edge has exactly two triangles, which run through it in opposite directions.
+    /// Every edge has exactly two triangles, which traverse it in opposite directions.
     Closed,
     /// Anything else.
     General,
@@ -20,9 +20,9 @@ pub enum MeshKind {
 /// An edge between two welded vertices, with all its triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// The two welded vertices (representatives), in the direction of the first use.
+    /// The two welded vertices (representatives), in the direction of its first use.
     pub vertices: [u32; 2],
-    /// First of this edge's uses in [`Adjacency::edge_uses`].
+    /// Index of its first use in [`Adjacency::edge_uses`].
     pub first_use: u32,
     /// Number of uses.
     pub use_count: u32,
@@ -38,12 +38,12 @@ impl EdgeUse {
         Self(triangle << 1 | u32::from(reversed))
     }
 
-    /// The triangle, a place in [`Adjacency::triangles`].
+    /// The triangle, as an index into [`Adjacency::triangles`].
     pub fn triangle(self) -> u32 {
         self.0 >> 1
     }
 
-    /// Whether the triangle runs through the edge from `vertices[1]` to `vertices[0]`.
+    /// Whether the triangle traverses the edge from `vertices[1]` to `vertices[0]`.
     pub fn reversed(self) -> bool {
         self.0 & 1 == 1
     }
@@ -51,10 +51,10 @@ impl EdgeUse {
 
 /// Welded triangles and their edges, and the host's triangles with their neighbours.
 ///
-/// Vertices at one position are one vertex, whatever their normals and texture coordinates; the
-/// lowest index among them represents them all. A triangle two of whose corners are thereby one
-/// has collapsed: it stays in [`indices`](Self::indices), which follow the host's triangles, and
-/// is left out of [`triangles`](Self::triangles) and the edges.
+/// Vertices at the same position are treated as one vertex, regardless of their normals and texture
+/// coordinates; the lowest index among them represents them all. A triangle with two corners at one vertex
+/// has collapsed: it stays in [`indices`](Self::indices), which follow the host's triangles, but not in
+/// [`triangles`](Self::triangles) or the edges.
 ///
 /// ```
 /// use shadows::mesh::{Adjacency, MeshKind};
@@ -78,14 +78,15 @@ pub struct Adjacency {
 }
 
 impl Adjacency {
-    /// Builds the adjacency of a triangle list: three indices a triangle.
+    /// Builds the adjacency of a triangle list with three indices per triangle.
     ///
-    /// Vertices are welded where all three coordinates are equal (-0 equals +0). Time and memory
-    /// are linear in vertices and triangles but for `n log n` in the triangles around one vertex.
+    /// Vertices are welded where all three coordinates are equal (-0 equals +0). Time and memory are linear
+    /// in vertices and triangles, except for `n log n` in the number of triangles around one vertex.
     ///
     /// # Errors
-    /// [`MeshError`] if the indices are no whole triangles or out of range, if a coordinate is not
-    /// finite, or beyond 2^32 - 1 vertices or edge uses (three a triangle).
+    /// [`MeshError`] if the number of indices is not a multiple of three, an index is out of range, or a
+    /// coordinate is not finite, or if there are more than 2^32 - 1 vertices or edge uses (three per
+    /// triangle).
     pub fn new<P: Copy + Into<[f32; 3]>>(
         positions: &[P],
         indices: &[u32],
@@ -93,17 +94,16 @@ impl Adjacency {
         Self::with_tolerance(positions, indices, 0.0)
     }
 
-    /// As [`new`](Self::new), and vertices that are close to each other are welded too.
+    /// Like [`new`](Self::new), but also welds vertices that are close to each other.
     ///
-    /// `tolerance` is a fraction of the mesh's size, which is the largest side of its bounds:
-    /// 0 <= `tolerance` < 1. In the order of their indices, each vertex joins the lowest-indexed
-    /// representative within that (Euclidean) distance or, if there is none, becomes one. So no
-    /// vertex moves farther than the tolerance, chains of close vertices do not collapse, and
-    /// representatives stay farther apart than the tolerance; two vertices within the tolerance
-    /// may still end with different representatives.
+    /// `tolerance` is a fraction of the mesh's size, which is the largest side of its bounds: 0 <=
+    /// `tolerance` < 1. In the order of their indices, each vertex joins the lowest-indexed representative
+    /// within that (Euclidean) distance or, if there is none, becomes one. No vertex therefore moves by more
+    /// than the tolerance, chains of close vertices do not collapse, and representatives stay farther apart
+    /// than the tolerance. Two vertices within the tolerance may still end up with different representatives.
     ///
     /// # Errors
-    /// As [`new`](Self::new), and [`MeshError::Tolerance`].
+    /// Those of [`new`](Self::new), and [`MeshError::Tolerance`].
     pub fn with_tolerance<P: Copy + Into<[f32; 3]>>(
         positions: &[P],
         indices: &[u32],
@@ -123,16 +123,16 @@ impl Adjacency {
         Ok(connected.into_adjacency(vertices, representatives, six))
     }
 
-    /// Takes the host's own adjacency: six indices a triangle in the order of
-    /// [`indices`](Self::indices), which then returns this very list.
+    /// Takes the host's own adjacency: six indices per triangle in the order of [`indices`](Self::indices),
+    /// which then returns this very list.
     ///
-    /// Each opposite vertex must form a triangle of the mesh with its edge, both after the weld of
-    /// [`new`](Self::new); where there are several such triangles, any of them will do. The
-    /// triangle's own third corner counts as well: it says that there is no neighbour. The
-    /// opposite vertices of a triangle that collapsed in the weld may be any.
+    /// Each opposite vertex must form a triangle of the mesh with its edge, after welding as in
+    /// [`new`](Self::new); if there are several such triangles, any of them will do. The triangle's own third
+    /// corner is allowed as well, and means that there is no neighbour. The opposite vertices of a triangle
+    /// that collapsed during welding are ignored.
     ///
     /// # Errors
-    /// As [`new`](Self::new), and [`MeshError::NotAdjacent`].
+    /// Those of [`new`](Self::new), and [`MeshError::NotAdjacent`].
     pub fn from_raw<P: Copy + Into<[f32; 3]>>(
         positions: &[P],
         indices: &[u32],
@@ -160,13 +160,13 @@ impl Adjacency {
         self.vertex_count
     }
 
-    /// The vertex that stands for each vertex of the host's mesh: the lowest-indexed of those
-    /// welded together, so itself where there was nothing to weld.
+    /// For each vertex of the host's mesh, the vertex that represents it: the lowest-indexed of those welded
+    /// together, or itself if it was not welded.
     pub fn representatives(&self) -> &[u32] {
         &self.representatives
     }
 
-    /// The welded triangles, without those that collapsed; order and corner order as the host's.
+    /// The welded triangles, without those that collapsed, with triangles and corners in the host's order.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
@@ -175,42 +175,41 @@ impl Adjacency {
     /// `GL_TRIANGLES_ADJACENCY`: v0, opposite of v0 v1, v1, opposite of v1 v2, v2, opposite of
     /// v2 v0.
     ///
-    /// All are the host's own indices: the corners as they were passed, the opposite vertices as
-    /// the neighbour has them.
+    /// All are the host's own indices: the corners as passed, the opposite vertices as used by the neighbour.
     ///
-    /// Of several triangles on an edge, the neighbour is the first in the host's order that runs
-    /// through the edge the other way; if all run the same way, the first other one.
+    /// If an edge has several other triangles, the neighbour is the first in the host's order that traverses
+    /// the edge in the opposite direction, or the first of all if there is none.
     ///
-    /// Where there is no neighbour, the opposite vertex is the triangle's own third corner: the
-    /// triangle folded back onto itself, as in a sheet with two sides. A silhouette test then sees
-    /// a neighbour of exactly opposite facing and draws the open edge, with no case of its own; a
-    /// repeated end of the edge (meshoptimizer's rule) makes a neighbour without area, whose
-    /// facing is rounding noise. A triangle that collapsed has no neighbours.
+    /// If there is no neighbour, the opposite vertex is the triangle's own third corner: the triangle is
+    /// folded back onto itself, like a two-sided sheet. A silhouette test then sees a neighbour of exactly
+    /// opposite facing and draws the open edge, without a special case. (Repeating an end of the edge, as
+    /// meshoptimizer does, gives a neighbour without area, whose facing is rounding noise.) A triangle that
+    /// collapsed has no neighbours.
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
 
-    /// The edges of the welded triangles, by their smaller vertex, then by their larger one.
+    /// The edges of the welded triangles, sorted by their smaller vertex, then by their larger one.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
-    /// The uses of all edges, edge after edge; within an edge in the order of the triangles.
+    /// The uses of all edges, edge by edge, and for each edge in the order of the triangles.
     ///
-    /// The first use of an edge is never reversed. If the mesh is [`MeshKind::Closed`], each edge
-    /// has two and the second is reversed.
+    /// The first use of an edge is never reversed. If the mesh is [`MeshKind::Closed`], each edge has two
+    /// uses and the second is reversed.
     pub fn edge_uses(&self) -> &[EdgeUse] {
         &self.edge_uses
     }
 
-    /// The uses of one of this adjacency's edges (of an edge from elsewhere: possibly none).
+    /// The uses of one of this adjacency's edges (possibly none for an edge from elsewhere).
     pub fn uses(&self, edge: &Edge) -> &[EdgeUse] {
         let first = edge.first_use as usize;
         let end = first.saturating_add(edge.use_count as usize);
         self.edge_uses.get(first..end).unwrap_or_default()
     }
 
-    /// What was found in the mesh.
+    /// The properties found in the mesh.
     pub fn topology(&self) -> &Topology {
         &self.topology
     }

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 
-/// An axis-aligned box, in the mesh's own space unless said otherwise.
+/// An axis-aligned box, in the mesh's own space unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Smallest x, y, z.

@@ -1,4 +1,4 @@
-//! A caster: a mesh somewhere in the world.
+//! Casters: meshes placed in the world.
 
 use std::num::NonZeroU32;
 
@@ -7,22 +7,22 @@ use glam::{Affine3A, DAffine3, DVec3};
 use super::CasterMesh;
 use crate::error::CasterError;
 
-/// A mesh somewhere in the world. Many casters may share one mesh.
+/// A mesh placed in the world. Many casters may share one mesh.
 #[derive(Clone, Debug)]
 pub struct Caster {
     /// The mesh.
     pub mesh: CasterMesh,
-    /// Any affine map from the mesh's space to world space: scale, shear and mirror included.
+    /// Any affine map from the mesh's space to world space, including scaling, shearing and mirroring.
     pub world_from_object: Affine3A,
-    /// The layers it is on, a bit each. A light of a [`ShadowAtlas`](crate::ShadowAtlas) or of shadow volumes
-    /// casts the shadows of what is on any of its own layers
+    /// The layers it is on, one bit each. A light of a [`ShadowAtlas`](crate::ShadowAtlas) or of shadow volumes casts
+    /// the shadows of all casters on any of its own layers
     /// ([`AtlasLight::with_layers`](crate::AtlasLight::with_layers),
-    /// [`VolumeLight::with_layers`](crate::VolumeLight::with_layers)); maps of one light and projected shadows take no notice.
-    /// Default all.
+    /// [`VolumeLight::with_layers`](crate::VolumeLight::with_layers)); maps of one light and projected shadows ignore
+    /// layers. Default all.
     pub layers: u32,
-    /// Whose it is: a light of the same owner ([`AtlasLight::owned_by`](crate::AtlasLight::owned_by),
-    /// [`VolumeLight::owned_by`](crate::VolumeLight::owned_by)) does not cast its shadow, as a lamp shines
-    /// out of its own bulb. Maps of one light and projected shadows take no notice. Default `None`: nobody's.
+    /// Its owner: a light of the same owner ([`AtlasLight::owned_by`](crate::AtlasLight::owned_by),
+    /// [`VolumeLight::owned_by`](crate::VolumeLight::owned_by)) does not cast its shadow, so that a lamp can
+    /// shine out of its own bulb. Maps of one light and projected shadows ignore owners. Default `None`.
     pub owner: Option<NonZeroU32>,
 }
 
@@ -37,14 +37,14 @@ impl Caster {
         }
     }
 
-    /// A mesh placed in f64, in a world whose coordinates are counted from `origin`.
+    /// A mesh placed in f64, for a host that renders relative to `origin`.
     ///
-    /// For scenes so far from their origin that f32 cannot place them: with `origin` at the camera
-    /// (or anywhere near it), what is near the camera keeps all its digits. View and light must be
-    /// placed from the same origin ([`View::placed`](crate::View::placed),
-    /// [`HomogeneousLight::placed`](crate::HomogeneousLight::placed)), and the host draws the mesh
-    /// with [`world_from_object`](Self::world_from_object) as it is here. An origin that stays where
-    /// it is for a while, rather than following the camera, lets volumes be kept between frames.
+    /// For scenes so far from the world's origin that f32 is not precise enough: with `origin` at the camera
+    /// (or anywhere near it), everything near the camera keeps full precision. View and light must use the
+    /// same origin ([`View::placed`](crate::View::placed),
+    /// [`HomogeneousLight::placed`](crate::HomogeneousLight::placed)), and the host draws the mesh with
+    /// [`world_from_object`](Self::world_from_object) as set here. If the origin stays in place for a while
+    /// rather than following the camera, volumes can be kept between frames.
     pub fn placed(mesh: CasterMesh, world_from_object: DAffine3, origin: DVec3) -> Self {
         let relative = DAffine3 {
             translation: world_from_object.translation - origin,

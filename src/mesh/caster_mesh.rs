@@ -77,11 +77,10 @@ struct Welded {
 impl CasterMesh {
     /// Uploads a mesh. `positions` are those the adjacency was built from.
     ///
-    /// GPU memory: 12 bytes a vertex, 12 a triangle. Main memory, for shadow volumes: the same, 16
-    /// bytes an edge and 4 for each use of an edge; where silhouettes are found on the CPU, another 17
-    /// bytes or so a triangle from the first time on. A
-    /// [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) keeps what it reads of the meshes that it
-    /// draws in buffers of its own.
+    /// GPU memory: 12 bytes per vertex and 12 per triangle. Main memory, for shadow volumes: the same, plus
+    /// 16 bytes per edge and 4 per use of an edge; once silhouettes are found on the CPU, about another 17
+    /// bytes per triangle. A [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) keeps the data of the
+    /// meshes it draws in buffers of its own.
     ///
     /// # Errors
     /// [`CasterMeshError`] if the counts differ, a position is not finite or a buffer would be
@@ -121,14 +120,14 @@ impl CasterMesh {
         Self::welded(device, positions, adjacency, solid, Some(packed))
     }
 
-    /// Shares the host's own position buffer, so that a mesh that the host deforms there casts the
-    /// shadow of its present form. Vertices that were welded are read at the first of them: the
-    /// host must keep them together.
+    /// Shares the host's own position buffer, so that a mesh that the host deforms there casts the shadow of
+    /// its current shape. Welded vertices are read from the first of them: the host must keep them at the
+    /// same position.
     ///
-    /// Main memory: 12 bytes a triangle, 16 an edge, 4 for each use of an edge.
+    /// Main memory: 12 bytes per triangle, 16 per edge and 4 per use of an edge.
     ///
     /// # Errors
-    /// [`CasterMeshError`] if stride, offset, size, usages or bounds do not fit.
+    /// [`CasterMeshError`] if stride, offset, size, usages or bounds are unsuitable.
     pub fn from_host_positions(
         device: &wgpu::Device,
         positions: &HostPositions<'_>,
@@ -226,7 +225,7 @@ impl CasterMesh {
         self.0.host_drawn
     }
 
-    /// The rule its shadow volume follows.
+    /// How its shadow volume is built.
     pub fn kind(&self) -> MeshKind {
         self.0.kind
     }
@@ -236,7 +235,7 @@ impl CasterMesh {
         self.0.solid
     }
 
-    /// Number of triangles that cast (those that collapsed in the weld do not), at all places together.
+    /// Number of triangles that cast, in all instances together. Those that collapsed during welding do not.
     pub fn triangle_count(&self) -> u32 {
         let places = self.0.places.as_ref().map_or(1, |places| places.count);
         self.0.triangles.count.saturating_mul(places)
@@ -273,15 +272,14 @@ impl CasterMesh {
         self.0.positions.count
     }
 
-    /// Says that the positions have changed since shadows were last drawn: the host calls it after
-    /// it deformed a mesh in its own position buffer, before it prepares the frame. Faces of shadow
-    /// maps that this mesh touches are then drawn again, and its shadow volumes extracted again.
-    /// All clones share one revision.
+    /// Marks the positions as changed since shadows were last drawn. The host calls it after deforming a mesh
+    /// in its own position buffer, before preparing the frame. Faces of shadow maps that this mesh touches
+    /// are then redrawn, and its shadow volumes extracted again. All clones share one revision.
     pub fn bump_revision(&self) {
         self.0.revision.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// How often [`bump_revision`](Self::bump_revision) was called.
+    /// How often [`bump_revision`](Self::bump_revision) has been called.
     pub fn revision(&self) -> u64 {
         self.0.revision.load(Ordering::Relaxed)
     }

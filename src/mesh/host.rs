@@ -1,4 +1,4 @@
-//! What lies in buffers of the host already, and is read there.
+//! Meshes and transforms that are read from the host's own buffers.
 
 use super::upload::check_size;
 use super::{Adjacency, Bounds};
@@ -7,7 +7,7 @@ use crate::error::CasterMeshError;
 /// Bytes of one position: three `f32`.
 pub(super) const POSITION_SIZE: u64 = 12;
 
-/// Positions that already lie in a vertex buffer of the host, read in place every frame.
+/// Positions in a vertex buffer of the host, read in place every frame.
 #[derive(Clone, Debug)]
 pub struct HostPositions<'a> {
     /// The buffer; its usages must include `VERTEX` and `STORAGE`.
@@ -19,64 +19,64 @@ pub struct HostPositions<'a> {
     pub offset: u64,
     /// A box in the mesh's space that encloses every position the mesh will ever have.
     ///
-    /// What leaves it may be culled.
+    /// Anything outside may be culled.
     pub bounds: Bounds,
 }
 
-/// Vertices and indices that already lie in buffers of the host: all that a shadow map needs of a mesh.
-/// Read in place every frame, and copied nowhere.
+/// Vertices and indices in buffers of the host, which is all that shadow maps need. They are read in place
+/// every frame and never copied.
 #[derive(Clone, Debug)]
 pub struct HostMesh<'a> {
-    /// The buffer of positions, three `f32` each, whatever lies between them; its usages must include
-    /// `VERTEX`.
+    /// The buffer of positions, three `f32` each, possibly with other data in between; its usages must
+    /// include `VERTEX`.
     pub vertices: &'a wgpu::Buffer,
     /// Bytes from one position to the next: a multiple of 4, at least 12, and at most the device's
     /// `max_vertex_buffer_array_stride`.
     pub stride: u64,
-    /// Bytes before the position of vertex 0: a multiple of 4. (A mesh with a base vertex in a larger
-    /// buffer adds that many strides.)
+    /// Bytes before the position of vertex 0: a multiple of 4. (For a mesh with a base vertex in a larger
+    /// buffer, add that many strides.)
     pub offset: u64,
-    /// The buffer of indices, three a triangle; its usages must include `INDEX`. None may be beyond the
-    /// last vertex.
+    /// The buffer of indices, three per triangle; its usages must include `INDEX`. All indices must be in
+    /// range.
     pub indices: &'a wgpu::Buffer,
-    /// How large each of them is.
+    /// The format of the indices.
     pub index_format: wgpu::IndexFormat,
     /// Bytes before the first index: a multiple of an index's size.
     pub index_offset: u64,
-    /// How many there are: a multiple of 3.
+    /// Number of indices: a multiple of 3.
     pub index_count: u32,
     /// A box in the mesh's space that encloses every position the mesh will ever have.
     ///
-    /// What leaves it may be culled.
+    /// Anything outside may be culled.
     pub bounds: Bounds,
 }
 
-/// Transforms of one mesh that lie in a vertex buffer of the host: so many are drawn where a caster has such
-/// a mesh. Read in place every frame, and copied nowhere.
+/// Transforms of the instances of one mesh, in a vertex buffer of the host. They are read in place every
+/// frame and never copied.
 #[derive(Clone, Debug)]
 pub struct HostInstances<'a> {
     /// The buffer; its usages must include `VERTEX`.
     pub buffer: &'a wgpu::Buffer,
-    /// What each transform is.
+    /// The layout of each transform.
     pub layout: InstanceLayout,
-    /// Bytes from one transform to the next: a multiple of 4, no less than a transform has, and at most the
-    /// device's `max_vertex_buffer_array_stride`.
+    /// Bytes from one transform to the next: a multiple of 4, at least the size of a transform, and at most
+    /// the device's `max_vertex_buffer_array_stride`.
     pub stride: u64,
     /// Bytes before the first transform: a multiple of 4.
     pub offset: u64,
-    /// How many there are.
+    /// Number of transforms.
     pub count: u32,
-    /// A box around the mesh at all of its places, as they are before the caster's own transform.
+    /// A box around all instances, before the caster's own transform is applied.
     ///
-    /// What leaves it may be culled.
+    /// Anything outside may be culled.
     pub bounds: Bounds,
 }
 
-/// What one transform of [`HostInstances`] is: an affine map of the mesh's space, in `f32`.
+/// The layout of a transform of [`HostInstances`]: an affine map from the mesh's space, in `f32`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum InstanceLayout {
-    /// The four columns of a 4x4 matrix, 64 bytes, as `glam::Mat4` has them. The last row is not read.
+    /// The four columns of a 4x4 matrix, 64 bytes, like `glam::Mat4`. The last row is not read.
     Columns4x4,
     /// The three rows of a 3x4 matrix, 48 bytes.
     Rows3x4,

@@ -1,37 +1,37 @@
-//! What a mesh's connectivity is like.
+//! The connectivity of a mesh.
 
 use std::fmt;
 
 use super::MeshKind;
 
-/// What was found in a mesh when its adjacency was built; all counts after the weld.
+/// Properties of a mesh, found when its adjacency was built. All counts are after welding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Topology {
-    /// Every edge has exactly two triangles, which run through it in opposite directions: the
-    /// three counts of edges below are 0. True of an empty mesh.
+    /// Whether every edge has exactly two triangles, which traverse it in opposite directions, so that the
+    /// three edge counts below are 0. True for an empty mesh.
     ///
-    /// A vertex that closed surfaces share (a bow tie) does not matter to shadows and is allowed.
+    /// A vertex shared by closed surfaces (a bow tie) does not matter to shadows and is allowed.
     pub closed: bool,
-    /// Edges of one triangle.
+    /// Edges with one triangle.
     pub open_edges: u32,
-    /// Edges of three triangles or more.
+    /// Edges with three or more triangles.
     pub non_manifold_edges: u32,
-    /// Edges of two triangles that run through it in the same direction: their windings disagree.
+    /// Edges with two triangles that traverse it in the same direction: their windings disagree.
     pub inconsistent_edges: u32,
-    /// Triangles two of whose corners are one vertex after the weld; they are left out.
+    /// Triangles with two corners at one vertex after welding; they are left out.
     pub collapsed_triangles: u32,
     /// Triangles whose three vertices differ but lie exactly on one line; they are kept, since
     /// their edges connect others (at a T-junction, for example), and cast nothing themselves.
     pub zero_area_triangles: u32,
     /// Triangles with the same three vertices as an earlier one, in any order; they are kept.
     pub duplicate_triangles: u32,
-    /// Vertices that no index names.
+    /// Vertices that no index refers to.
     pub unused_vertices: u32,
-    /// Vertices that the weld replaced by an earlier one.
+    /// Vertices that welding replaced by an earlier one.
     pub welded_vertices: u32,
-    /// Parts that share no welded vertex with each other. Two boxes that touch in a corner vertex
-    /// are one part; unused vertices and collapsed triangles are none.
+    /// Connected parts, which share no welded vertex with each other. Two boxes that touch in a corner vertex
+    /// are one part; unused vertices and collapsed triangles do not count.
     pub parts: u32,
 }
 
@@ -54,7 +54,7 @@ impl Default for Topology {
 }
 
 impl Topology {
-    /// The rule that casts an exact shadow from such a mesh at least cost.
+    /// The method that casts an exact shadow volume from such a mesh at the lowest cost.
     pub fn kind(&self) -> MeshKind {
         if self.closed {
             MeshKind::Closed

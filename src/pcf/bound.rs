@@ -1,4 +1,4 @@
-//! What a sampler binds, and where in a host's shader.
+//! The bindings of a sampler, and their place in a host's shader.
 
 use crate::error::PcfError;
 
@@ -29,7 +29,7 @@ impl<'a> Bound<'a> {
     }
 }
 
-/// Where a sampler's module stands in a host's shader:
+/// The place of a sampler's module in a host's shader:
 /// [`PcfSampler::wgsl_module_at`](crate::PcfSampler::wgsl_module_at).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ModulePlace<'a> {
@@ -37,8 +37,8 @@ pub struct ModulePlace<'a> {
     pub group: u32,
     /// The first of its bindings in that group; the others follow. Default 0.
     pub first_binding: u32,
-    /// What stands before every name: letters, digits and underscores, the first no digit, and not two
-    /// underscores at the beginning. Default none.
+    /// A prefix for every name: letters, digits and underscores, not starting with a digit or with two
+    /// underscores. Default none.
     pub prefix: &'a str,
 }
 

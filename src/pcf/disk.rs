@@ -3,20 +3,19 @@
 use super::kernel::{KernelUniform, MAX_TAPS};
 use crate::error::PcfError;
 
-/// How wide a kernel is, at the receiver.
+/// The width of a kernel at the receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Radius {
-    /// In texels of the map: as wide in the world as the texels are where the receiver is. Greater
-    /// than 0, at most 64.
+    /// In texels of the map: its width in the world follows the size of texels at the receiver. Greater than
+    /// 0, at most 64.
     Texels(f32),
-    /// In world units: a penumbra of the same width whatever the map's size. Greater than 0,
-    /// finite.
+    /// In world units: the penumbra's width does not depend on the map's size. Greater than 0, finite.
     World(f32),
 }
 
 impl Radius {
-    /// The widest radius in texels.
+    /// The largest radius in texels.
     pub const MAX_TEXELS: f32 = 64.0;
 
     pub(crate) fn is_in_range(self) -> bool {
@@ -62,10 +61,10 @@ impl Radius {
 
 /// Parameters of [`Kernel::RandomDisk`](super::Kernel::RandomDisk).
 ///
-/// An `n x n x d` texture of offsets (`d` texels of two offsets each), jittered within `u x v`
-/// strata and warped onto the disk, the outermost ring first, from a fixed seed; a pixel uses the
-/// column at its coordinates modulo `n` (Wolff, "OpenGL 4 Shading Language Cookbook", 2013; after
-/// Uralsky, "Efficient Soft-Edged Shadows Using Pixel Shader Branching", GPU Gems 2, 2005).
+/// An `n x n x d` texture of offsets (`d` texels of two offsets each), jittered within `u x v` strata and
+/// warped onto the disk, outermost ring first, from a fixed seed. A pixel uses the column at its coordinates
+/// modulo `n` (Wolff, "OpenGL 4 Shading Language Cookbook", 2013; after Uralsky, "Efficient Soft-Edged
+/// Shadows Using Pixel Shader Branching", GPU Gems 2, 2005).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RandomDisk {
     /// Radius of the disk. Default 3 texels.
@@ -74,13 +73,13 @@ pub struct RandomDisk {
     pub around: u32,
     /// Rings (`v`). Default 4.
     pub rings: u32,
-    /// Texels along a side of the texture (`n`): after so many pixels the pattern repeats. Default
+    /// Texels along a side of the texture (`n`): the pattern repeats after that many pixels. Default
     /// 8. 1 to 256.
     pub size: u32,
-    /// Whether only the first eight taps (the outermost) are taken where they agree. Default true.
-    /// It misses what lies inside the disk only, such as the shadow of a wire: of 8 x 8 taps on the
-    /// scene of `benches/pcf.rs` it changes 0.5 % of the pixels, by 0.011 root mean square over all
-    /// and 0.62 at most, for less than half the time.
+    /// Whether to stop after the first eight taps (the outermost) if they agree. Default true. This misses
+    /// shadows that lie entirely inside the disk, such as that of a wire: with 8 x 8 taps on the scene of
+    /// `benches/pcf.rs`, it changes 0.5 % of the pixels, with a root mean square of 0.011 over all pixels and
+    /// a maximum of 0.62, and takes less than half the time.
     pub early_out: bool,
 }
 
@@ -97,7 +96,7 @@ impl RandomDisk {
     const MAX_SIZE: u32 = 256;
     const MAX_SAMPLES: u32 = 256;
 
-    /// Taps in all.
+    /// Total number of taps.
     pub fn taps(&self) -> u32 {
         self.around.saturating_mul(self.rings)
     }
@@ -134,9 +133,8 @@ impl Default for RandomDisk {
 
 /// Parameters of [`Kernel::Vogel`](super::Kernel::Vogel).
 ///
-/// Offsets on a spiral of golden angles (Vogel 1979), turned from pixel to pixel by interleaved
-/// gradient noise (Jimenez, SIGGRAPH 2014), and from frame to frame where the host calls
-/// [`set_frame`](super::PcfSampler::set_frame).
+/// Offsets on a spiral of golden angles (Vogel 1979), rotated per pixel by interleaved gradient noise
+/// (Jimenez, SIGGRAPH 2014), and per frame if the host calls [`set_frame`](super::PcfSampler::set_frame).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VogelDisk {
     /// Radius of the disk. Default 3 texels.
@@ -169,23 +167,23 @@ impl Default for VogelDisk {
 
 /// Parameters of [`Kernel::ContactHardening`](super::Kernel::ContactHardening).
 ///
-/// The penumbra is as wide as the light's size and the distance from blocker to receiver make it
-/// (Fernando, "Percentage-Closer Soft Shadows", 2005): blockers are looked for in a disk of
-/// `max_radius`; where there are none the receiver is lit, where all taps find one it is in the
-/// umbra; elsewhere their mean depth gives the disk that is filtered, at least a texel wide. Disks
-/// lie in the receiver's tangent plane and are stretched along the light's direction as the light's
-/// own outline is, by no more than 4.
+/// The width of the penumbra follows from the light's size and the distance between blocker and receiver
+/// (Fernando, "Percentage-Closer Soft Shadows", 2005): blockers are searched for in a disk of `max_radius`.
+/// If there are none, the receiver is lit; if all taps find one, it is in the umbra; otherwise their mean
+/// depth determines the filter disk, which is at least a texel wide. Disks lie in the receiver's tangent
+/// plane and are stretched along the light's direction like the light's own outline, by at most a factor of
+/// 4.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactHardening {
     /// Radius of a spherical light in world units; for a directional light the tangent of its
     /// angular radius (0.00465 for the sun). Default 0.1. Greater than 0, finite.
     pub light_size: f32,
-    /// The widest penumbra's radius, which is also that of the blocker search: wider finds more,
-    /// and noisier. Default 12 texels.
+    /// Radius of the widest penumbra and of the blocker search. A wider search finds more blockers but is
+    /// noisier. Default 12 texels.
     pub max_radius: Radius,
-    /// Taps that look for blockers. Default 16. 4 to 64, at most `taps`.
+    /// Taps of the blocker search. Default 16. 4 to 64, at most `taps`.
     pub search_taps: u32,
-    /// Taps that filter. Default 32. 4 to 64.
+    /// Taps of the filter. Default 32. 4 to 64.
     pub taps: u32,
 }
 

@@ -1,21 +1,21 @@
-//! How square kernels read four texels.
+//! How square kernels read texels.
 
 use crate::error::PcfError;
 use crate::support::has_gather;
 
-/// Whether the shaders of square kernels read four texels with one texture gather, or fetch each by
-/// itself. Both read the same texels, and give the same visibility bit for bit. Exhaustive: there is no
-/// third way.
+/// Whether the shaders of square kernels read four texels with one texture gather, or fetch them
+/// individually. Both read the same texels and give bit-identical visibility. Exhaustive: there is no third
+/// way.
 ///
-/// [`Hard`](crate::Kernel::Hard) and the disks gather nothing, and are the same with any.
+/// [`Hard`](crate::Kernel::Hard) and the disks never gather and are not affected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Gather {
-    /// A gather wherever there is one: [`Support::gather`](crate::Support::gather).
+    /// Gather where the device supports it: [`Support::gather`](crate::Support::gather).
     #[default]
     Auto,
-    /// A gather; refused where there is none.
+    /// Gather; an error if the device does not support it.
     Always,
-    /// Four fetches: for devices whose gathers are wrong.
+    /// Four fetches, for devices with broken gathers.
     Never,
 }
 

@@ -1,4 +1,4 @@
-//! The kernels, and the WGSL that each of them needs.
+//! The kernels, and the WGSL that each of them uses.
 
 use super::disk::{ContactHardening, Radius, RandomDisk, VogelDisk};
 use super::map_kind::MapKind;
@@ -6,40 +6,44 @@ use super::weights::Weights;
 use crate::DepthEncoding;
 use crate::error::PcfError;
 
-/// Which texels of the map a receiver looks at, and with what weights.
+/// Which texels of the map a receiver reads, and with what weights.
 ///
-/// With every kernel except [`HardwareBilinear`](Self::HardwareBilinear), each texel is compared with the depth that
-/// the receiver's own plane has in that texel's direction. Wide kernels and face edges therefore need no more
-/// bias than narrow ones.
+/// With every kernel except [`HardwareBilinear`](Self::HardwareBilinear), each texel is compared with the depth of
+/// the receiver's own plane in that texel's direction. Wide kernels and face edges therefore need no additional
+/// bias.
 ///
 /// At grazing angles, near the horizon of that plane as seen from the light, its depth grows without bound. Two rules
-/// bound it:
+/// limit it:
 ///
-/// - No tap takes the plane to be nearer to the light than 1/32 of the receiver's own distance along the axis
-///   of the face (for a directional light: nearer than the receiver by more than sixteen times the map's width). So
-///   a caster nearer than that casts at any grazing angle. One farther than that is missed only where the plane
-///   itself comes as near: for a kernel of `k` texels on a face of `n`, where the light arrives at less than
+/// - No tap assumes the plane to be nearer to the light than 1/32 of the receiver's own distance along the axis of
+///   the face (for a directional light: nearer than the receiver by more than sixteen times the map's width). A
+///   caster nearer than that therefore casts at any grazing angle. One farther away is missed only where the plane
+///   itself comes that near: for a kernel of `k` texels on a face of `n`, where the light arrives at an angle below
 ///   `2 k / (31 n)` (for the widest square, 0.015 degrees at 1024 texels).
-/// - A texel beyond the horizon is replaced by its mirror image at the receiver. Where that is beyond the horizon too,
-///   and for the texels of disks (whose taps all lie on the plane), it is compared with the receiver's own depth.
+/// - A texel beyond the horizon is replaced by its mirror image about the receiver. If that is beyond the horizon too,
+///   and for the texels of disks (whose taps all lie on the plane), the receiver's own depth is used for the
+///   comparison.
 ///
-/// A receiver whose plane passes the light by less than the normal offset of the [`Bias`](crate::Bias) is lit.
+/// A receiver whose plane passes closer to the light than the normal offset of the [`Bias`](crate::Bias) is
+/// lit.
 ///
-/// On a cube a kernel continues across edges and corners, texel for texel: within a texel of them it is
-/// wrong at less than 0.7 times as many points as in the middle of a face (`tests/receivers/pcf_seams.rs`).
+/// On a cube a kernel continues across edges and corners, texel for texel: within a texel of them, fewer
+/// points are wrong than in the middle of a face, by a factor of 0.7 or less
+/// (`tests/receivers/pcf_seams.rs`).
 ///
-/// The first seven are squares of texels. The last three are disks in the receiver's tangent plane,
-/// turned or jittered from pixel to pixel: they need the pixel's coordinates
-/// ([`uses_pixel`](Self::uses_pixel)) and trade stair steps for noise.
+/// The first seven are squares of texels. The last three are disks in the receiver's tangent plane, rotated
+/// or jittered per pixel: they need the pixel's coordinates ([`uses_pixel`](Self::uses_pixel)) and trade
+/// stair steps for noise.
 ///
-/// What `tests/receivers/pcf_quality.rs` measures over a penumbra at 0.73 texels a pixel, in visibility (0 to
-/// 1), on a cube or a flat map, whichever is worse (squares are the same on both): root mean square and
-/// largest difference from the same kernel with endless taps of an endless map, and from a light of
-/// radius 0.1 (1,024 rays a pixel); the largest step from a pixel to the next beyond the endless
-/// kernel's (banding), the noise beyond it, and the pixels that change by 0.05 more than the endless
-/// kernel does when the camera moves by a tenth of a pixel.
+/// The table gives the measurements of `tests/receivers/pcf_quality.rs` over a penumbra at 0.73 texels per
+/// pixel, in visibility (0 to 1), on a cube or a flat map, whichever is worse (squares are the same on both).
+/// Its columns are the root mean square and largest difference from the ideal kernel (the same one with
+/// infinitely many taps of an infinitely fine map), and from a light of radius 0.1 (1,024 rays per pixel);
+/// the largest step between neighbouring pixels beyond that of the ideal kernel (banding); the noise beyond
+/// it; and the share of pixels that change by 0.05 more than with the ideal kernel when the camera moves by a
+/// tenth of a pixel.
 ///
-/// | | endless: rms | largest | area light: rms | largest | largest step | noise | flips |
+/// | | ideal kernel: rms | largest | area light: rms | largest | largest step | noise | flips |
 /// |---|--:|--:|--:|--:|--:|--:|--:|
 /// | `Hard` | 0.130 | 1.00 | 0.177 | 1.00 | 1.00 | 0.131 | 0.3 % |
 /// | `Bilinear` | 0.047 | 0.44 | 0.142 | 0.67 | 0.40 | 0.039 | 0 |
@@ -64,44 +68,43 @@ pub enum Kernel {
     Bilinear,
     /// Four bilinear compare taps one texel away on the diagonals: 4x4 texels.
     FourTaps,
-    /// 3x3 texels weighted like a tent, from four taps of 2x2 (Castano 2013).
+    /// 3x3 texels with tent weights, from four taps of 2x2 (Castano 2013).
     Weighted3,
     /// 5x5 texels, weighted, from nine taps of 2x2 (Castano 2013).
     Weighted5,
     /// 7x7 texels, weighted, from sixteen taps of 2x2 (Castano 2013).
     Weighted7,
-    /// One bilinear comparison by the sampler (`textureSampleCompareLevel`): [`Bilinear`](Self::Bilinear)
-    /// at half of its instructions (`docs/shader-cost.md`), for the tightest budgets. All four texels
-    /// are compared with one depth, the one that the receiver's plane has at whichever of them is nearest to the light
-    /// (on a cube: a bound of it, within a texel along both axes). So no plane shadows itself at any angle, and
-    /// nothing is darker than with `Bilinear`. The price is at contacts: where a caster touches a surface, its shadow
-    /// begins later by as much of the surface as one texel covers away from the light, by 1.12 times that at most
-    /// where the surface is steep along one axis of the map, and by twice that along both
-    /// (`tests/receivers/pcf_hardware.rs`; `Bilinear`: 0). A surface that the light grazes at 0.1 loses ten texels
-    /// of a contact's shadow.
+    /// One bilinear comparison by the sampler (`textureSampleCompareLevel`): [`Bilinear`](Self::Bilinear) at half its
+    /// instructions (`docs/shader-cost.md`), for the tightest budgets. All four texels are compared with one depth,
+    /// that of the receiver's plane at whichever of them is nearest to the light (on a cube: a bound on it, within a
+    /// texel along both axes). No plane therefore shadows itself at any angle, and nothing is darker than with
+    /// `Bilinear`. The price is paid at contacts: where a caster touches a surface, its shadow starts late, by the
+    /// length of surface that one texel covers away from the light, by at most 1.12 times that where the surface is
+    /// steep along one axis of the map, and by twice that along both (`tests/receivers/pcf_hardware.rs`; `Bilinear`:
+    /// 0). A surface grazed by the light at a slope of 0.1 loses ten texels of a contact shadow.
     ///
-    /// Errors of pictures of 480x270 from maps of 512 texels, false light and false shadow in per cent of the
-    /// pixels that face the light, none of them in the interior of light or shadow:
+    /// Errors in pictures of 480x270 pixels with maps of 512 texels, falsely lit + falsely in shadow, in per
+    /// cent of the pixels that face the light. None of them is away from a shadow edge:
     ///
     /// | | `Bilinear` | `HardwareBilinear` |
     /// |---|--:|--:|
     /// | `spheres`, cube | 0.129 + 0.132 | 0.132 + 0.132 |
     /// | `courtyard`, cube | 0.621 + 0.966 | 0.923 + 0.623 |
     /// | `courtyard`, sun | 0.829 + 1.346 | 1.026 + 0.647 |
-    /// | `courtyard`, spot | 0.609 in all | 0.395 in all |
+    /// | `courtyard`, spot | 0.609 in total | 0.395 in total |
     ///
-    /// Far from the origin a pixel is hardly wider than the rounding of positions, and screen derivatives give no
-    /// usable normal. This kernel cannot read a slope from the map instead, so everything is lit there except what is
-    /// behind a caster very near the light. Pass a normal in such scenes.
+    /// Far from the origin, a pixel is hardly wider than the rounding of positions, and screen derivatives give no
+    /// usable normal. This kernel cannot fall back to a slope read from the map, so everything there is lit unless it
+    /// is behind a caster very near the light. Pass a normal in such scenes.
     ///
-    /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only. On a cube its taps end where the face
-    /// does: within half a texel of an edge the outermost texels count alone.
+    /// It reads [`MajorAxis`](DepthEncoding::MajorAxis) depths only. On a cube its taps do not cross edges:
+    /// within half a texel of an edge, only the outermost texels count.
     HardwareBilinear,
-    /// Random disk: a table of jittered, stratified offsets, picked by the pixel.
+    /// Random disk: a table of jittered, stratified offsets, indexed by the pixel.
     RandomDisk(RandomDisk),
-    /// Vogel disk, turned by interleaved gradient noise.
+    /// Vogel disk, rotated by interleaved gradient noise.
     Vogel(VogelDisk),
-    /// Contact hardening (PCSS) for a light with a size.
+    /// Contact hardening (PCSS), for a light with a size.
     ContactHardening(ContactHardening),
 }
 
@@ -120,10 +123,10 @@ impl Kernel {
         Self::ContactHardening(ContactHardening::DEFAULT),
     ];
 
-    /// The kernel's radius: how far from a shadow's true edge its result may be anything but lit or
-    /// unlit. Disks reach half a texel further, to the centre of the texel that a tap falls on, and
-    /// are measured on the surface: towards the corners of a face and of a frustum, texels are
-    /// smaller than straight ahead, and a radius of one texel may cover `sqrt(3)` of them.
+    /// The kernel's radius: how far from the true edge of a shadow its result may be partial. Disks reach
+    /// half a texel further, to the centre of the texel that a tap falls on, and are measured on the surface:
+    /// towards the corners of a face or a frustum, texels are smaller than straight ahead, and a radius of
+    /// one texel may cover `sqrt(3)` of them.
     pub fn radius(self) -> Radius {
         match self {
             Self::Hard => Radius::Texels(0.5),
@@ -137,19 +140,18 @@ impl Kernel {
         }
     }
 
-    /// Whether its functions take the pixel's coordinates as a last argument.
+    /// Whether its functions take the pixel's coordinates as the last argument.
     pub fn uses_pixel(self) -> bool {
         self.parameters().is_some()
     }
 
     /// Whether it reads such maps: [`HardwareBilinear`](Self::HardwareBilinear) reads only
-    /// [`MajorAxis`](DepthEncoding::MajorAxis), of which a plane's depths are linear over a face.
+    /// [`MajorAxis`](DepthEncoding::MajorAxis), in which the depths of a plane are linear over a face.
     pub fn reads(self, map: MapKind) -> bool {
         self != Self::HardwareBilinear || map.encoding() == DepthEncoding::MajorAxis
     }
 
-    /// The name of its function for cube maps in WGSL. For flat maps, `flat` takes the place of
-    /// `cube`.
+    /// The name of its WGSL function for cube maps. For flat maps, `flat` replaces `cube`.
     pub fn function(self) -> &'static str {
         match self {
             Self::Hard => "shadows_cube_hard",
@@ -165,10 +167,10 @@ impl Kernel {
         }
     }
 
-    /// Checks that all numbers are in their ranges.
+    /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`PcfError`] names the number and its range.
+    /// [`PcfError`] names the parameter and its range.
     pub fn validate(self) -> Result<(), PcfError> {
         match self {
             Self::RandomDisk(disk) => disk.validate(),

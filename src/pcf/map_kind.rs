@@ -6,25 +6,25 @@ use crate::{CubeShadowMap, DepthEncoding, Radius, ShadowAtlas, ShadowMap};
 const TILE_WHOLE: &str = include_str!("../../shaders/tile_whole.wgsl");
 const CUBE_TEXEL: &str = include_str!("../../shaders/cube_texel.wgsl");
 
-/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads, and what its shader needs to know of that kind.
+/// Which kind of map a [`PcfSampler`](super::PcfSampler) reads, and what its shader needs to know about it.
 /// [`AnyMap::kind`] is the kind of a given map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MapKind {
-    /// [`CubeShadowMap`]s whose texels hold this: point lights.
+    /// [`CubeShadowMap`]s with this encoding: point lights.
     Cube(DepthEncoding),
-    /// [`ShadowMap`]s that are prepared for these lights: spots, directional lights or both.
+    /// [`ShadowMap`]s prepared for these lights: spots, directional lights or both.
     Flat(FlatLights),
-    /// [`ShadowAtlas`]es, and those of their lights that are of these kinds.
+    /// [`ShadowAtlas`]es, with lights of these kinds.
     Atlas(LightKinds),
 }
 
 impl MapKind {
-    /// Cube maps as they are by default: [`DepthEncoding::MajorAxis`].
+    /// Cube maps with the default encoding: [`DepthEncoding::MajorAxis`].
     pub const CUBE: Self = Self::Cube(DepthEncoding::MajorAxis);
-    /// Flat maps, whichever light they are prepared for.
+    /// Flat maps, prepared for any light.
     pub const FLAT: Self = Self::Flat(FlatLights::Any);
-    /// Atlases, and all of their lights.
+    /// Atlases, with lights of all kinds.
     pub const ATLAS: Self = Self::Atlas(LightKinds::ALL);
 
     /// What the texels hold. Flat maps and atlases know one encoding.
@@ -52,8 +52,8 @@ impl Default for MapKind {
     }
 }
 
-/// Which kinds of light the receivers of an atlas are for. Those of the others are dark to them, and leave no
-/// code in their shaders.
+/// Which kinds of light the receivers of an atlas support. Lights of other kinds appear dark, and add no code
+/// to the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightKinds {
     /// Point lights.
@@ -96,16 +96,17 @@ impl Default for LightKinds {
     }
 }
 
-/// Which kinds of light a sampler of flat maps serves. One for a single kind costs less (docs/shader-cost.md).
+/// Which kinds of light a sampler of flat maps supports. Supporting a single kind costs less
+/// (docs/shader-cost.md).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FlatLights {
-    /// Spots and directional lights, whichever the map is prepared for.
+    /// Spots and directional lights, according to what the map was prepared for.
     #[default]
     Any,
-    /// Spots. A map that is prepared for a directional light is dark to them.
+    /// Spots only. With a map prepared for a directional light, everything is dark.
     Spot,
-    /// Directional lights. A map that is prepared for a spot is dark to them.
+    /// Directional lights only. With a map prepared for a spot, everything is dark.
     Directional,
 }
 
@@ -119,7 +120,7 @@ impl FlatLights {
     }
 }
 
-/// A map, of whichever kind.
+/// A map of any kind.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum AnyMap<'a> {

@@ -11,10 +11,10 @@ use crate::DepthEncoding;
 use crate::error::PcfError;
 use crate::support::has_storage;
 
-/// How to make a [`PcfSampler`].
+/// Parameters of a [`PcfSampler`].
 #[derive(Clone, Debug, Default)]
 pub struct PcfDescriptor<'a> {
-    /// Name of the sampler in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// The kernel. Default [`Kernel::Bilinear`].
     pub kernel: Kernel,
@@ -27,8 +27,7 @@ pub struct PcfDescriptor<'a> {
     /// then its default, or [`Kernel::Hard`]. Default false.
     #[doc(hidden)]
     pub textbook: bool,
-    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that can be relied on; other ways for
-    /// trying what devices without gathers see.
+    /// Whether square kernels gather texels. Default [`Gather::Auto`]: wherever that is reliable.
     #[doc(hidden)]
     pub gather: Gather,
 }
@@ -61,19 +60,20 @@ impl PcfDescriptor<'_> {
 /// Reads a [`CubeShadowMap`](crate::CubeShadowMap), a [`ShadowMap`](crate::ShadowMap) or a
 /// [`ShadowAtlas`](crate::ShadowAtlas) in the host's lighting shader.
 ///
-/// Gives three things: a bind group layout, a bind group for a map, and WGSL, either as functions
+/// It provides three things: a bind group layout, a bind group for a map, and WGSL, either as functions
 /// without bindings ([`wgsl`](Self::wgsl)) or as a module for a group number
 /// ([`wgsl_module`](Self::wgsl_module)).
 ///
-/// Every texel is compared with the depth that the receiver's plane has in that texel's own
-/// direction (a receiver plane as in Isidoro, "Shadow Mapping: GPU-based Tips and Techniques",
-/// GDC 2006, but exact for each texel rather than a gradient for the kernel). The plane is the
-/// geometric one, from the screen derivatives of the world position or from a flat normal of the
-/// host's; a smooth shading normal would tilt it and bring acne back.
+/// Every texel is compared with the depth of the receiver's plane in that texel's own direction (a receiver
+/// plane as in Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006, but exact for each texel
+/// rather than a gradient for the kernel). The plane is the geometric one, from the screen derivatives of the
+/// world position or from a flat normal of the host's; a smooth shading normal would tilt it and bring acne
+/// back.
 ///
-/// Far from the origin, where a pixel is hardly wider than an ulp of the position, derivatives say nothing of
-/// the normal; the plane's slope is then read from the map. And [`Bias::position_ulps`](crate::Bias)
-/// says how far rounding moves a receiver: within that of what casts it is lit.
+/// Far from the origin, where a pixel is hardly wider than an ulp of the position, derivatives contain no
+/// information about the normal; the plane's slope is then read from the map.
+/// [`Bias::position_ulps`](crate::Bias) covers the rounding of positions: a receiver within that distance of
+/// a caster is lit.
 #[derive(Debug)]
 pub struct PcfSampler {
     kernel: Kernel,
@@ -88,8 +88,7 @@ pub struct PcfSampler {
 }
 
 impl PcfSampler {
-    /// Makes a sampler for one kernel. Kernels that were not chosen leave no code in its WGSL and
-    /// no bindings in its layout.
+    /// Creates a sampler for one kernel. Other kernels add no code to its WGSL and no bindings to its layout.
     ///
     /// # Errors
     /// [`PcfError`] if a parameter of the kernel is out of range, the device has no gathers for
@@ -168,7 +167,7 @@ impl PcfSampler {
         })
     }
 
-    /// The kernel it was made for.
+    /// The kernel it was created for.
     pub fn kernel(&self) -> Kernel {
         self.kernel
     }
@@ -178,9 +177,9 @@ impl PcfSampler {
         self.reads.map
     }
 
-    /// Moves the noise of turned disks on to a frame, for hosts whose temporal anti-aliasing
-    /// averages it away: 64 patterns, then the first again (Jimenez 2014). Kernels without such
-    /// noise do not change. Without this call every frame has the noise of frame 0.
+    /// Selects the noise of rotated disks for a frame, for hosts whose temporal anti-aliasing averages it
+    /// out: the patterns repeat after 64 frames (Jimenez 2014). Kernels without such noise are not affected.
+    /// Without this call, every frame has the noise of frame 0.
     pub fn set_frame(&self, queue: &wgpu::Queue, frame: u32) {
         if let Some(buffer) = &self.parameters {
             let shift = 5.588_238 * (frame % 64) as f32;
@@ -199,18 +198,18 @@ impl PcfSampler {
         &self.layout
     }
 
-    /// The same bindings in the same order for a bind group of the host's, from `first_binding` on: three,
-    /// or five for disks. [`entries`](Self::entries) has what is bound, [`wgsl_module_at`](Self::wgsl_module_at)
-    /// the WGSL.
+    /// The same bindings in the same order for one of the host's bind groups, from `first_binding` on: three, or
+    /// five for disks. [`entries`](Self::entries) returns the resources,
+    /// [`wgsl_module_at`](Self::wgsl_module_at) the WGSL.
     pub fn layout_entries(&self, first_binding: u32) -> Vec<wgpu::BindGroupLayoutEntry> {
         layout_entries(self.kernel, self.reads, first_binding)
     }
 
     /// The bind group for a map. Maps of any size may be read with one sampler.
     ///
-    /// It stays right whatever light the map is prepared for, and whatever kind. An atlas's stays right until
-    /// [`ShadowAtlas::revision`](crate::ShadowAtlas::revision) changes; after that, all lights are dark to
-    /// it.
+    /// It remains valid whatever light the map is prepared for. That of an atlas remains valid until
+    /// [`ShadowAtlas::revision`](crate::ShadowAtlas::revision) changes; after that, all lights appear dark
+    /// with it.
     ///
     /// # Errors
     /// [`PcfError`] if the map is of another kind or encoding, or was made for kernels that do not reach as far
@@ -223,11 +222,12 @@ impl PcfSampler {
         Ok(self.group(device, &self.bound(map.into())?.entries(0)))
     }
 
-    /// What [`bind_group`](Self::bind_group) binds, for a bind group of the host's with
-    /// [`layout_entries`](Self::layout_entries) in its layout. It is to be made again when that would be.
+    /// The entries of [`bind_group`](Self::bind_group), for one of the host's bind groups with
+    /// [`layout_entries`](Self::layout_entries) in its layout. The host's group must be recreated whenever
+    /// that one would be.
     ///
     /// # Errors
-    /// As [`bind_group`](Self::bind_group).
+    /// Those of [`bind_group`](Self::bind_group).
     pub fn entries<'a>(
         &'a self,
         map: impl Into<AnyMap<'a>>,
@@ -291,10 +291,11 @@ impl PcfSampler {
     /// ) -> f32             // 1 lit, 0 in shadow; 0 beyond the light's range
     /// ```
     ///
-    /// For flat maps `flat` takes the place of `cube` in all names, and the map has one layer. Disks take `kernel: ShadowsKernel` and `offsets: texture_3d<f32>` after
-    /// the light and `pixel: vec2f`, the pixel's coordinates, as the last.
+    /// For flat maps, `flat` replaces `cube` in all names, and the map has one layer. Disks take
+    /// `kernel: ShadowsKernel` and `offsets: texture_3d<f32>` after the light, and `pixel: vec2f`, the pixel's
+    /// coordinates, as the last parameter.
     ///
-    /// `light.tiles` says which layers they are.
+    /// `light.tiles` specifies the layers.
     pub fn wgsl(&self) -> String {
         let own = MapWgsl::new(self.reads);
         if let MapKind::Atlas(kinds) = self.map() {
@@ -320,17 +321,16 @@ impl PcfSampler {
     /// Disks ([`Kernel::uses_pixel`]) take one more argument, `pixel: vec2f`: the x and y of
     /// `@builtin(position)`.
     ///
-    /// For atlases both take the light first, as `light: u32`: the number that
-    /// [`ShadowAtlas::light_index`](crate::ShadowAtlas::light_index) gives. For flat
-    /// maps the names begin with `shadows_flat_`: `shadows_flat_visibility` and
-    /// `shadows_flat_visibility_flat`, so that a shader may hold a cube sampler's module and a flat
-    /// one's.
+    /// For atlases, both take the light as the first parameter, `light: u32`: the index returned by
+    /// [`ShadowAtlas::light_index`](crate::ShadowAtlas::light_index). For flat maps, the names begin with
+    /// `shadows_flat_`: `shadows_flat_visibility` and `shadows_flat_visibility_flat`, so that a shader can
+    /// contain the modules of both a cube sampler and a flat one.
     pub fn wgsl_module(&self, group: u32) -> String {
         self.module(group, 0)
     }
 
-    /// The same for a bind group of the host's: the bindings begin at that of `place`, and before every name
-    /// stands its prefix, so that a shader may hold the modules of any samplers.
+    /// The same for one of the host's bind groups: bindings start at that of `place`, and every name has its
+    /// prefix, so that a shader can contain the modules of any number of samplers.
     ///
     /// ```
     /// # fn host(sampler: &shadows::PcfSampler) -> Result<String, shadows::error::PcfError> {
@@ -345,7 +345,7 @@ impl PcfSampler {
     /// ```
     ///
     /// # Errors
-    /// [`PcfError::Prefix`] if names would be none with the prefix.
+    /// [`PcfError::Prefix`] if the prefix does not form valid names.
     pub fn wgsl_module_at(&self, place: &ModulePlace<'_>) -> Result<String, PcfError> {
         let prefix = place.validated_prefix()?;
         let plain = self.module(place.group, place.first_binding);

@@ -1,4 +1,4 @@
-//! A plane's own frame of coordinates.
+//! The coordinate frame of a plane.
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 

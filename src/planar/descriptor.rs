@@ -1,57 +1,57 @@
-//! How planar shadows fit into the host's passes.
+//! Parameters of planar shadows.
 
 use crate::DepthConvention;
 use crate::error::PlanarShadowError;
 use crate::volume::light_pass::targets::{DEPTH_STENCIL, bytes_a_sample, has_stencil, is_drawable};
 
-/// What is done where there is shadow.
+/// What happens in shadow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlanarOutput {
-    /// [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) of the stencil is set, for the host's light pass to be
-    /// drawn where it is not ([`PlanarShadow::light_pass_stencil`](crate::PlanarShadow::light_pass_stencil)).
+    /// [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) is set in the stencil buffer; the host draws its light
+    /// pass where it is not set ([`PlanarShadow::light_pass_stencil`](crate::PlanarShadow::light_pass_stencil)).
     #[default]
     Stencil,
-    /// The same, and the host's colours are multiplied by the light's
-    /// [`shade`](crate::PlanarLight::shade): for hosts that light everything in one pass. Where a spot's cone or a
-    /// light's range does not reach, nothing is darkened.
+    /// The same, and the host's colours are multiplied by the light's [`shade`](crate::PlanarLight::shade): for
+    /// hosts that light everything in one pass. Nothing is darkened outside a spot's cone or a light's range.
     Darken {
         /// Which of [`color_formats`](PlanarShadowDescriptor::color_formats). Its alpha is left as it is.
         target: usize,
     },
 }
 
-/// How a [`PlanarShadow`](crate::PlanarShadow) fits into the host's passes.
+/// Parameters of a [`PlanarShadow`](crate::PlanarShadow), which must match the host's passes.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanarShadowDescriptor<'a> {
-    /// Names its GPU objects, after "shadows planar". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows planar". Default `None`.
     pub label: Option<&'a str>,
     /// Format of the passes' depth-stencil attachment: `Depth32FloatStencil8` (default) or
     /// `Depth24PlusStencil8`; see [`Support::depth_stencil_format`](crate::Support::depth_stencil_format).
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Samples per pixel of the passes, 1 (default) or 4. Each sample is in shadow or not by itself.
+    /// Samples per pixel of the passes, 1 (default) or 4. Shadow is determined for each sample.
     pub sample_count: u32,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,
     /// Formats of the passes' colour attachments. Default none.
     pub color_formats: &'a [Option<wgpu::TextureFormat>],
-    /// What is done where there is shadow. Default [`PlanarOutput::Stencil`].
+    /// What happens in shadow. Default [`PlanarOutput::Stencil`].
     pub output: PlanarOutput,
-    /// The stencil's bit that is set where there is shadow: one, and 0 when a pass begins. Default `0x80`.
+    /// The stencil bit that is set in shadow: a single bit, which must be 0 when a pass begins. Default
+    /// `0x80`.
     pub shadow_bit: u8,
-    /// The stencil's bit in which polygons are marked while they are drawn: one, and 0 when a pass begins; it is
-    /// 0 again after each. Default `0x40`.
+    /// The stencil bit that marks polygons while they are drawn: a single bit, which must be 0 when a pass
+    /// begins and is 0 again after each polygon. Default `0x40`.
     pub outline_bit: u8,
-    /// The stencil's bits in which the host may mark receivers
+    /// The stencil bits in which the host may mark receivers
     /// ([`PlanarOutline::Stencil`](crate::PlanarOutline::Stencil)); they are only read. Default `0x3f`.
     pub receiver_bits: u8,
-    /// How far the depth of the host's receivers may be off that of a polygon's plane, in pixels: by how much
-    /// depth changes from one pixel to the next, times this. Default 1/16. Rasterisers take depth from corners
-    /// that are moved to a grid, on GPUs of 1/256 of a pixel. At 0, and `bias_ulps` 0, there is z-fighting.
+    /// How far the depth of the host's receivers may differ from that of a polygon's plane, as a multiple of
+    /// the change in depth from one pixel to the next. Default 1/16. Rasterisers snap vertices to a grid, on
+    /// GPUs of 1/256 of a pixel, which changes depth. If this and `bias_ulps` are 0, there is z-fighting.
     pub bias_pixels: f32,
-    /// The same in units of depth's last place, where the plane faces the camera and depth does not change. Default
-    /// 16: more than rounding takes near the origin. Far from it, count positions from a point near the
-    /// camera ([`View::placed`](crate::View::placed)), or raise this.
+    /// The same in ulps of the depth, for planes that face the camera, whose depth does not change. Default 16:
+    /// more than the rounding error near the origin. Far from it, use positions relative to a point near the camera
+    /// ([`View::placed`](crate::View::placed)), or raise this.
     pub bias_ulps: f32,
 }
 

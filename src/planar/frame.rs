@@ -1,4 +1,4 @@
-//! What one frame consists of: lights, planes, views, casters.
+//! The input of one frame: lights, planes, views and casters.
 
 use glam::Vec3;
 
@@ -13,16 +13,16 @@ const OFF_PLANE: f64 = 1.0 / 65536.0;
 /// A light whose shadows are projected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarLight {
-    /// The light, in world space. Only planes whose front it is before receive its shadows.
+    /// The light, in world space. Only planes with the light in front of them receive its shadows.
     pub light: Light,
-    /// What is left in shadow of the colours that are there, red, green and blue, each 0 (nothing) to 1 (all):
-    /// the part of what is seen that other lights and the ambient light make up. Default 0.5 each. Of use with
-    /// [`PlanarOutput::Darken`](crate::PlanarOutput::Darken) alone.
+    /// The factor for red, green and blue in shadow, each from 0 (black) to 1 (unchanged): the share of the
+    /// colour that is due to other lights and the ambient light. Default 0.5 each. Used only with
+    /// [`PlanarOutput::Darken`](crate::PlanarOutput::Darken).
     pub shade: [f32; 3],
 }
 
 impl PlanarLight {
-    /// A light of any kind, with half of the colours left in its shadows.
+    /// A light of any kind, whose shadows halve the colours.
     pub fn new(light: impl Into<Light>) -> Self {
         Self {
             light: light.into(),
@@ -31,40 +31,41 @@ impl PlanarLight {
     }
 }
 
-/// Where on its plane a receiver is.
+/// The extent of a receiver on its plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PlanarOutline<'a> {
-    /// Where the host has written this value into the bits of
-    /// [`receiver_bits`](crate::PlanarShadowDescriptor::receiver_bits) when it drew the receiver: not 0. Exact to
-    /// the sample, for outlines of any form, and without a bias.
+    /// The pixels where the host has written this value, which must not be 0, into the bits of
+    /// [`receiver_bits`](crate::PlanarShadowDescriptor::receiver_bits) when it drew the receiver. Exact to the
+    /// sample, for outlines of any shape, and without a bias.
     Stencil(u8),
-    /// Within a polygon, where the depth buffer holds the plane. Its corners are in world space, in order, either
-    /// way around; edges may cross, and then the even-odd rule decides.
+    /// The pixels within a polygon where the depth buffer holds the plane. Its corners are in world space, in
+    /// order, either way around. Edges may cross; the even-odd rule then decides.
     Polygon(&'a [Vec3]),
 }
 
 /// A plane that receives shadows, on the side that its normal points to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarReceiver<'a> {
-    /// A point of it, in world space.
+    /// A point on the plane, in world space.
     pub point: Vec3,
-    /// Toward the side that receives, of any length but 0. A plane that receives on both sides is two.
+    /// Points to the side that receives; of any length but 0. A plane that receives on both sides is two
+    /// receivers.
     pub normal: Vec3,
-    /// Where on the plane the receiver is.
+    /// The extent of the receiver on the plane.
     pub outline: PlanarOutline<'a>,
 }
 
 /// One frame of a [`PlanarShadow`](crate::PlanarShadow). Default: nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PlanarFrame<'a> {
-    /// The lights, known by their places in this list.
+    /// The lights, identified by their index.
     pub lights: &'a [PlanarLight],
-    /// The planes that receive, known by their places, too.
+    /// The planes that receive, also identified by their index.
     pub planes: &'a [PlanarReceiver<'a>],
     /// The cameras.
     pub views: &'a [View],
-    /// What casts, on all planes.
+    /// The casters, for all planes.
     pub casters: &'a [Caster],
 }
 

@@ -1,11 +1,11 @@
 //! Shadows on planes: casters projected onto a floor, a wall, a table.
 //!
 //! A point `X` casts the shadow `(P . L) X - (P . X) L` on the plane `P` under the light `L`, all homogeneous: one
-//! matrix for point and directional lights (Blinn, "Me and My (Fake) Shadow", 1988). It is exact, at any distance and
-//! scale, and it is the whole truth where one plane receives everything. What stands on the plane receives nothing.
+//! matrix for point and directional lights (Blinn, "Me and My (Fake) Shadow", 1988). The result is exact at any
+//! distance and scale, and complete if one plane receives everything: objects on the plane receive nothing.
 //!
-//! The matrix projects what casts no shadow, too: what is behind the plane, and what is behind the light as seen from
-//! it. Both are cut off here.
+//! The matrix also projects what casts no shadow: anything behind the plane, and anything behind the light as seen
+//! from the plane. Both are clipped here.
 
 mod axes;
 mod casters;

@@ -17,33 +17,34 @@ use crate::uploads::Uploads;
 
 /// Hard shadows on planes, exact at any distance and scale.
 ///
-/// The host's frame:
-/// 1. [`prepare`](Self::prepare) with lights, planes, views and casters, then [`encode`](Self::encode) outside of
+/// A frame of the host consists of:
+/// 1. [`prepare`](Self::prepare) with lights, planes, views and casters, then [`encode`](Self::encode) outside
 ///    any pass, once each;
 /// 2. a pass with a depth-stencil buffer whose [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) and
-///    [`outline_bit`](PlanarShadowDescriptor::outline_bit) are 0. In it, where a receiver is in depth:
+///    [`outline_bit`](PlanarShadowDescriptor::outline_bit) are 0. In it, once the receivers have been drawn:
 ///    [`render`](Self::render) for each plane under one light;
 /// 3. with [`PlanarOutput::Stencil`](crate::PlanarOutput::Stencil) the host's pass for that light, with
 ///    [`light_pass_stencil`](Self::light_pass_stencil);
-/// 4. [`reset`](Self::reset), if there is another light, and so on.
+/// 4. [`reset`](Self::reset), if there is another light, for which steps 2 to 4 repeat.
 ///
-/// With a receiver that is a [`Stencil`](PlanarOutline::Stencil) value there are two ways to be exact: draw the
-/// receivers, then their shadows, then everything else; or draw everything, with a stencil of 0 where it is no
-/// receiver. A [`Polygon`](PlanarOutline::Polygon) is compared with the depth buffer, and wants everything drawn.
+/// With a receiver marked by a [`Stencil`](PlanarOutline::Stencil) value, there are two ways to an exact result:
+/// draw the receivers, then their shadows, then everything else; or draw everything, with a stencil value of 0
+/// for whatever is not a receiver. A [`Polygon`](PlanarOutline::Polygon) is compared with the depth buffer, so
+/// everything must have been drawn.
 ///
-/// What did not change costs nothing: in a frame in which lights, planes, views and casters are as they were nothing is
-/// uploaded. For every plane it is
-/// - 48 bytes for a caster that moves (and for up to 16 that lie between two such: one more copy costs more), and for
-///   each of all casters where any comes, goes or changes its mesh;
-/// - 112 bytes for a light that moves in each view, and for a view that moves under each light;
-/// - 24 bytes for each triangle of a polygon that changes (two less than it has corners);
-/// - all of that, where the plane changes, or the casters together move by about as much as they are wide: positions
-///   on a plane are counted from a point of it near the casters.
+/// What has not changed costs nothing: in a frame with the same lights, planes, views and casters, nothing is uploaded.
+/// Otherwise the upload for every plane is
+/// - 48 bytes for each caster that moves (and for up to 16 that lie between two such, as another copy would cost
+///   more), or for every caster if any is added, removed or changes its mesh;
+/// - 112 bytes per view for each light that moves, and per light for each view that moves;
+/// - 24 bytes for each triangle of a polygon that changes (two fewer than it has corners);
+/// - all of that, if the plane changes, or if the casters as a whole move by about their own extent, because
+///   positions on a plane are relative to a point near the casters.
 ///
 /// # What it does not do
 ///
-/// Casters receive nothing, neither from each other nor from themselves; nor does anything that is no plane. A light
-/// that is in a plane or behind it casts nothing there.
+/// Casters receive no shadows, neither from each other nor from themselves, and nor does anything that is not a
+/// plane. A light in a plane or behind it casts nothing there.
 #[derive(Debug)]
 pub struct PlanarShadow {
     label: String,
@@ -75,11 +76,11 @@ struct Plane {
 }
 
 impl PlanarShadow {
-    /// Compiles what all frames share.
+    /// Creates the pipelines.
     ///
     /// # Errors
-    /// [`PlanarShadowError`] if a format, a sample count or the bits do not fit, or the device lacks a feature;
-    /// the message names it.
+    /// [`PlanarShadowError`] if a format, a sample count or the bits are unsuitable, or if the device lacks a
+    /// feature; the message names it.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &PlanarShadowDescriptor<'_>,
@@ -115,12 +116,12 @@ impl PlanarShadow {
         })
     }
 
-    /// Finds what each light casts on each plane, and stages what drawing it needs: what changed, and nothing else.
-    /// (Nothing goes through the queue, which is there as in every other `prepare`.)
+    /// Finds what each light casts on each plane, and stages uploads of what has changed. (Nothing is written
+    /// through the queue, which is a parameter only because every `prepare` takes one.)
     ///
     /// # Errors
-    /// [`PlanarShadowError`] if a light, plane, view or caster is not sound, or the device's buffers cannot hold
-    /// the frame. What the last call prepared is then still drawn.
+    /// [`PlanarShadowError`] if a light, plane, view or caster is invalid, or if the device's buffers cannot
+    /// hold the frame. What the previous call prepared is then drawn.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -148,11 +149,11 @@ impl PlanarShadow {
         Ok(())
     }
 
-    /// Records the uploads of the last [`prepare`](Self::prepare). Once: a second call before the next records
-    /// nothing.
+    /// Records the uploads of the last [`prepare`](Self::prepare). Does so once: a second call before the next
+    /// `prepare` records nothing.
     ///
-    /// What is recorded must be submitted; if the encoder is dropped instead, the next `prepare` uploads everything
-    /// anew ([`PlanarStatistics::encoder_dropped`]).
+    /// The recorded work must be submitted; if the encoder is dropped instead, the next `prepare` uploads
+    /// everything again ([`PlanarStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.encoded = self.prepared;
         if self.uploads.record(encoder) {
@@ -160,9 +161,9 @@ impl PlanarShadow {
         }
     }
 
-    /// Has the next [`prepare`](Self::prepare) upload everything anew: for a host that has lost what was recorded
-    /// in a way that cannot be seen here, such as a submission that failed. Until that is encoded
-    /// [`render`](Self::render) is [`PlanarRenderError::NotEncoded`].
+    /// Makes the next [`prepare`](Self::prepare) upload everything again, for a host that has lost recorded work
+    /// in a way that cannot be detected here, such as a failed submission. Until that is encoded,
+    /// [`render`](Self::render) returns [`PlanarRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
         (self.prepared, self.encoded) = (false, false);
         self.uploads.clear();
@@ -173,17 +174,17 @@ impl PlanarShadow {
         }
     }
 
-    /// Records the shadows of one light on one plane in one view, by their places in the frame, into the host's
-    /// pass, which must have the formats and the sample count of the descriptor. Depth may be read-only; the stencil
-    /// is written.
+    /// Records the shadows of one light on one plane in one view, given by their indices in the frame, into the
+    /// host's pass, which must have the formats and the sample count of the descriptor. Depth may be read-only; the
+    /// stencil buffer is written.
     ///
-    /// Changes the pass's pipeline, bind group 0, vertex buffers 0 to 2, index buffer and stencil reference. Nothing
-    /// else.
+    /// Changes the pass's pipeline, bind group 0, vertex buffers 0 to 2, index buffer and stencil reference, and
+    /// nothing else.
     ///
     /// # Errors
-    /// [`PlanarRenderError`] if [`encode`](Self::encode) was not called since the last
-    /// [`prepare`](Self::prepare), its encoder was dropped, or the frame had no such light, plane or view. Nothing
-    /// is then drawn, and no shadow is in the picture.
+    /// [`PlanarRenderError`] if [`encode`](Self::encode) has not been called since the last
+    /// [`prepare`](Self::prepare), if its encoder was dropped, or if the frame had no such light, plane or view.
+    /// Nothing is then drawn, so the picture has no shadow.
     pub fn render(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -212,12 +213,12 @@ impl PlanarShadow {
         Ok(())
     }
 
-    /// Sets [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) and
-    /// [`outline_bit`](PlanarShadowDescriptor::outline_bit) back to 0 all over the viewport, so that the next light's
-    /// shadows can be drawn in the same pass. The other bits, depth and colours stay.
+    /// Resets [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) and
+    /// [`outline_bit`](PlanarShadowDescriptor::outline_bit) to 0 in the whole viewport, so that the next light's
+    /// shadows can be drawn in the same pass. The other bits, depth and colours are unchanged.
     ///
-    /// Changes the pass's pipeline, nothing else; the scissor rectangle is the host's and has to hold all that was
-    /// drawn to.
+    /// Changes the pass's pipeline and nothing else. The scissor rectangle is the host's, and must contain
+    /// everything that was drawn to.
     pub fn reset(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_pipeline(self.markings.get(Marking::Reset));
         pass.draw(0..3, 0..1);
@@ -226,8 +227,8 @@ impl PlanarShadow {
     /// The stencil state for the host's light pass, drawn with
     /// [`set_stencil_reference(0)`](wgpu::RenderPass::set_stencil_reference).
     ///
-    /// A fragment is shaded only where there is no shadow, and then marks its sample, so that a second one is not:
-    /// light is never added twice. Only [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) is read and written.
+    /// A fragment is shaded only where there is no shadow, and then marks its sample, so that light is never added
+    /// twice. Only [`shadow_bit`](PlanarShadowDescriptor::shadow_bit) is read and written.
     pub fn light_pass_stencil(&self) -> wgpu::StencilState {
         let bit = u32::from(self.descriptor.shadow_bit);
         let face = wgpu::StencilFaceState {
@@ -244,7 +245,7 @@ impl PlanarShadow {
         }
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> PlanarStatistics {
         self.statistics
     }

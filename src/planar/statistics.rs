@@ -1,33 +1,34 @@
-//! What a frame of planar shadows came to.
+//! Per-frame statistics of planar shadows.
 
-/// What the last [`PlanarShadow::prepare`](crate::PlanarShadow::prepare) found, for all lights, planes and views
-/// together.
+/// The result of the last [`PlanarShadow::prepare`](crate::PlanarShadow::prepare), for all lights, planes and
+/// views together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PlanarStatistics {
-    /// Casters drawn, each counted once for every light and plane.
+    /// Casters drawn, each counted once per light and plane.
     pub casters_drawn: u32,
-    /// Those of them that may reach behind the plane or as high as the light, of which the fragment shader cuts
-    /// off what casts nothing.
+    /// The subset that may reach behind the plane or above the light, where the fragment shader discards the
+    /// parts that cast nothing.
     pub casters_cut: u32,
-    /// Casters left out that are behind the plane, or behind the light as seen from it.
+    /// Casters left out because they are behind the plane, or behind the light as seen from the plane.
     pub casters_behind: u32,
-    /// Casters left out that are beyond the light's range.
+    /// Casters left out because they are beyond the light's range.
     pub casters_beyond: u32,
-    /// Casters left out because their place in the plane's frame is not finite in `f32`.
+    /// Casters left out because their coordinates relative to the plane are not finite in `f32`.
     pub casters_not_finite: u32,
-    /// Pairs of a light and a plane that the light is behind, or in: it casts nothing there.
+    /// Pairs of a plane and a light that is behind or in that plane, and so casts nothing there.
     pub lights_behind: u32,
     /// Draw calls that [`render`](crate::PlanarShadow::render) records for one view: casters, and polygons.
     pub draws: u32,
-    /// Triangles of casters in them.
+    /// Triangles of casters in those draws.
     pub triangles: u64,
     /// Bytes of GPU memory held.
     pub bytes: u64,
-    /// Bytes that [`encode`](crate::PlanarShadow::encode) copies: 0 where nothing moved.
+    /// Bytes that [`encode`](crate::PlanarShadow::encode) copies; 0 if nothing has moved.
     pub uploaded: u64,
-    /// Whether what the `prepare` before this one found was never encoded, and is found again.
+    /// Whether the result of the previous `prepare` was never encoded, so that this one found the same work
+    /// again.
     pub not_encoded: bool,
-    /// Whether the encoder that was recorded into before was dropped, and everything is uploaded again.
+    /// Whether the encoder that was last recorded into was dropped, so that everything is uploaded again.
     pub encoder_dropped: bool,
 }

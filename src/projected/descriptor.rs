@@ -1,4 +1,4 @@
-//! What projected shadows are made from and told each frame.
+//! Parameters of projected shadows, and their input for each frame.
 
 use super::draws::INSTANCE_SIZE;
 use super::record::most_records;
@@ -7,20 +7,21 @@ use crate::error::ProjectedShadowError;
 use crate::mesh::Caster;
 use crate::{Light, gl};
 
-/// How to make a [`ProjectedShadow`](crate::ProjectedShadow).
+/// Parameters of a [`ProjectedShadow`](crate::ProjectedShadow).
 #[derive(Clone, Debug)]
 pub struct ProjectedShadowDescriptor<'a> {
-    /// Name of the shadows in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
-    /// Texels along a side of a layer of the texture, the largest size of a tile: a power of two from 8 to
-    /// 8192, up to the device's `max_texture_dimension_2d`. Default 1024. Layers are made when shadows need
-    /// them.
+    /// Texels along a side of a layer of the texture, which is also the largest size of a tile: a power of
+    /// two from 8 to 8192, up to the device's `max_texture_dimension_2d`. Default 1024. Layers are created
+    /// when shadows need them.
     pub layer_size: u32,
-    /// Bytes that layers may take, with their mip levels (4 bytes a texel, and a third); as many whole layers
-    /// as that gives, at least one. Default 64 MiB: twelve layers of 1024 texels, 192 shadows of 256.
+    /// Bytes that layers may take, including their mip levels (4 bytes per texel, plus a third). Rounded down
+    /// to whole layers, but at least one. Default 64 MiB: twelve layers of 1024 texels, or 192 shadows of
+    /// 256.
     pub memory: u64,
-    /// Whether shadows whose light and casters have not changed are left alone. Default true; false draws
-    /// all of them every frame, for measuring what that is worth.
+    /// Whether shadows whose light and casters have not changed are left alone. Default true; false redraws
+    /// all of them every frame, to measure the benefit.
     #[doc(hidden)]
     pub cache: bool,
 }
@@ -63,16 +64,17 @@ impl ProjectedShadowDescriptor<'_> {
     }
 }
 
-/// A caster, and what of the light comes through it.
+/// A caster, and how much light it lets through.
 #[derive(Clone, Debug)]
 pub struct ProjectedCaster {
     /// The caster.
     pub caster: Caster,
-    /// What of red, green and blue light comes through one of its surfaces: 0 (opaque) to 1 (clear), linear.
+    /// The share of red, green and blue light that one of its surfaces lets through: 0 (opaque) to 1 (clear),
+    /// linear.
     ///
-    /// Of a mesh that is closed and wound counter-clockwise seen from outside, as found when it is made, that is
-    /// once for each time the light leaves it; of any other mesh (open, or in a buffer of the host's) for
-    /// each triangle that the light passes.
+    /// For a closed mesh wound counter-clockwise seen from outside (determined when it is created), this applies
+    /// once each time the light leaves it; for any other mesh (open, or in a buffer of the host's), to each
+    /// triangle that the light passes through.
     pub transmittance: [f32; 3],
 }
 
@@ -82,7 +84,7 @@ impl ProjectedCaster {
         Self::new(caster, [0.0; 3])
     }
 
-    /// A caster that lets through so much of red, green and blue light.
+    /// A caster that lets through this share of red, green and blue light.
     pub fn new(caster: Caster, transmittance: [f32; 3]) -> Self {
         Self {
             caster,
@@ -91,18 +93,18 @@ impl ProjectedCaster {
     }
 }
 
-/// One light, the casters whose shadow from it is one tile, and that tile's size.
+/// One light, the casters whose shadow from it shares one tile, and that tile's size.
 ///
-/// The tile is a square around the casters as the light sees them. Casters that are far apart as the light
-/// sees them are better given to several projectors: each then has a tile of its own, and a near distance of
-/// its own.
+/// The tile is a square around the casters as seen from the light. Casters that are far apart from that
+/// viewpoint are better split among several projectors, each of which then has its own tile and near
+/// distance.
 #[derive(Clone, Copy, Debug)]
 pub struct Projector<'a> {
-    /// The light. A point light or a spot takes a square around the casters, up to 84 degrees to each side; a
-    /// spot whose cone is narrower than that takes the square around its cone. Casters beyond a light's
-    /// range cast nothing.
+    /// The light. For a point light or a spot, the tile is a square around the casters, up to 84 degrees to
+    /// each side; for a spot whose cone is narrower than that, it is the square around its cone. Casters
+    /// beyond a light's range cast nothing.
     pub light: Light,
-    /// What casts; in any order.
+    /// The casters, in any order.
     pub casters: &'a [ProjectedCaster],
     /// Texels along a side of the tile: a power of two from 8 to
     /// [`layer_size`](ProjectedShadowDescriptor::layer_size).
@@ -119,7 +121,7 @@ impl<'a> Projector<'a> {
         }
     }
 
-    /// The same with a tile of another size.
+    /// The same projector with a tile of another size.
     #[must_use]
     pub fn with_size(self, size: u32) -> Self {
         Self { size, ..self }
@@ -164,10 +166,10 @@ impl<'a> Projector<'a> {
     }
 }
 
-/// What a [`ProjectedShadow`](crate::ProjectedShadow) is to show this frame.
+/// The input of a [`ProjectedShadow`](crate::ProjectedShadow) for one frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProjectedFrame<'a> {
-    /// The shadows; shaders name each by its place here.
+    /// The shadows; shaders identify each by its index here.
     pub projectors: &'a [Projector<'a>],
 }
 

@@ -1,4 +1,4 @@
-//! Projected shadows: what of its light casters let through, as a texture that receivers read.
+//! Projected shadows: the share of light that casters let through, as a texture that receivers read.
 
 mod descriptor;
 mod draws;

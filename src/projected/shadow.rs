@@ -1,4 +1,4 @@
-//! The type.
+//! The type of projected shadows.
 
 use glam::Mat4;
 
@@ -15,26 +15,26 @@ use crate::submissions::Submissions;
 use crate::uploads::Uploads;
 
 /// Shadows as pictures of their casters, seen from the light and projected onto receivers (Segal et al., "Fast
-/// Shadows and Lighting Effects Using Texture Mapping", 1992): many of them, each of one light and a few
-/// casters, in the tiles of one texture.
+/// Shadows and Lighting Effects Using Texture Mapping", 1992): Many shadows, each of one light and a few
+/// casters, share one texture as its tiles.
 ///
-/// A texel holds what of red, green and blue light comes through all casters on it, multiplied; so casters may
-/// be coloured and translucent, and their order does not matter. It does not hold where the casters are.
-/// Hence two limits:
+/// A texel holds the share of red, green and blue light that passes through all casters on it, multiplied, so
+/// casters may be coloured and translucent, and their order does not matter. It does not hold their depth,
+/// hence two limitations:
 ///
-/// - **A caster takes its own shadow.** Where it is read on its own surface, all of it is in shadow but what is
-///   nearer to the light than the nearest point of the bounds of the projector's casters. Read it on
-///   receivers that do not cast it.
-/// - **What lies between casters and the light** takes their shadow, too, from that nearest point on.
+/// - **A caster shadows itself.** If read on the caster's own surface, all of it is in shadow except what is
+///   nearer to the light than the nearest point of the bounds of the projector's casters. Read the shadow only
+///   on receivers that do not cast it.
+/// - **Receivers between casters and the light** are shadowed, too, from that nearest point on.
 ///
-/// What is nearer to the light than that, beside the tile, or behind the light, is lit; so is, where the shader has a normal,
-/// what looks away from the light. Filtering is bilinear, between mip levels: a shadow's edge is
-/// blurred over about a texel, or over a pixel where pixels are larger.
+/// Anything nearer to the light than that, outside the tile, or behind the light is lit; so is anything that faces away
+/// from the light, if the shader passes a normal. Filtering is bilinear, and linear between mip levels: a shadow's edge
+/// is blurred over about a texel, or over a pixel where pixels are larger.
 ///
-/// # What is drawn again
+/// # What is redrawn
 ///
-/// A shadow whose light and casters are as they were is left alone, wherever it stands in the frame: of a frame in which
-/// nothing has changed, 80 bytes a caster are read, and nothing is uploaded.
+/// A shadow whose light and casters have not changed is left alone, wherever it is in the frame's list: in a frame
+/// without changes, 80 bytes per caster are read, and nothing is uploaded.
 ///
 /// ```
 /// # use shadows::*;
@@ -78,7 +78,7 @@ pub struct ProjectedShadow {
 }
 
 impl ProjectedShadow {
-    /// Makes what all shadows share. Layers are allocated when shadows need them.
+    /// Creates everything that shadows share. Layers are allocated when shadows need them.
     ///
     /// # Errors
     /// [`ProjectedShadowError`] if the size of layers or the memory is out of range.
@@ -112,15 +112,15 @@ impl ProjectedShadow {
         })
     }
 
-    /// Gives each shadow a tile, decides which are drawn and stages what that needs. (Nothing goes through the
-    /// queue, which is there as in every other `prepare`.)
+    /// Gives each shadow a tile, decides which to draw and stages the uploads. (Nothing is written through the
+    /// queue, which is a parameter only because every `prepare` takes one.)
     ///
-    /// A shadow that cannot be drawn, because its light is among its casters or something is beyond `f32`, is lit
-    /// and does not keep the others from being drawn: [`state`](Self::state) tells.
+    /// A shadow that cannot be drawn, because its light is among its casters or something overflows `f32`, is
+    /// missing, but does not prevent the others from being drawn: see [`state`](Self::state).
     ///
     /// # Errors
     /// [`ProjectedShadowError`] if a projector's size, light, casters or transmittances are out of range, or
-    /// if the tiles do not fit; the shadows are then as they were.
+    /// if the tiles do not fit. The shadows are then unchanged.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -148,13 +148,12 @@ impl ProjectedShadow {
         Ok(())
     }
 
-    /// Records what the last [`prepare`](Self::prepare) found necessary. Once: a second call before the next
-    /// `prepare` records nothing.
+    /// Records the work that the last [`prepare`](Self::prepare) found necessary. Does so once: a second call
+    /// before the next `prepare` records nothing.
     ///
-    /// Call it after every `prepare`, whatever that found. Until it is called receivers see shadows as they
-    /// were, or none where there is a new [`bind_group`](Self::bind_group). What is recorded must be submitted: if
-    /// its encoder is dropped, the `prepare` after that draws all shadows again
-    /// ([`ProjectedStatistics::encoder_dropped`]).
+    /// Call it after every `prepare`, whatever the result. Until then, receivers see the previous shadows, or none
+    /// with a new [`bind_group`](Self::bind_group). The recorded work must be submitted: if the encoder is
+    /// dropped, the next `prepare` redraws all shadows ([`ProjectedStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let copied = self.uploads.record(encoder);
         if !copied && !self.passes.is_pending() {
@@ -166,11 +165,11 @@ impl ProjectedShadow {
         self.plan.encoded();
     }
 
-    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has all shadows drawn again. What the
-    /// last one found is forgotten.
+    /// Marks all shadows as outdated: the next [`prepare`](Self::prepare) redraws them. The result of the
+    /// last one is discarded.
     ///
-    /// For a host that has lost what was recorded in a way that cannot be seen here: an encoder that is kept
-    /// but never submitted, a submission that failed.
+    /// For a host that has lost recorded work in a way that cannot be detected here: an encoder that is kept
+    /// but never submitted, or a submission that failed.
     pub fn invalidate(&mut self) {
         self.plan.doubt();
         self.passes.clear();
@@ -184,8 +183,8 @@ impl ProjectedShadow {
         self.receivers.layout()
     }
 
-    /// The bind group for all shadows of the last [`prepare`](Self::prepare), which may have made another
-    /// one: ask for it each frame.
+    /// The bind group for all shadows of the last [`prepare`](Self::prepare), which may have recreated it:
+    /// fetch it each frame.
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         &self.group
     }
@@ -203,14 +202,14 @@ impl ProjectedShadow {
     /// ) -> vec3f           // what comes through of red, green and blue light, 0 to 1
     /// ```
     ///
-    /// and `shadows_projected_transmittance_facing`, which takes a `normal` after `position`, of any length: what
-    /// looks away from the light is lit. Neither asks for derivatives: they may be called in any branch, and in
-    /// compute shaders. With `x` and `y` 0 no mip level is read but the finest.
+    /// and `shadows_projected_transmittance_facing`, which takes a `normal` of any length after `position`: what
+    /// faces away from the light is lit. Neither uses derivatives, so they may be called in any branch, and in
+    /// compute shaders. If `x` and `y` are 0, only the finest mip level is read.
     pub fn wgsl(&self) -> String {
         self.receivers.wgsl()
     }
 
-    /// The same with the bindings of group `group`, and functions that take a shadow by its place in the
+    /// The same with the bindings of group `group`, and functions that take the index of a shadow in the
     /// frame:
     ///
     /// ```wgsl
@@ -218,32 +217,32 @@ impl ProjectedShadow {
     /// fn shadows_transmittance_facing(projector: u32, position: vec3f, normal: vec3f, x: vec3f, y: vec3f) -> vec3f
     /// ```
     ///
-    /// `projector` is below `arrayLength(&shadows_projectors)`, which is at least as many as the frame's projectors
-    /// (of a uniform buffer it is 128, the most that a frame may then have). Up to there, what is no
-    /// projector of the frame is lit; beyond, WGSL has it read as any of the array.
+    /// `projector` is below `arrayLength(&shadows_projectors)`, which is at least the number of the frame's
+    /// projectors (for a uniform buffer it is 128, the most that a frame may then have). Below that, an index
+    /// without a projector gives light; beyond it, WGSL may read any element of the array.
     pub fn wgsl_module(&self, group: u32) -> String {
         self.receivers.module(group)
     }
 
-    /// World space to clip space of a shadow's tile, as the last [`prepare`](Self::prepare) placed it; `None` where it has
-    /// none. The frame is left-handed: triangles that are counter-clockwise seen from the light are clockwise
-    /// on the tile.
+    /// World space to clip space of a shadow's tile, as of the last [`prepare`](Self::prepare); `None` if it has no
+    /// tile. It maps to a left-handed space: triangles that are counter-clockwise seen from the light are clockwise on
+    /// the tile.
     pub fn clip_from_world(&self, projector: usize) -> Option<Mat4> {
         Some(self.plan.frame(projector)?.clip_from_world())
     }
 
-    /// What becomes of a shadow of the last [`prepare`](Self::prepare) in the next
-    /// [`encode`](Self::encode); `None` beyond the frame's projectors.
+    /// What the next [`encode`](Self::encode) will do with a shadow of the last [`prepare`](Self::prepare);
+    /// `None` beyond the frame's projectors.
     pub fn state(&self, projector: usize) -> Option<ProjectorState> {
         self.plan.states().nth(projector)
     }
 
-    /// The texture of all tiles, `Rgba8Unorm`, linear.
+    /// The texture that holds all tiles, `Rgba8Unorm`, linear.
     pub fn texture(&self) -> &wgpu::Texture {
         self.texture.texture()
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> ProjectedStatistics {
         self.statistics
     }

@@ -1,9 +1,9 @@
-//! What a frame of projected shadows took, for a host to show.
+//! Per-frame statistics of projected shadows, for a host to display.
 
-/// What the last [`ProjectedShadow::prepare`](crate::ProjectedShadow::prepare) found and the next `encode`
-/// will do.
+/// The result of the last [`ProjectedShadow::prepare`](crate::ProjectedShadow::prepare), which the next
+/// `encode` will carry out.
 ///
-/// Each shadow of the frame is one of drawn, kept, empty and left out.
+/// Each shadow of the frame is drawn, kept, empty or left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ProjectedStatistics {
@@ -13,9 +13,10 @@ pub struct ProjectedStatistics {
     pub shadows_kept: u32,
     /// Shadows without a caster.
     pub shadows_empty: u32,
-    /// Shadows that cannot be drawn, and are lit: see [`ProjectorState`].
+    /// Shadows that are missing because they cannot be drawn: see [`ProjectorState`].
     pub shadows_left_out: u32,
-    /// Draw calls, without those that clear tiles and make mip levels: one for each of the `passes`.
+    /// Draw calls, without those that clear tiles and generate mip levels, of which there is one for each of
+    /// the `passes`.
     pub draws: u32,
     /// Triangles in those draws.
     pub triangles: u64,
@@ -25,34 +26,33 @@ pub struct ProjectedStatistics {
     pub layers: u32,
     /// Texels in tiles, without mip levels.
     pub texels: u64,
-    /// GPU memory held: texture and buffers, without the staging buffers in which `uploaded` waits.
+    /// GPU memory held by the texture and buffers, without staging buffers for uploads.
     pub bytes: u64,
-    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    /// Bytes that `encode` copies to the GPU; 0 if nothing has changed.
     pub uploaded: u64,
-    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
-    /// again. Of a host that prepares and encodes once a frame, always false.
+    /// Whether the result of the previous `prepare` was never encoded, so that this one found the same work
+    /// again. Always false for a host that prepares and encodes once per frame.
     pub not_encoded: bool,
-    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
-    /// the last `prepare`: everything is drawn again.
+    /// Whether an encoder that `encode` had recorded into was dropped instead of submitted since the last
+    /// `prepare`, so that everything is redrawn.
     pub encoder_dropped: bool,
 }
 
-/// What became of a shadow in the last [`ProjectedShadow::prepare`](crate::ProjectedShadow::prepare).
+/// The state of a shadow after the last [`ProjectedShadow::prepare`](crate::ProjectedShadow::prepare).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProjectorState {
     /// Will be drawn by the next `encode`.
     Drawn,
-    /// Is as it was.
+    /// Has not changed.
     Kept,
-    /// Nothing casts: all is lit.
+    /// Has no casters: everything is lit.
     Empty,
-    /// The light is among its casters: no square, up to 84 degrees to each side, holds them. All is
-    /// lit. Give the casters to several projectors, or take a
-    /// [`CubeShadowMap`](crate::CubeShadowMap).
+    /// The light is among its casters: no square of up to 84 degrees to each side contains them. Everything
+    /// is lit. Split the casters among several projectors, or use a [`CubeShadowMap`](crate::CubeShadowMap).
     Surrounded,
     /// The light or a caster is so far away, so large or so small that the tile's matrix is not finite in
-    /// `f32`. All is lit. Place all nearer the origin.
+    /// `f32`. Everything is lit. Move the scene nearer to the origin.
     BeyondF32,
 }
 

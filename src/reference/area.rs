@@ -1,4 +1,4 @@
-//! Lights with a size.
+//! Visibility of area lights.
 
 use std::f64::consts::PI;
 
@@ -8,13 +8,13 @@ use rayon::prelude::*;
 use super::image::{Class, Lighting, ReferenceImage};
 
 impl ReferenceImage {
-    /// How much of a light of this radius each of some pixels sees: the fraction of `samples`
-    /// places on its disk, which faces the pixel's point, that reach it. `None` where
+    /// How much of a light of this radius is visible from each of some pixels: the fraction of `samples`
+    /// points on its disk, which faces the pixel's position, that reach it. `None` where
     /// [`Class::faces_light`] is false.
     ///
-    /// `pixels` are columns and rows from the top left; `radius` is in world units, for a
-    /// directional light the tangent of its angular radius. Places lie on a spiral of golden angles
-    /// (Vogel 1979): with 1,024 of them the fraction is good to about a hundredth.
+    /// `pixels` are columns and rows from the top left. `radius` is in world units, or for a directional
+    /// light the tangent of its angular radius. Sample points lie on a spiral of golden angles (Vogel 1979):
+    /// with 1,024 of them, the fraction is accurate to about a hundredth.
     pub fn area_visibility(
         &self,
         pixels: &[[u32; 2]],

@@ -1,4 +1,4 @@
-//! The rays along which a host's camera sees, in f64.
+//! The rays of a host's camera, in f64.
 
 use glam::{DMat4, DVec3, DVec4, Vec4Swizzles};
 

@@ -8,7 +8,7 @@ use super::image::{Class, ReferenceImage};
 use super::interior::{Interior, Radius};
 use crate::error::ReferenceError;
 
-/// How a technique's picture says how much light arrives: `f32` from 0 to 1, or `u8` from 0 to 255.
+/// The visibility of one pixel in a technique's picture: `f32` from 0 to 1, or `u8` from 0 to 255.
 pub trait Visibility: Copy + Sync {
     /// 0 in shadow, 1 lit.
     fn fraction(self) -> f32;
@@ -26,12 +26,13 @@ impl Visibility for u8 {
     }
 }
 
-/// How one pixel of a technique compares. Exhaustive: right, or wrong in one of two ways at one of two places.
+/// The result for one pixel of a technique. Exhaustive: right, or wrong in one of two ways at one of two
+/// places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
     /// No surface that faces the light within its range.
     NotCounted,
-    /// As the reference.
+    /// Agrees with the reference.
     Right,
     /// Lit where the reference is in shadow, at an edge.
     FalseLit,
@@ -43,21 +44,21 @@ pub enum Verdict {
     FalseShadowInterior,
 }
 
-/// The error of a technique in pixels. Only those whose surface faces the light count.
+/// The error of a technique in pixels. Only pixels whose surface faces the light count.
 #[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Comparison {
     /// Pixels that count: the reference says [`Class::Lit`] or [`Class::Shadowed`].
     pub lit_facing: usize,
-    /// Those lit (visibility 0.5 or more) where the reference is in shadow.
+    /// Pixels that are lit (visibility 0.5 or more) where the reference is in shadow.
     pub false_lit: usize,
-    /// Those in shadow (visibility below 0.5) where the reference is lit.
+    /// Pixels that are in shadow (visibility below 0.5) where the reference is lit.
     pub false_shadow: usize,
     /// The part of `false_lit` that is in the interior.
     pub false_lit_interior: usize,
     /// The part of `false_shadow` that is in the interior.
     pub false_shadow_interior: usize,
-    /// Root of the mean square of visibility less the reference's 0 or 1; 0 if no pixel counts.
+    /// Root mean square difference between the visibility and the reference's 0 or 1; 0 if no pixel counts.
     pub rmse: f64,
     /// One verdict per pixel, row-major from the top left, for a picture of the error.
     pub verdicts: Vec<Verdict>,
@@ -81,11 +82,11 @@ impl fmt::Debug for Comparison {
 impl ReferenceImage {
     /// Compares a technique's visibility, one value per pixel, row-major from the top left.
     ///
-    /// Rays to tell interior from edge are cast for the wrong pixels only, and remembered.
+    /// Rays that tell interior from edge are cast only for wrong pixels, and remembered.
     ///
     /// # Errors
-    /// [`ReferenceError`] if there is not one visibility per pixel, if one that counts is NaN or
-    /// outside 0 to 1, or if `interior` asks for a cube map of a directional light or of no texels.
+    /// [`ReferenceError`] if there is not one visibility per pixel, if one that counts is NaN or outside 0 to
+    /// 1, or if `interior` specifies a cube map for a directional light or without texels.
     pub fn compare<V: Visibility>(
         &self,
         visibility: &[V],
@@ -106,10 +107,10 @@ impl ReferenceImage {
 
     /// The number of pixels facing the light that are in the interior.
     ///
-    /// For [`Interior::Map`] this casts about 40 rays a pixel, more with a wider kernel.
+    /// For [`Interior::Map`] this casts about 40 rays per pixel, more with a wider kernel.
     ///
     /// # Errors
-    /// [`ReferenceError::Interior`] as for [`compare`](Self::compare).
+    /// [`ReferenceError::Interior`], as with [`compare`](Self::compare).
     pub fn interior_pixels(&self, interior: Interior) -> Result<usize, ReferenceError> {
         let radius = interior.radius(self.lighting.light.w == 0.0)?;
         Ok((0..self.pixels.len())

@@ -1,4 +1,4 @@
-//! How a technique's picture shimmers: what changes from one frame to the next without a reason.
+//! How a technique's picture shimmers: pixels that change between frames without a reason.
 
 use super::compare::Visibility;
 use super::image::{Class, ReferenceImage};
@@ -11,14 +11,14 @@ use crate::error::ReferenceError;
 pub struct Flips {
     /// Pixels that count: their surface faces the light, within range, in both frames.
     pub pixels: usize,
-    /// Those that the reference has lit in one frame and in shadow in the other. They are no error,
-    /// and none of those below.
+    /// Pixels that are lit in one frame and in shadow in the other according to the reference. They are not
+    /// errors and are not included below.
     pub of_reference: usize,
-    /// Those that the technique shows lit (visibility 0.5 or more) in one frame and in shadow in the
-    /// other, although the reference does not change.
+    /// Pixels that the technique shows lit (visibility 0.5 or more) in one frame and in shadow in the other,
+    /// although the reference does not change.
     pub excess: usize,
-    /// Those whose visibility changes by more than 0.5, although the reference does not: for kernels
-    /// with soft edges, which often pass 0.5 without anybody seeing it. At most `excess`.
+    /// Pixels whose visibility changes by more than 0.5, although the reference does not change: for kernels
+    /// with soft edges, whose values often cross 0.5 without being noticed. At most `excess`.
     pub jumps: usize,
 }
 
@@ -35,15 +35,15 @@ impl State {
 }
 
 impl ReferenceImage {
-    /// What flips between a frame `before` and this one: each is its own reference with a
+    /// The pixels that flip between the frame `before` and this one. Each frame is a reference with a
     /// technique's visibility, one value per pixel, row-major from the top left.
     ///
-    /// `moved` is by how many pixels, to the right and down, the picture moved in between: what was
-    /// seen at `x` is now seen at `x + moved`. It is `[0, 0]` for a camera that stands still. For one
-    /// that moves in other ways, too, it is `[0, 0]`: then pixels that see another surface than
-    /// before are compared as well, each with the truth about its own.
+    /// `moved` is how many pixels the picture moved in between, to the right and down: what was seen at `x`
+    /// is now seen at `x + moved`. It is `[0, 0]` if the camera does not move, and also if it moves in any
+    /// other way; pixels that now see another surface are then compared as well, each with the truth about
+    /// its own surface.
     ///
-    /// Pictures that are right never flip, whatever moves; neither do pictures that do not change.
+    /// Correct pictures never flip, whatever moves; neither do pictures that do not change.
     ///
     /// # Errors
     /// [`ReferenceError`] if the two pictures differ in size, if there is not one visibility per

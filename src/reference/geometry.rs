@@ -1,4 +1,4 @@
-//! World-space triangles in f64 and the two questions asked of them: what is seen, what is blocked.
+//! World-space triangles in f64, and the two ray queries: the nearest hit, and whether anything blocks.
 
 use std::fmt;
 use std::sync::Arc;
@@ -79,16 +79,16 @@ pub(super) struct SurfacePoint {
     pub(super) size: f64,
 }
 
-/// A place of a triangle that a ray comes through, for
+/// The point where a ray crosses a triangle, for
 /// [`ReferenceScene::with_opacity`](super::ReferenceScene::with_opacity).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Crossing {
-    /// Place of the object in the list given to [`ReferenceScene::new`](super::ReferenceScene::new).
+    /// Index of the object in the list passed to [`ReferenceScene::new`](super::ReferenceScene::new).
     pub object: u32,
-    /// Triangle of that object, counted as its indices are.
+    /// Triangle of that object, in the order of its indices.
     pub triangle: u32,
-    /// Weights of the triangle's corners, in the order of its indices; they add up to 1.
+    /// Barycentric weights of the triangle's corners, in the order of its indices; they add up to 1.
     pub weights: [f64; 3],
 }
 

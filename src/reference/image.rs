@@ -12,14 +12,14 @@ use super::geometry::{Geometry, SurfacePoint};
 use crate::error::{LightError, ReferenceError};
 use crate::{HomogeneousLight, SpotLight};
 
-/// What a pixel of the reference shows. Exhaustive: every pixel is one of these.
+/// What a pixel of the reference shows. Exhaustive: every pixel belongs to one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     /// No surface.
     Background,
     /// The side of a triangle that faces away from the light, or is edge-on to it.
     Away,
-    /// A side that faces the light, beyond its range or outside a spot's cone.
+    /// A side that faces the light but is beyond its range or outside a spot's cone.
     OutOfRange,
     /// A side that faces the light, with nothing in between.
     Lit,
@@ -28,19 +28,19 @@ pub enum Class {
 }
 
 impl Class {
-    /// Whether shadow techniques are judged here: the surface faces the light, within range.
+    /// Whether shadow techniques are judged here, because the surface faces the light within range.
     pub fn faces_light(self) -> bool {
         matches!(self, Self::Lit | Self::Shadowed)
     }
 }
 
-/// What the ray through a pixel centre meets first.
+/// The first thing that the ray through a pixel's centre hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Hit {
-    /// Place in the list given to [`ReferenceScene::new`](super::ReferenceScene::new).
+    /// Index in the list passed to [`ReferenceScene::new`](super::ReferenceScene::new).
     pub object: u32,
-    /// Triangle of that object, counted as its indices are.
+    /// Triangle of that object, in the order of its indices.
     pub triangle: u32,
     /// World space.
     pub position: DVec3,
@@ -180,7 +180,7 @@ impl Seen {
 /// Whether a pixel is in the interior, by radius (a hash) and number.
 pub(super) type InteriorCache = Mutex<HashMap<(u64, usize), bool>>;
 
-/// The exact answer for one view and one light; made by
+/// The exact answer for one view and one light, from
 /// [`ReferenceScene::render`](super::ReferenceScene::render).
 ///
 /// Lists of pixels are row-major from the top left.
@@ -196,8 +196,8 @@ pub struct ReferenceImage {
 }
 
 impl ReferenceImage {
-    /// The same picture under another light: what each pixel sees is known, so only the light's own rays
-    /// are cast. `range` as in [`ReferenceScene::render`](super::ReferenceScene::render).
+    /// The same picture under another light: what each pixel sees is known, so only rays to the light are
+    /// cast. `range` as in [`ReferenceScene::render`](super::ReferenceScene::render).
     ///
     /// # Errors
     /// [`ReferenceError`] if the light or the range is not valid.
@@ -253,7 +253,7 @@ impl ReferenceImage {
         self.height
     }
 
-    /// Wall-clock seconds the picture took; 0 in a browser, where the standard library has no clock.
+    /// Wall-clock seconds that the picture took; 0 in a browser, where the standard library has no clock.
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
@@ -274,7 +274,7 @@ impl ReferenceImage {
         self.classes().filter(|class| class.faces_light()).count()
     }
 
-    /// What a pixel shows; `None` for the background and outside the picture.
+    /// What a pixel shows; `None` for the background, and outside the picture.
     pub fn hit(&self, x: u32, y: u32) -> Option<Hit> {
         let seen = self.seen(x, y)?;
         let [object, triangle] = self.geometry.triangle(seen.surface.triangle).source;

@@ -1,4 +1,4 @@
-//! Which pixels are so far from any shadow edge that resolution is no excuse.
+//! Which pixels are so far from any shadow edge that resolution cannot explain an error.
 
 use std::f64::consts::{SQRT_2, TAU};
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
@@ -19,25 +19,25 @@ use crate::error::ReferenceError;
 /// room for the creases of a tessellation.
 const STEP: f64 = 2.0;
 
-/// Where an error counts as an interior error: no shadow edge is near enough to explain it.
+/// Where an error counts as an interior error, because no shadow edge is near enough to explain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interior {
-    /// For shadow volumes. Over the 3 x 3 pixels around (those inside the picture) the reference
-    /// says the same (only [`Class::Lit`] is lit), none is background, and no depth edge passes.
+    /// For shadow volumes. Over the surrounding 3 x 3 pixels (those inside the picture), the reference agrees
+    /// (only [`Class::Lit`] is lit), none is background, and there is no depth edge.
     Screen,
-    /// For cube shadow maps of a point light. Beyond what [`Screen`](Self::Screen) asks, the
-    /// reference says the same wherever a light ray within 1.5 texels plus the kernel's radius of
-    /// the pixel's own meets the tangent plane. A ray that misses the plane is an edge. So is the edge of a shadow
-    /// that lies beyond the light's range, whose texels such a map holds all the same.
+    /// For cube shadow maps of a point light. In addition to the conditions of [`Screen`](Self::Screen), the
+    /// reference agrees wherever a light ray within 1.5 texels plus the kernel's radius of the pixel's own meets
+    /// the tangent plane. A ray that misses the plane counts as an edge, and so does the edge of a shadow beyond
+    /// the light's range, because a map holds that, too.
     Map {
         /// Texels along the edge of a cube face; at least 1.
         face_size: u32,
         /// Largest offset of a tap in texels, from the middle of a face; 0 for one tap.
         kernel_radius: f32,
     },
-    /// For flat shadow maps of a spot or directional light: as [`Map`](Self::Map), with the texels
-    /// of this map.
+    /// For flat shadow maps of a spot or directional light: like [`Map`](Self::Map), with the texels of this
+    /// map.
     FlatMap {
         /// From world space to the map's clip space, as the map was drawn:
         /// [`ShadowMap::clip_from_world`](crate::ShadowMap::clip_from_world).
@@ -47,9 +47,9 @@ pub enum Interior {
         /// Largest offset of a tap in texels, from the middle of the map; 0 for one tap.
         kernel_radius: f32,
     },
-    /// For light maps, of any light. Beyond what [`Screen`](Self::Screen) asks, the reference says the same within
-    /// 3.54 texels on the pixel's tangent plane: a texel is the mean over itself, a bilinear filter reads its
-    /// neighbours, and those in the margin are means of theirs.
+    /// For light maps, of any light. In addition to the conditions of [`Screen`](Self::Screen), the reference
+    /// agrees within 3.54 texels on the pixel's tangent plane: a texel is a mean over its area, a bilinear filter
+    /// reads its neighbours, and those in the margin are means of their own neighbours.
     LightMap {
         /// Sides of a texel on the surface, world units, above 0; of the largest where they differ.
         texel: f32,

@@ -1,9 +1,9 @@
 //! The ground truth: exact visibility by casting rays in f64, and the error of a technique against it.
 //!
-//! For each pixel centre one ray from the near plane to the nearest surface, and one from there to
-//! the light (Whitted, "An Improved Illumination Model for Shaded Display", 1980). No bias, no
-//! absolute epsilon, no resolution: the answer for the triangles as they are, not for what they
-//! approximate. It takes seconds, and is for measuring, not for frames.
+//! For each pixel centre, one ray is cast from the near plane to the nearest surface, and one from there to
+//! the light (Whitted, "An Improved Illumination Model for Shaded Display", 1980). There is no bias, no
+//! absolute epsilon and no resolution: the answer holds for the triangles as given, not for the shapes they
+//! approximate. It takes seconds, so it is for measuring rather than for rendering frames.
 //!
 //! ```
 //! use shadows::glam::camera::rh::{proj::directx as proj, view};
@@ -73,7 +73,7 @@ use self::image::{Lighting, Pixel};
 use crate::error::ReferenceError;
 use crate::{HomogeneousLight, SpotLight, View};
 
-/// A mesh as the reference takes it: triangles of any kind, open, inconsistently wound, degenerate.
+/// A mesh for the reference. Any triangles are accepted: open, inconsistently wound or degenerate.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceObject<'a> {
     /// Vertex positions in object space.
@@ -82,11 +82,11 @@ pub struct ReferenceObject<'a> {
     pub indices: &'a [u32],
     /// World from object space; applied in f64.
     pub transform: DAffine3,
-    /// Whether the object blocks light. Every object is seen and receives shadows.
+    /// Whether the object blocks light. Every object is visible and receives shadows.
     pub casts: bool,
 }
 
-/// Triangles in world space, ready for rays. A clone shares them.
+/// A scene of triangles in world space, ready for ray casting. Clones share them.
 #[derive(Clone)]
 pub struct ReferenceScene {
     geometry: Geometry,
@@ -101,7 +101,7 @@ impl ReferenceScene {
     /// No objects, objects without triangles and triangles without area are allowed.
     ///
     /// # Errors
-    /// [`ReferenceError`] names the object whose indices are no triangles or out of range, or whose
+    /// [`ReferenceError`] names the object whose indices do not form triangles or are out of range, or whose
     /// vertices are not finite in world space.
     pub fn new(objects: &[ReferenceObject<'_>]) -> Result<Self, ReferenceError> {
         number(objects.len())?;
@@ -122,13 +122,13 @@ impl ReferenceScene {
         })
     }
 
-    /// The same scene, with holes: a triangle is there, to be seen and to block light, only where
-    /// `opacity` says so. For what hosts cut out with a mask (alpha-tested leaves, fences of wire), which
-    /// they must evaluate as their own shaders do.
+    /// The same scene with holes: a triangle is visible and blocks light only where `opacity` returns true.
+    /// This is for surfaces that hosts cut out with a mask (alpha-tested leaves, wire fences), which must be
+    /// evaluated as in their own shaders.
     ///
-    /// It is asked for every triangle that a ray meets, of whatever object, from any thread, and must
-    /// always say the same. An edge that only the mask makes is an edge like any other: an error beside it
-    /// is none in the interior.
+    /// It is called for every triangle that a ray hits, of any object, from any thread, and must always give
+    /// the same answer. An edge of the mask is an edge like any other: errors next to it are not interior
+    /// errors.
     #[must_use]
     pub fn with_opacity(
         mut self,
@@ -138,35 +138,35 @@ impl ReferenceScene {
         self
     }
 
-    /// The same scene, which tells `progress` during [`render`](Self::render) and [`bake`](Self::bake), from any
-    /// thread, what part of the picture or of the map is done: above 0, up to 1.
+    /// The same scene, which reports to `progress` during [`render`](Self::render) and [`bake`](Self::bake),
+    /// from any thread, what fraction of the picture or map is done: above 0, up to 1.
     #[must_use]
     pub fn with_progress(mut self, progress: impl Fn(f64) + Send + Sync + 'static) -> Self {
         self.progress = Some(Arc::new(progress));
         self
     }
 
-    /// The same scene, of whose pictures only these rows are computed, counted from the top: for a
-    /// picture that is made a few rows at a time, so that it can be given up in between. The image has
-    /// as many rows, and they are those of the whole picture. [`Interior`] looks one row further; take
-    /// one more on either side, if there is one, and ignore what is said of it.
+    /// The same scene, but of each picture only these rows are computed, counted from the top: for a picture
+    /// that is computed a few rows at a time, so that it can be cancelled in between. The image contains just
+    /// these rows, with the same content as in the whole picture. [`Interior`] looks one row further, so
+    /// include one more row on either side, if there is one, and ignore its result.
     ///
-    /// [`render`](Self::render) refuses rows that are none, or below the picture's last.
+    /// [`render`](Self::render) rejects an empty range, and one that extends below the picture.
     #[must_use]
     pub fn with_rows(mut self, rows: Range<u32>) -> Self {
         self.rows = Some(rows);
         self
     }
 
-    /// What the camera sees, and which of it the light reaches, at the centre of each pixel.
+    /// What the camera sees, and whether the light reaches it, at the centre of each pixel.
     ///
-    /// `width` and `height` are in pixels. A point light (`w = 1`) reaches no farther than `range`,
-    /// in world units; a directional light has none and ignores it. The near and the far plane of
-    /// `view` clip what is seen, not what casts. Rows are computed in parallel; the result does not
-    /// depend on how many threads there are.
+    /// `width` and `height` are in pixels. A point light (`w = 1`) reaches no farther than `range`, in world
+    /// units; a directional light has none and ignores it. The near and the far plane of `view` clip what is
+    /// seen, not what casts. Rows are computed in parallel; the result does not depend on the number of
+    /// threads.
     ///
     /// # Errors
-    /// [`ReferenceError`] if the light or the range is not valid or the picture has no pixels.
+    /// [`ReferenceError`] if the light or the range is invalid, or if the picture has no pixels.
     pub fn render(
         &self,
         view: &View,
@@ -178,11 +178,11 @@ impl ReferenceScene {
         self.render_lit(view, width, height, Lighting::checked(light, range)?)
     }
 
-    /// The same for a spot. What lies outside its cone is [`Class::OutOfRange`]: there is none of
-    /// its light that could be shadowed, so techniques are not judged there.
+    /// The same for a spot. Anything outside its cone is [`Class::OutOfRange`]: it receives none of the
+    /// spot's light, so techniques are not judged there.
     ///
     /// # Errors
-    /// [`ReferenceError`] if the light is not valid or the picture has no pixels.
+    /// [`ReferenceError`] if the light is invalid, or if the picture has no pixels.
     pub fn render_spot(
         &self,
         view: &View,

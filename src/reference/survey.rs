@@ -1,9 +1,9 @@
-//! Which of many configurations to choose: time against error.
+//! Choosing among many configurations by time and error.
 
-/// A configuration with what it costs and how wrong it is.
+/// A configuration with its time and its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate<T> {
-    /// What was measured, e.g. a descriptor.
+    /// The measured configuration, such as a descriptor.
     pub configuration: T,
     /// In any unit, less is better. Noise may make it negative where it is a difference.
     pub time: f64,
@@ -11,7 +11,7 @@ pub struct Candidate<T> {
     pub error: f64,
 }
 
-/// Configurations measured on one scene, and which of them to choose.
+/// Configurations measured on one scene, to choose from.
 ///
 /// ```
 /// use shadows::reference::Survey;
@@ -32,18 +32,18 @@ pub struct Survey<T> {
 }
 
 impl<T> Survey<T> {
-    /// Of configurations that were measured elsewhere. Those whose time or error is NaN or infinite
-    /// are kept, and never chosen.
+    /// From configurations that were measured elsewhere. Those whose time or error is NaN or infinite are
+    /// kept but never chosen.
     pub fn new(candidates: Vec<Candidate<T>>) -> Self {
         Self { candidates }
     }
 
-    /// Measures each configuration: its error once, its time in `rounds` rounds (at least one), of
-    /// which the median counts. Within a round the configurations take turns, and each round begins
-    /// with another, so that a machine that slows down slows all of them.
+    /// Measures each configuration: its error once, and its time as the median of `rounds` rounds (at least
+    /// one). Each round measures every configuration once, starting with a different one, so that a machine
+    /// that slows down affects all of them.
     ///
     /// # Errors
-    /// The first that a closure returns.
+    /// The first error that a closure returns.
     pub fn measure<E>(
         configurations: impl IntoIterator<Item = T>,
         rounds: usize,
@@ -74,13 +74,13 @@ impl<T> Survey<T> {
         Ok(Self { candidates })
     }
 
-    /// All of them, in the order given.
+    /// All candidates, in the order given.
     pub fn candidates(&self) -> &[Candidate<T>] {
         &self.candidates
     }
 
-    /// Those that nothing else beats in both time and error (Pareto 1896), the fastest first. Of
-    /// equals the first given is named.
+    /// The Pareto front: the candidates that no other beats in both time and error, fastest first. Among
+    /// equals, only the first given is listed.
     pub fn front(&self) -> Vec<&Candidate<T>> {
         let mut sorted: Vec<&Candidate<T>> = self.usable().collect();
         sorted.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.error.total_cmp(&b.error)));
@@ -100,7 +100,7 @@ impl<T> Survey<T> {
         exact.next()
     }
 
-    /// The one of least error whose time is at most this; `None` if there is none.
+    /// The one with the smallest error whose time is at most this; `None` if there is none.
     pub fn most_exact(&self, time_at_most: f64) -> Option<&Candidate<T>> {
         let front = self.front().into_iter();
         let fast = front.take_while(|candidate| candidate.time <= time_at_most);

@@ -1,4 +1,4 @@
-//! What the host says about its passes and its frame, and what it gets to know.
+//! Parameters of shadow volumes.
 
 use std::num::NonZeroU32;
 
@@ -13,24 +13,23 @@ use crate::volume::multiview::Multiview;
 use crate::volume::plan::limits;
 use crate::volume::{Counter, Silhouettes, StartFrom};
 
-/// How a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer) fits into the host's passes.
+/// Parameters of a [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer), which must match the host's passes.
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowVolumeDescriptor<'a> {
-    /// Names the renderer's GPU objects, after "shadows volume". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows volume". Default `None`.
     pub label: Option<&'a str>,
-    /// Format of the depth-stencil attachment, which is the host's own:
-    /// [`Support::depth_stencil_format`](crate::Support::depth_stencil_format) says which to make it of.
-    /// With [`Counter::Exact`] it needs no stencil: `Depth32Float` and `Depth24Plus` will do.
+    /// Format of the depth-stencil attachment, which is owned by the host:
+    /// [`Support::depth_stencil_format`](crate::Support::depth_stencil_format) recommends one. With
+    /// [`Counter::Exact`] it needs no stencil: `Depth32Float` and `Depth24Plus` will do.
     ///
-    /// `Depth32FloatStencil8` (the default, and what this crate's figures are of) needs the
-    /// [feature of that name](wgpu::Features::DEPTH32FLOAT_STENCIL8). `Depth24PlusStencil8` is there
-    /// on every device, and its steps are the same size at any depth, where depth itself falls as 1
-    /// over the distance: what is farther than some thousand times the near plane's distance comes
-    /// out speckled. The farther the near plane, the better: on a kilometre of hills under a sun 0.00 %
-    /// of the interior pixels were wrong with a near plane at 10 m, 0.09 % at 0.1 m and 0.30 % at 0.02 m
-    /// (software Vulkan, 320x240; in floats none at any).
+    /// `Depth32FloatStencil8` (the default, which this crate's figures refer to) needs the [feature of that
+    /// name](wgpu::Features::DEPTH32FLOAT_STENCIL8). `Depth24PlusStencil8` is available on every device, but
+    /// its resolution is the same at any depth, while depth itself is proportional to 1 over the distance:
+    /// anything beyond some thousand times the near plane's distance is speckled. A more distant near plane
+    /// helps: on a kilometre of hills under a sun, 0.00 % of the interior pixels were wrong with a near plane
+    /// at 10 m, 0.09 % at 0.1 m and 0.30 % at 0.02 m (software Vulkan, 320x240; none in floats).
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Samples per pixel of the pass, 1 (default) or 4. The stencil counts each sample by itself.
+    /// Samples per pixel of the pass, 1 (default) or 4. Each sample has its own count.
     pub sample_count: u32,
     /// The layers of its attachments that a pass draws into at once, a bit and a view each: the pass's own
     /// [`multiview_mask`](wgpu::RenderPassDescriptor::multiview_mask), as for both eyes of a headset. Default
@@ -54,28 +53,28 @@ pub struct ShadowVolumeDescriptor<'a> {
     pub multiview_mask: Option<NonZeroU32>,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,
-    /// Formats of the pass's colour attachments, which are left as they are. Default none.
+    /// Formats of the pass's colour attachments, which are not written. Default none.
     pub color_formats: &'a [Option<wgpu::TextureFormat>],
-    /// How far light caps are pushed away from the viewer, in units of the depth format's last
-    /// place. Default 16: more than the 6 that a host was measured to be off by near the origin. GPUs take
-    /// depth from corners on a grid of 1/256 of a pixel, where a unit may be a whole step: a host of other
-    /// arithmetic may want 512 there (`docs/arithmetic.md`), of a float format under infinite reverse-Z.
-    /// Elsewhere a unit is one of depth 1, and 512 of them are decimetres at ten metres, which volumes that
-    /// start from away-facing triangles show.
+    /// How far light caps are pushed away from the viewer, in ulps of the depth. Default 16: more than the 6
+    /// by which a host was measured to differ near the origin. GPUs compute depth from vertices snapped to
+    /// 1/256 of a pixel, where an ulp may become a whole step of that grid: a host with other arithmetic may
+    /// need 512 there (`docs/arithmetic.md`), with a float format and infinite reverse-Z. Otherwise an ulp is
+    /// one of depth 1, and 512 of them are decimetres at ten metres, which is visible with volumes that start
+    /// from away-facing triangles.
     ///
-    /// A light cap lies in a surface that the host draws, so "behind what is visible" is the right
-    /// answer wherever it is drawn. 0 is enough for a host that computes its positions with
-    /// [`wgsl::POSITION`](crate::wgsl::POSITION); more makes up for other arithmetic. It has no
-    /// effect on where shadows fall, except for casters that the host itself does not draw.
+    /// A light cap lies in a surface that the host draws, so "behind the visible surface" is always the
+    /// correct answer. 0 is enough for a host that computes its positions with
+    /// [`wgsl::POSITION`](crate::wgsl::POSITION); larger values compensate for other arithmetic. It does not
+    /// affect where shadows fall, except for casters that the host itself does not draw.
     ///
-    /// Other arithmetic rounds the more, the larger world coordinates are beside the distance from the
-    /// eye. What is seen from 10 units away took up to 512 at 100 units from the origin and 1024 at 1000
-    /// (`Depth32FloatStencil8`; a host that multiplies `p * (v * (m * x))` or `(p * v * m) * x`; corners
-    /// on the rasteriser's grid, as GPUs have them). Count
-    /// such scenes from a point near the eye ([`View::placed`](crate::View::placed)), or raise this.
+    /// The rounding errors of other arithmetic grow with the ratio of world coordinates to the distance from
+    /// the eye. Surfaces seen from 10 units away needed up to 512 at 100 units from the origin and 1024 at
+    /// 1000 (`Depth32FloatStencil8`; a host that multiplies `p * (v * (m * x))` or `(p * v * m) * x`;
+    /// vertices snapped to the rasteriser's grid, as on GPUs). Render such scenes relative to a point near
+    /// the eye ([`View::placed`](crate::View::placed)), or raise this.
     ///
-    /// Where depth is not 0 at infinity, units of the last place of the depth there are added to those
-    /// of the depth itself: by the near plane of standard depth the latter are far too small.
+    /// If depth is not 0 at infinity, ulps of the depth at infinity are added to those of the depth itself,
+    /// which are far too small near the near plane of standard depth.
     pub cap_bias_ulps: u32,
     /// Which faces count, those before the visible point or those behind it. Default [`Method::Auto`];
     /// [`Method::ZFail`] for casters that the host does not draw.
@@ -84,26 +83,25 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// for more work, for measuring what that is worth.
     #[doc(hidden)]
     pub caps: Caps,
-    /// How far volumes reach. Default [`Extrusion::ToRange`]. Volumes of a light without a range, where the
+    /// How far volumes extend. Default [`Extrusion::ToRange`]. Volumes of a light without a range, where the
     /// receivers are not known, are infinite: that is what a host says who wants them so. `Infinite` is for
     /// measuring what ending them is worth.
     #[doc(hidden)]
     pub extrusion: Extrusion,
     /// Which side of closed casters volumes start from. Default [`StartFrom::LightFacing`].
     pub start_from: StartFrom,
-    /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out,
-    /// and the draws clipped to what the range covers on screen. Default `true`; `false` for measuring
-    /// what that is worth.
+    /// Whether casters beyond the light's range, or whose shadow cannot be in view, are left out, and draws
+    /// are clipped to the area that the range covers on screen. Default `true`; `false` to measure the
+    /// benefit.
     #[doc(hidden)]
     pub culling: bool,
-    /// Whether a caster's volume is kept for the next frame if neither the light nor the caster
-    /// moves: its silhouette is then not searched again. Default `true`; `false` is of use only to
-    /// measure what it saves.
+    /// Whether a caster's volume is kept for the next frame if neither the light nor the caster moves, so
+    /// that its silhouette is not extracted again. Default `true`; `false` to measure the benefit.
     #[doc(hidden)]
     pub keep_between_frames: bool,
     /// How silhouettes are found. Default [`Silhouettes::Auto`].
     pub silhouettes: Silhouettes,
-    /// What holds the count. Default [`Counter::Stencil`].
+    /// Where volumes are counted. Default [`Counter::Stencil`].
     pub counter: Counter,
 }
 
@@ -130,9 +128,9 @@ impl Default for ShadowVolumeDescriptor<'_> {
 }
 
 impl ShadowVolumeDescriptor<'_> {
-    /// The method as it is usually written down (Everitt and Kilgard, 2002): every caster in
-    /// z-fail, with both caps, to infinity, whether or not its shadow can be seen, the silhouettes
-    /// searched every frame. For comparison: it gives the same picture for more work.
+    /// The textbook method (Everitt and Kilgard, 2002): every caster in z-fail, with both caps, extended to
+    /// infinity, whether or not its shadow can be visible, with silhouettes extracted every frame. For
+    /// comparison: it gives the same picture with more work.
     pub fn textbook() -> Self {
         Self {
             method: Method::ZFail,

@@ -1,4 +1,4 @@
-//! What one frame consists of: lights, views, casters.
+//! The input of one frame: lights, views and casters.
 
 use std::num::NonZeroU32;
 
@@ -33,7 +33,7 @@ impl VolumeCone {
     }
 }
 
-/// A light, as far as shadow volumes need it.
+/// A light, reduced to what shadow volumes need.
 ///
 /// ```
 /// use shadows::{PointLight, VolumeLight, glam::Vec3};
@@ -42,25 +42,25 @@ impl VolumeCone {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeLight {
-    /// In world space: `w = 1` a point, `w = 0` a direction.
+    /// In world space: `w = 1` for a point, `w = 0` for a direction.
     pub light: HomogeneousLight,
-    /// Distance in world units beyond which a point light has no effect: casters wholly beyond it
-    /// are skipped. Finite and above 0. `None` for no end; directional lights ignore it.
+    /// Distance in world units beyond which a point light has no effect: casters that lie entirely beyond it
+    /// are skipped. Finite and above 0. `None` for an unlimited range; directional lights ignore it.
     pub range: Option<f32>,
     /// The cone into which a point light shines, if it is a spot: casters wholly beside it are skipped,
     /// volumes end and draws are clipped where the cone does. Outside of it may be shadow or none: the
     /// host's light pass leaves it dark. `None`, the default: all around. Directional lights ignore it.
     pub cone: Option<VolumeCone>,
-    /// The casters whose shadows it casts are on any of these layers, a bit each ([`Caster::layers`]).
-    /// Default all.
+    /// It casts the shadows of casters on any of these layers, one bit each ([`Caster::layers`]). Default
+    /// all.
     pub layers: u32,
-    /// Whose it is: it casts no shadow of what is its owner's ([`Caster::owner`]), such as a lamp's own
-    /// shade. Default `None`: nobody's.
+    /// Its owner: it casts no shadow of casters with the same owner ([`Caster::owner`]), such as a lamp's own
+    /// shade. Default `None`.
     pub owner: Option<NonZeroU32>,
 }
 
 impl VolumeLight {
-    /// A light with this range that casts the shadows of all casters.
+    /// A light with this range, for all casters.
     pub fn new(light: HomogeneousLight, range: Option<f32>) -> Self {
         let CasterFilter { layers, owner } = CasterFilter::ALL;
         Self {
@@ -72,13 +72,13 @@ impl VolumeLight {
         }
     }
 
-    /// The same, casting the shadows of casters alone that are on any of these layers, a bit each
-    /// ([`Caster::layers`]).
+    /// The same light, restricted to casters on any of these layers, one bit each ([`Caster::layers`]).
     pub fn with_layers(self, layers: u32) -> Self {
         Self { layers, ..self }
     }
 
-    /// The same, casting no shadow of what is its owner's ([`Caster::owner`]): a lamp's own shade.
+    /// The same light, without the shadows of casters of this owner ([`Caster::owner`]), such as a lamp's own
+    /// shade.
     pub fn owned_by(self, owner: NonZeroU32) -> Self {
         Self {
             owner: Some(owner),
@@ -129,14 +129,13 @@ impl From<DirectionalLight> for VolumeLight {
     }
 }
 
-/// A camera, and what it draws into.
+/// A camera, and the size of its target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeView {
-    /// The camera whose depth the pass holds.
+    /// The camera with which the pass's depth buffer was drawn.
     pub view: View,
-    /// Width and height of the pass's target in pixels, both above 0, where its viewport covers all
-    /// of it: the draws are then clipped to what a light's range covers on screen. `None`: they are
-    /// not.
+    /// Width and height of the pass's target in pixels, both above 0, if the viewport covers all of it: draws
+    /// are then clipped to the area that a light's range covers on screen. `None`: no clipping.
     pub target_size: Option<[u32; 2]>,
 }
 
@@ -150,7 +149,7 @@ impl From<View> for VolumeView {
     }
 }
 
-/// One frame, as [`prepare`](crate::ShadowVolumeRenderer::prepare) needs it. Default: nothing.
+/// The input of [`prepare`](crate::ShadowVolumeRenderer::prepare) for one frame. Default: empty.
 ///
 /// ```
 /// # use shadows::{Caster, PointLight, ShadowVolumeFrame, View};
@@ -166,23 +165,23 @@ impl From<View> for VolumeView {
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ShadowVolumeFrame<'a> {
-    /// The lights that shine in this frame. A light is known by its place in this list: one that
-    /// keeps its place and does not move keeps all of its volumes.
+    /// The lights of this frame. A light is identified by its index in this list: one that keeps its index
+    /// and does not move keeps all of its volumes.
     pub lights: &'a [VolumeLight],
-    /// The cameras that see it, known by their places, too: one, or two eyes, or a split screen. With a
+    /// The cameras, also identified by their index: one, two eyes, or a split screen. With a
     /// [`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask) sets of views, one after another.
     pub views: &'a [VolumeView],
-    /// Bounds in world space of everything that is to be shadowed: all surfaces in the passes' depth
-    /// buffers, those of casters included. Volumes then end just behind these bounds, and casters that
-    /// shadow nothing within them are skipped; what lies outside may be shadowed or not. `None`, the
-    /// default: anywhere.
+    /// Bounds in world space of everything that receives shadows: all surfaces in the passes' depth buffers,
+    /// including those of casters. Volumes then end just behind these bounds, and casters that shadow nothing
+    /// within them are skipped; shadows outside are undefined. `None`, the default: receivers may be
+    /// anywhere.
     ///
-    /// Worth giving, as it saves much of the fill (`unbounded_vs_textbook` against `auto_vs_textbook` in
-    /// `docs/benches.md`). The closer the bounds, the better.
+    /// Worth specifying, as it saves much of the fill (compare `unbounded_vs_textbook` with
+    /// `auto_vs_textbook` in `docs/benches.md`). The tighter the bounds, the better.
     pub receivers: Option<Bounds>,
-    /// What casts shadows. The host must draw these surfaces into its depth buffer, too. (With
-    /// [`Method::ZFail`](crate::Method::ZFail) a caster that it does not draw still casts, if its
-    /// triangles are wound outward; z-pass relies on their being drawn.)
+    /// The casters. The host must also draw their surfaces into its depth buffer. (With
+    /// [`Method::ZFail`](crate::Method::ZFail), a caster that it does not draw still casts, if its triangles
+    /// are wound outward; z-pass relies on their being drawn.)
     pub casters: &'a [Caster],
 }
 

@@ -1,15 +1,15 @@
 //! Stencil shadow volumes: exact hard shadows, counted in the stencil buffer.
 //!
-//! The method that is always right is z-fail ("Carmack's reverse"): a volume's faces count where
-//! they lie *behind* the visible point, so that the eye may be inside a volume and the near plane may
-//! cut it, as long as the volume is closed and reaches to infinity (Everitt and Kilgard, "Practical
-//! and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering", 2002). Where a caster
-//! provably needs less, less is drawn of its volume: see [`Method`] and `docs/numerics.md`.
+//! The method that is always correct is z-fail ("Carmack's reverse"): a volume's faces are counted where they
+//! lie *behind* the visible point. The eye may be inside a volume and the near plane may intersect it, as
+//! long as the volume is closed and extends to infinity (Everitt and Kilgard, "Practical and Robust Stenciled
+//! Shadow Volumes for Hardware-Accelerated Rendering", 2002). Where a caster provably needs less, less is
+//! drawn of its volume: see [`Method`] and `docs/numerics.md`.
 //!
-//! The volume is the boundary of a chain of light caps, whose coefficients are decided once for
-//! each triangle and stored; an edge is extruded as often as that chain's boundary runs through it
-//! (Kim, Kim and Lee, "Robust silhouette extraction for shadow volumes of non-manifold models",
-//! 2008, called it multiplicity). Closedness therefore does not depend on rounding.
+//! The volume is the boundary of a chain of light caps, whose coefficients are computed once per triangle and
+//! stored; an edge is extruded as many times as that chain's boundary contains it (its multiplicity, in the
+//! terms of Kim, Kim and Lee, "Robust silhouette extraction for shadow volumes of non-manifold models",
+//! 2008). Rounding therefore cannot open a volume.
 
 mod debug;
 mod decide;

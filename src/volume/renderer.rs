@@ -25,43 +25,41 @@ use crate::volume::plan::work::{Dispatch, Work};
 use crate::volume::silhouette::{CpuVolume, Ways};
 use crate::volume::{Counter, ShadowVolumeDescriptor, ShadowVolumeFrame, VolumeStatistics};
 
-/// Stencil shadow volumes of all lights of a frame, in all its views, for any number of casters.
+/// Stencil shadow volumes for all lights of a frame in all its views, with any number of casters.
 ///
-/// The host's frame:
-/// 1. for each view, a depth prepass: all surfaces into the depth-stencil buffer;
-/// 2. [`prepare`](Self::prepare) with lights, views and casters, then [`encode`](Self::encode)
-///    outside of any pass, once each;
+/// A frame of the host consists of:
+/// 1. for each view, a depth prepass, which draws all surfaces into the depth-stencil buffer;
+/// 2. [`prepare`](Self::prepare) with lights, views and casters, then [`encode`](Self::encode) outside any
+///    pass, once each;
 /// 3. for each view, a pass with the view's depth-stencil buffer, its stencil cleared to 0 and its depth
-///    loaded, and in it for each light: [`reset`](Self::reset) unless it is the first,
-///    [`render`](Self::render) with the places of light and view, then the host's own light pass with
-///    [`light_pass_stencil`](Self::light_pass_stencil). Or a pass for each light, with its stencil
-///    cleared.
+///    loaded. In it, for each light: [`reset`](Self::reset) unless it is the first, [`render`](Self::render)
+///    with the indices of light and view, then the host's own light pass with
+///    [`light_pass_stencil`](Self::light_pass_stencil). Alternatively, one pass for each light, with its
+///    stencil cleared.
 ///
-/// What is found of a volume depends on the light, and is found once for all views. What did not
-/// change costs nothing: a frame in which lights, views and casters are as they were takes one
-/// comparison of the casters; one in which a caster moved, besides, what that caster takes; one in
-/// which a view moved, a new choice for each caster and light in that view.
+/// Volumes depend on the light only, and are extracted once for all views. What has not changed costs
+/// nothing: a frame with the same lights, views and casters takes one comparison of the casters. If a caster
+/// has moved, its own cost is added; if a view has moved, a new choice of method for each caster and light in
+/// that view.
 ///
-/// One renderer may also serve several frames of one submission, one after another: `prepare`,
-/// `encode` and `render` for the first, then all three for the second. Everything is recorded in that
-/// order and read in that order, so what goes into several encoders must be submitted in the order in
-/// which it was recorded.
+/// One renderer may also serve several frames of one submission, one after another: `prepare`, `encode` and
+/// `render` for the first, then all three for the second. Everything is recorded and read in that order, so
+/// if several encoders are used, they must be submitted in the order in which they were recorded.
 ///
-/// A call that was forgotten is told: `render` returns an error where `encode` was left out, or where
-/// the encoder was dropped. What was recorded in vain is recorded again at the next frame. What the
-/// renderer cannot see, [`invalidate`](Self::invalidate) tells it.
+/// Forgotten calls are reported: `render` returns an error if `encode` was left out or the encoder was
+/// dropped. Work that was lost in this way is recorded again in the next frame. For losses that the renderer
+/// cannot detect, call [`invalidate`](Self::invalidate).
 ///
-/// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0
-/// and is lit: casters that stack that deep along a light ray want
-/// [`Counter::Exact`](crate::Counter::Exact) or fewer, closed meshes.
-/// [`may_wrap`](Self::may_wrap) says whether that can happen.
+/// The stencil counts modulo 256. A point that lies in a multiple of 256 volumes at once reads 0 and is lit:
+/// if casters stack that deep along a light ray, use [`Counter::Exact`](crate::Counter::Exact), or fewer and
+/// closed meshes. [`may_wrap`](Self::may_wrap) tells whether that can happen.
 ///
-/// A light may be as near to a caster as a millionth of its size, if it is outside of the box around
-/// the mesh. Within the box, nearer to a large triangle than about 1e-5 of its size, or to an edge
-/// than 3e-6 of its length, up to 1 % of the pixels come out wrong along the light's horizon: the
-/// corners' points at infinity then lie almost in one line of clip space. And where shaders find the
-/// silhouettes, a triangle that the light is nearer to than about 1e-6 of its size may count as seen
-/// edge-on and cast nothing; the CPU decides in f64 there.
+/// A light may be as near to a caster as a millionth of its size, if it is outside the box around the mesh.
+/// If it is inside the box and nearer to a large triangle than about 1e-5 of its size, or to an edge than
+/// 3e-6 of its length, up to 1 % of the pixels are wrong along the light's horizon: the corners' points at
+/// infinity then lie almost on one line of clip space. If shaders find the silhouettes, a triangle nearer to
+/// the light than about 1e-6 of its size may be treated as edge-on and cast nothing; the CPU decides this in
+/// f64.
 #[derive(Debug)]
 pub struct ShadowVolumeRenderer {
     device: wgpu::Device,
@@ -97,12 +95,12 @@ pub struct ShadowVolumeRenderer {
 }
 
 impl ShadowVolumeRenderer {
-    /// Compiles the pipelines: for one renderer. Several share theirs:
+    /// Compiles the pipelines for one renderer. To share them among several, use
     /// [`with_pipelines`](Self::with_pipelines).
     ///
     /// # Errors
-    /// [`ShadowVolumeError`] if a format or sample count does not fit, or the device lacks a
-    /// feature or a limit; the message names it.
+    /// [`ShadowVolumeError`] if a format or the sample count is unsuitable, or if the device lacks a feature
+    /// or a limit; the message names it.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &ShadowVolumeDescriptor<'_>,
@@ -110,11 +108,11 @@ impl ShadowVolumeRenderer {
         Self::with_pipelines(&VolumePipelines::new(device, None), descriptor)
     }
 
-    /// A renderer for the device of these pipelines, which compiles those of them that no other
-    /// renderer has needed so far.
+    /// A renderer for the device of these pipelines. Compiles only those that no other renderer has needed so
+    /// far.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// Those of [`new`](Self::new).
     pub fn with_pipelines(
         pipelines: &VolumePipelines,
         descriptor: &ShadowVolumeDescriptor<'_>,
@@ -157,36 +155,32 @@ impl ShadowVolumeRenderer {
         })
     }
 
-    /// Decides what a frame draws, under each light in each view, and finds the silhouettes that the
-    /// CPU finds. What of it goes to the GPU waits for [`encode`](Self::encode): what changed, and
-    /// nothing else.
+    /// Decides what to draw for each light in each view, and finds silhouettes where that is the CPU's job.
+    /// Uploads, of only what has changed, wait for [`encode`](Self::encode).
     ///
-    /// A volume is kept as long as a caster has it: its mesh and that mesh's revision, the light as
-    /// seen from the mesh, and what of it counts. It does not matter where in the list the caster
-    /// stands, nor what comes and goes around it; nor which view it is drawn in, or whether in two.
-    /// Casters out of view keep their volumes, as long as all volumes together fit one storage buffer
-    /// for each list, so that what comes back into view need not be searched again; casters out of
-    /// the light's range do not.
+    /// A volume is identified by its mesh and that mesh's revision, the light as seen from the mesh, and the
+    /// faces that count, and is kept as long as a caster uses it. The caster's index, other casters being
+    /// added or removed, and the views in which it is drawn do not matter. Casters out of view keep their
+    /// volumes, as long as all volumes together fit one storage buffer for each list, so that they need not
+    /// be extracted again when they come back into view; casters out of the light's range do not.
     ///
-    /// GPU memory, kept between frames and grown as needed, what it held being copied: where compute
-    /// shaders find the silhouettes about 28 bytes a triangle and volume, where the CPU does what
-    /// they come to, about 6 bytes a triangle; 140 a volume; and about 230 a caster, light and view,
-    /// and for its share in draws another 12 for every eight sides and cap triangles that it may have (256
-    /// and none where vertex shaders find the silhouettes). What
-    /// shaders read of a mesh lies in buffers that all meshes share, from the time that a volume of it is
-    /// first looked for until no caster has it: 12 bytes a position (none where positions are the
-    /// host's) and 16 an edge, and for compute shaders 12 a triangle and 4 for each use of an edge of a
-    /// [`MeshKind::General`](crate::mesh::MeshKind::General) mesh. Up to twice all that, because buffers grow to
-    /// powers of two. Besides, what `encode` uploads waits in staging buffers. These are kept, of powers of two from 64 KB on: about twice the most that was
-    /// uploaded, for each frame that the GPU has not finished. Those of meshes are gone as soon as they
-    /// are copied.
+    /// GPU memory is kept between frames and grown as needed, with its content copied. If compute shaders find the
+    /// silhouettes, it takes about 28 bytes per triangle and volume; if the CPU does, the size of the result, about 6
+    /// bytes per triangle. In addition, it takes 140 bytes per volume, about 230 per caster, light and view, and for
+    /// merged draws another 12 for every eight sides and cap triangles that a caster may have (256 and none if vertex
+    /// shaders find the silhouettes). The data of meshes lies in buffers that all meshes share, from the time a volume
+    /// of the mesh is first extracted until no caster uses it: 12 bytes per position (none if the positions are the
+    /// host's) and 16 per edge, and for compute shaders 12 per triangle and 4 for each use of an edge of a
+    /// [`MeshKind::General`](crate::mesh::MeshKind::General) mesh. All of this may double, because buffers grow to
+    /// powers of two. Uploads wait in staging buffers, which are kept, in sizes of powers of two from 64 KB: about
+    /// twice the largest upload, for each frame in flight. Those of meshes are released once they are copied.
     ///
-    /// `queue` is not written to: what is uploaded is recorded.
+    /// Nothing is written through `queue`: uploads are recorded into the encoder.
     ///
     /// # Errors
-    /// [`ShadowVolumeError`], before any GPU work, if a view's depth convention is not the
-    /// renderer's, a light, range or caster is not sound, or a caster's volume is larger than the
-    /// device's limits allow. The renderer then still draws what the last call prepared.
+    /// [`ShadowVolumeError`], before any GPU work, if a view's depth convention is not the renderer's, if a
+    /// light, range or caster is invalid, or if a caster's volume is larger than the device's limits allow.
+    /// The renderer then still draws what the previous call prepared.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -228,15 +222,14 @@ impl ShadowVolumeRenderer {
         Ok(())
     }
 
-    /// Records the uploads of the last [`prepare`](Self::prepare), and the compute passes that find
-    /// the volumes which were not kept from the frame before: none where neither the lights nor a
-    /// caster has moved, else three dispatches for all lights and meshes (see
-    /// [`VolumeStatistics::dispatches`]). Once: a second call before the next `prepare` records nothing.
+    /// Records the uploads of the last [`prepare`](Self::prepare), and the compute passes for volumes that
+    /// were not kept from the previous frame: none if no light and no caster has moved, otherwise three
+    /// dispatches for all lights and meshes (see [`VolumeStatistics::dispatches`]). Does so once: a second
+    /// call before the next `prepare` records nothing.
     ///
-    /// What is recorded must be submitted, for the next frame counts on it; if the encoder is dropped
-    /// instead, the next `prepare` finds everything anew. A host that deforms a mesh in its own
-    /// position buffer says so with [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision)
-    /// before `prepare`.
+    /// The recorded work must be submitted, because the next frame relies on it; if the encoder is dropped
+    /// instead, the next `prepare` starts from scratch. A host that deforms a mesh in its own position buffer
+    /// calls [`CasterMesh::bump_revision`](crate::CasterMesh::bump_revision) before `prepare`.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let first = self.prepared && !self.encoded;
         self.encoded = self.prepared;
@@ -269,9 +262,9 @@ impl ShadowVolumeRenderer {
         self.dispatch(&mut pass, (first, merging), |one| self.groups.of_merge(one));
     }
 
-    /// Has the next [`prepare`](Self::prepare) find every volume anew: for a host that has lost what
-    /// was recorded in a way that the renderer cannot see, or has written into a mesh's buffer
-    /// without a new revision. Until that is encoded [`render`](Self::render) is
+    /// Makes the next [`prepare`](Self::prepare) extract every volume again, for a host that has lost
+    /// recorded work in a way that the renderer cannot detect, or has written to a mesh's buffer without a
+    /// new revision. Until that is encoded, [`render`](Self::render) returns
     /// [`VolumeRenderError::NotEncoded`].
     pub fn invalidate(&mut self) {
         (self.prepared, self.encoded) = (false, false);
@@ -285,14 +278,14 @@ impl ShadowVolumeRenderer {
     /// a stencil of 0 and the scene's depth in that view (which may be read-only). With
     /// [`Counter::Exact`](crate::Counter::Exact): a count of 0, and no need of the stencil.
     ///
-    /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0; where the frame
-    /// gave a target size and a range, also the scissor rectangle, which is then the whole target.
-    /// Nothing else.
+    /// Changes the pass's pipeline, bind group 0, index buffer and vertex buffer 0, and nothing else, except
+    /// that if the frame specified a target size and a range, the scissor rectangle is afterwards the whole
+    /// target.
     ///
     /// # Errors
-    /// [`VolumeRenderError`] if [`encode`](Self::encode) was not called since the last
-    /// [`prepare`](Self::prepare), its encoder was dropped, or the frame had no such light or view.
-    /// Nothing is then drawn, and no shadow is in the picture.
+    /// [`VolumeRenderError`] if [`encode`](Self::encode) has not been called since the last
+    /// [`prepare`](Self::prepare), if its encoder was dropped, or if the frame had no such light or view.
+    /// Nothing is then drawn, so the picture has no shadow.
     pub fn render(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -320,15 +313,15 @@ impl ShadowVolumeRenderer {
         Ok(())
     }
 
-    /// Sets the counts of the whole viewport back to 0 within the host's pass, so that the next light's
-    /// volumes can be counted in the same pass: the stencil, or with
-    /// [`Counter::Exact`](crate::Counter::Exact) the count's target. On GPUs that work in tiles this
-    /// saves the depth and the colour their way to memory and back, which a pass a light takes.
+    /// Resets the counts of the whole viewport to 0 within the host's pass, so that the next light's volumes
+    /// can be counted in the same pass: the stencil, or with [`Counter::Exact`](crate::Counter::Exact) the
+    /// count's target. On tile-based GPUs, this saves the round trip of depth and colour to memory that one
+    /// pass per light would take.
     ///
-    /// Whatever a light pass has left in the stencil is gone, the guard of
-    /// [`light_pass_stencil`](Self::light_pass_stencil) included. Depth and the host's colours stay.
-    /// Changes the pass's pipeline, nothing else; the scissor rectangle is the host's and has to hold
-    /// all that was drawn to.
+    /// This also erases whatever a light pass has left in the stencil, including the guard of
+    /// [`light_pass_stencil`](Self::light_pass_stencil). Depth and the host's colours are unchanged. Changes
+    /// the pass's pipeline and nothing else. The scissor rectangle is the host's, and must contain everything
+    /// that was drawn to.
     pub fn reset(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_pipeline(&self.pipelines.reset);
         pass.draw(0..3, 0..1);
@@ -361,11 +354,11 @@ impl ShadowVolumeRenderer {
     /// The stencil state for the host's light pass, drawn with
     /// [`set_stencil_reference(0)`](wgpu::RenderPass::set_stencil_reference).
     ///
-    /// A fragment is shaded only where the count is 0, so where the point is in no volume, and
-    /// then raises the count to 1: a second fragment at the same sample (two surfaces at the same
-    /// depth, the two triangles of a shared edge in a scene drawn again) is not shaded, so that
-    /// light is never added twice. The depth comparison is the host's: `Equal` if it draws the
-    /// scene again, `Always` for a triangle that covers the screen.
+    /// A fragment is shaded only where the count is 0, that is, where the point is in no volume. It then
+    /// raises the count to 1, so that a second fragment at the same sample (from two surfaces at the same
+    /// depth, or two triangles that share an edge) is not shaded, and light is never added twice. The depth
+    /// comparison is up to the host: `Equal` if it draws the scene again, `Always` for a triangle that covers
+    /// the screen.
     ///
     /// The pass needs write access to the stencil. Between lights, [`reset`](Self::reset) it in the same
     /// pass, or clear it to 0 in another and keep the depth.

@@ -1,21 +1,21 @@
-//! What became of each caster, and of all of them.
+//! Statistics of shadow volumes, for each caster and in total.
 
 use crate::volume::decide::method::{Count, Skip};
 
-/// What a renderer decided for one caster, under one light in one view.
+/// The decision of a renderer for one caster under one light in one view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CasterState {
-    /// Drawn, its volume counted in front of the visible surfaces.
+    /// Drawn, with its volume counted in front of the visible surfaces.
     ZPass,
-    /// Drawn, its volume counted behind the visible surfaces.
+    /// Drawn, with its volume counted behind the visible surfaces.
     ZFail,
     /// Left out: its mesh has no triangles.
     Empty,
-    /// Left out: it is on none of the light's layers, or of the light's own owner.
+    /// Left out: it is on none of the light's layers, or has the same owner as the light.
     Masked,
-    /// Left out: its transform leaves no area of it that the light sees. It is flattened to a line or a
-    /// point, or to a plane that holds the light.
+    /// Left out: after its transform, the light sees no area of it. It is flattened to a line or a point, or
+    /// to a plane that contains the light.
     EdgeOn,
     /// Left out: it is beyond the light's range, or beside its cone.
     OutOfRange,
@@ -44,63 +44,60 @@ impl From<Skip> for CasterState {
     }
 }
 
-/// What the last [`prepare`](crate::ShadowVolumeRenderer::prepare) came to. What is said of casters is
-/// summed over all lights and views: one that two lights shine on is counted twice. Views that a pass draws
-/// together ([`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)) are one.
+/// The result of the last [`prepare`](crate::ShadowVolumeRenderer::prepare). Casters are summed over all
+/// lights and views: one that two lights shine on is counted twice. Views that a pass draws together
+/// ([`multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask)) are one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct VolumeStatistics {
     /// Casters whose volumes are drawn.
     pub casters_drawn: u32,
-    /// Those of them that are counted in front of the visible surfaces.
+    /// The subset counted in front of the visible surfaces.
     pub casters_z_pass: u32,
-    /// Those of them that are counted behind the visible surfaces.
+    /// The subset counted behind the visible surfaces.
     pub casters_z_fail: u32,
-    /// Those of the casters drawn whose volumes start from the triangles turned away from the light,
-    /// as [`StartFrom::AwayFacing`](crate::StartFrom::AwayFacing) asks; 0 where it is not asked for.
+    /// The subset whose volumes start from the triangles facing away from the light, as requested by
+    /// [`StartFrom::AwayFacing`](crate::StartFrom::AwayFacing); otherwise 0.
     pub casters_away_facing: u32,
     /// Casters left out, for any of the next five reasons.
     pub casters_skipped: u32,
     /// Casters left out because their meshes have no triangles.
     pub skipped_empty: u32,
-    /// Casters left out because the light is not to cast their shadows
+    /// Casters left out because the light does not cast their shadows
     /// ([`VolumeLight::layers`](crate::VolumeLight::layers), [`owner`](crate::VolumeLight::owner)).
     pub skipped_masked: u32,
-    /// Casters left out because their transforms leave no area of them that the light sees: those of
-    /// scale 0 on two axes or all, and those flattened to a plane that holds the light. (Flattened to
-    /// any other plane, a caster casts what is left of it.)
+    /// Casters left out because after their transforms, the light sees no area of them: those of scale 0 on
+    /// two or three axes, and those flattened to a plane that contains the light. (A caster flattened to any
+    /// other plane casts the shadow of its flat shape.)
     pub skipped_edge_on: u32,
     /// Casters left out because they are beyond the light's range, or beside its cone.
     pub skipped_out_of_range: u32,
     /// Casters left out because nothing they could shadow is in view, or among the receivers.
     pub skipped_out_of_view: u32,
     /// Draw calls that `render` records. Up to 256 casters under one light in one view share one for each
-    /// kind of faces that they have: sides and caps, counted before or behind what is visible. By
-    /// themselves are drawn caps of meshes of 1,024 triangles or more, casters over different buffers of
-    /// the host's ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and where
-    /// vertex shaders find the silhouettes ([`Silhouettes::Vertex`](crate::Silhouettes::Vertex)) all of
-    /// them.
+    /// kind of faces that they have: sides and caps, counted in front of or behind what is visible. Drawn
+    /// individually are caps of meshes with 1,024 triangles or more, casters over different host buffers
+    /// ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and all casters if
+    /// vertex shaders find the silhouettes ([`Silhouettes::Vertex`](crate::Silhouettes::Vertex)).
     pub draws: u32,
-    /// Silhouettes that were searched for this frame; those of the other casters drawn were kept from
-    /// the frame before, or found for another caster: casters of one mesh that the light meets alike
-    /// (the sun, all that are turned alike) share theirs.
+    /// Silhouettes that were extracted in this frame. Those of the other drawn casters were kept from the
+    /// previous frame, or are shared: casters of one mesh that the light meets in the same way (with a sun,
+    /// all of the same orientation) share theirs.
     pub casters_extracted: u32,
-    /// Dispatches that `encode` records: two where compute shaders look for silhouettes and one that makes
-    /// the draws which casters share, however many lights and meshes there are. One more for each buffer
-    /// that positions of the host lie in
-    /// ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and more where
-    /// volumes or meshes are too large for one buffer.
+    /// Dispatches that `encode` records: two in which compute shaders find silhouettes and one that builds
+    /// the draws which casters share, regardless of the number of lights and meshes. One more for each host
+    /// buffer of positions ([`CasterMesh::from_host_positions`](crate::CasterMesh::from_host_positions)), and
+    /// more if volumes or meshes are too large for one buffer.
     pub dispatches: u32,
-    /// Bytes that `encode` copies into the renderer's buffers: 0 where nothing changed.
+    /// Bytes that `encode` copies into the renderer's buffers; 0 if nothing has changed.
     pub uploaded: u64,
-    /// Bytes of GPU memory that the renderer holds (the meshes' own not counted).
+    /// Bytes of GPU memory that the renderer holds, without those of the meshes.
     pub gpu_bytes: u64,
     /// Triangles of all casters drawn.
     pub triangles: u64,
-    /// Whether the frame before was never encoded, so that it was prepared in vain.
+    /// Whether the previous frame was never encoded, so that its preparation was wasted.
     pub not_encoded: bool,
-    /// Whether an encoder was dropped that a frame before was encoded into, so that everything had to
-    /// be found anew.
+    /// Whether the encoder of an earlier frame was dropped, so that everything had to be extracted again.
     pub encoder_dropped: bool,
 }
 

@@ -120,7 +120,9 @@ fn locked(lock: &str, name: &str) -> Vec<String> {
 fn there_is_one_wgpu_and_one_glam_in_every_lock_file() {
     for file in [
         "Cargo.lock",
+        "examples/bevy/Cargo.lock",
         "examples/egui/Cargo.lock",
+        "examples/kiss3d/Cargo.lock",
         "examples/web/Cargo.lock",
         "fuzz/Cargo.lock",
     ] {

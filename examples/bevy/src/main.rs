@@ -1,5 +1,5 @@
 //! Bevy with the shadows of this crate instead of its own: three lights in one atlas, whose bindings share the
-//! material's bind group. Without a window; each light's visibility is compared with exact rays.
+//! material's bind group. Runs without a window, and compares each light's visibility with exact ray casting.
 //!
 //! ```text
 //! cargo run --release --manifest-path examples/bevy/Cargo.toml -- target/bevy.png

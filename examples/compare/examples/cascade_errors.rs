@@ -1,10 +1,10 @@
-//! Where the wrong pixels of a sun's cascades are, and why: by cascade, by what is seen, and how large
-//! texels are beside pixels.
+//! Where the wrong pixels of a sun's cascades are, and why: by cascade, by visible surface, and by the size
+//! of texels in pixels.
 //!
 //! ```text
 //! cargo run --all-features --example cascade_errors -- --scene valley --size 640x360 TRY..
 //! ```
-//! A try is its settings, see [`Try::parse`]; there is one at least.
+//! Each `TRY` is a list of settings, see [`Try::parse`]; at least one is needed.
 
 use std::collections::BTreeMap;
 

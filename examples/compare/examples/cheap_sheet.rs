@@ -1,4 +1,4 @@
-//! The cheap and the baked techniques side by side, on a scene on which each can be right and on one on which it cannot:
+//! The cheap and the baked techniques side by side, in a scene where each can be correct and in one where none can:
 //!
 //! ```text
 //! cargo run --release --all-features --example cheap_sheet -- docs/cheap.png

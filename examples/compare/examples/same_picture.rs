@@ -1,5 +1,5 @@
-//! Whether two pictures show the same: `same_picture A.png B.png` exits with 1 and says how far they
-//! differ if they do not. Drivers may round a few edges otherwise; a scene that has changed shows.
+//! Compares two pictures: `same_picture A.png B.png` exits with 1 and prints how far they differ if they do
+//! not show the same. Drivers may round a few edges differently; a scene that has changed is detected.
 
 use std::process::ExitCode;
 

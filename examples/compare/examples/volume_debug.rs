@@ -1,12 +1,12 @@
 //! Draws the debug views of shadow volumes as one picture:
 //! `cargo run --release --example volume_debug -- --out docs/volume-debug.png`
 //!
-//! And what `StartFrom` is for, beside how it is without:
+//! And the effect of `StartFrom`:
 //! `cargo run --release --example volume_debug -- --start docs/volume-start.png`
 //!
-//! From the top left: the shaded scene; the volumes' surfaces and silhouette edges; stencil counts;
-//! casters by what was decided for them. The eye is in the shadow of the sphere before it, which is why that
-//! one is counted by z-fail, and why the sides of its volume (orange) are all around.
+//! From the top left: the shaded scene; the volumes' surfaces and silhouette edges; stencil counts; casters
+//! by the decision made for them. The eye is in the shadow of the sphere in front of it, which is why that
+//! sphere is counted by z-fail, and why the sides of its volume (orange) are all around.
 
 use std::f32::consts::PI;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What `compare` is made of, for its tests and for the other pictures of the pages.
+//! The parts of `compare`, shared with its tests and with the examples that make pictures for the docs.
 
 pub mod animation;
 pub mod args;

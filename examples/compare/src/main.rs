@@ -1,5 +1,5 @@
-//! Renders scenes with every shadow technique, without a window, and measures each against exact
-//! ray casting: its error, its time, its memory.
+//! Renders scenes with every shadow technique, without a window, and measures error (against exact ray
+//! casting), time and memory of each.
 //!
 //! ```text
 //! cargo run --release --example compare -- --scene courtyard --out target/courtyard

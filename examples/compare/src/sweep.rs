@@ -276,7 +276,7 @@ pub fn markdown(
     let mut out = format!(
         "# Speed against error: {title}\n\n\
          Written by `compare --sweep` on {day}: {count} configurations at {width}x{height} pixels, in \
-         {rounds} rounds in which they take turns, {} frames a turn.{}\n\n",
+         {rounds} interleaved rounds, {} frames a turn.{}\n\n",
         measure::FRAMES_AT_ONCE,
         swept.spread.map_or(String::new(), noise),
     );
@@ -307,7 +307,10 @@ fn write_report(out: &mut String, survey: &Surveyed, wishes: &Wishes) -> std::fm
     }
     let front = survey.front();
     writeln!(out, "![Time and error](speed-vs-error.svg)\n\n## Front\n")?;
-    writeln!(out, "Nothing else is both faster and more exact.\n")?;
+    writeln!(
+        out,
+        "Configurations that no other beats in both time and error.\n"
+    )?;
     write_table(out, &front)?;
     let all = by_time(survey);
     writeln!(out, "\n## All, by time\n")?;
@@ -315,15 +318,15 @@ fn write_report(out: &mut String, survey: &Surveyed, wishes: &Wishes) -> std::fm
     writeln!(
         out,
         "\nMilliseconds a frame for shadows alone, medians; wrong pixels in per cent of those that \
-         face the light. Every frame is drawn as if everything moved, except where maps are cached or \
-         volumes kept: those are compared only if asked for by name (--technique), and so are the cheap and \
-         the baked ones, a bake being in no frame's time."
+         face the light. Every frame is drawn as if everything moved, except with cached maps or \
+         kept volumes: those are compared only if requested by name (--technique), and so are the cheap \
+         techniques and light maps, as the time of a bake is not part of any frame."
     )
 }
 
 /// What the advised Rust does that what was timed does not.
-const KEPT: &str = "The times are of frames in which everything moves. With the Rust above, as by default, what \
-                    stands still is kept from frame to frame, and costs less than that.";
+const KEPT: &str = "The times are of frames in which everything moves. With the code above, as by \
+    default, anything static is kept from frame to frame, and costs less than that.";
 
 /// Those that were measured, the fastest first.
 fn by_time(survey: &Surveyed) -> Vec<&Candidate<Technique>> {

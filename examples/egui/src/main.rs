@@ -1,7 +1,7 @@
-//! Shadows in an application that is not ours: an eframe window whose picture is drawn in a paint
-//! callback, with sliders for what can be chosen and the error of it beside.
+//! Shadows in an egui application: an eframe window whose picture is drawn in a paint callback, with controls
+//! for all settings and the resulting error beside them.
 //!
-//! `shadow.rs` is all that such a host adds; `viewport.rs` is where egui calls it.
+//! `shadow.rs` is everything that such a host adds; `viewport.rs` is where egui calls it.
 
 use std::path::PathBuf;
 use std::sync::Arc;

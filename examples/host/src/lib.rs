@@ -1,4 +1,4 @@
-//! A small host: what the examples, the tests and the benches share. Not part of the library.
+//! A small host, shared by the examples, tests and benches. Not part of the library.
 
 pub mod depth_bounds;
 pub mod exact;

@@ -1,5 +1,5 @@
 //! kiss3d with the shadows of this crate: its instances, MSAA and HDR, with three lights in one atlas whose bindings
-//! share the material's group 0. Without a window; each light's visibility is compared with exact rays.
+//! share the material's group 0. Runs without a window, and compares each light's visibility with exact ray casting.
 //!
 //! ```text
 //! cargo run --release --manifest-path examples/kiss3d/Cargo.toml -- target/kiss3d.png

@@ -1,5 +1,5 @@
-//! The page in the browser: one picture, its left half shadowed as others do it, its right half by this
-//! crate. Everything but [`web`] runs outside of a browser, too, where the page's pictures are checked.
+//! The page in the browser: one picture, with textbook shadows in its left half and this crate's in its right
+//! half. Everything but [`web`] also runs outside a browser, where the page's pictures are checked.
 
 pub mod app;
 mod atlas;

@@ -1,4 +1,4 @@
-//! The layers of an atlas, for a host to look at.
+//! A debug view of the layers of an atlas.
 
 use wgpu::util::DeviceExt as _;
 
@@ -11,10 +11,10 @@ use crate::map::statistics::TileState;
 
 const SHADER: &str = include_str!("../../../shaders/atlas_debug.wgsl");
 
-/// How to make an [`AtlasDebug`].
+/// Parameters of an [`AtlasDebug`].
 #[derive(Clone, Debug)]
 pub struct AtlasDebugDescriptor<'a> {
-    /// Name in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
     /// Format of the pass's only colour attachment. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
@@ -35,13 +35,13 @@ impl Default for AtlasDebugDescriptor<'_> {
     }
 }
 
-/// Draws all tiles of an atlas into a host's pass, to see what it holds.
+/// Draws all tiles of an atlas into a host's pass, to show their content.
 ///
-/// The viewport is divided into equal cells, row by row, as many in a row as in a column or one more: a
-/// layer each, with its tiles where they lie in it. White is at the light, black at its range or beyond
-/// (along the tile's axis), dark blue where no caster is; what no tile covers is left as it was. The outline
-/// says what became of the tile in the last `prepare`: orange rendered, green kept, grey empty, blue hidden,
-/// red postponed ([`TileState`](crate::TileState)).
+/// The viewport is divided into equal cells, one per layer, row by row, with as many columns as rows or one
+/// more. Each shows the layer's tiles in their places. White is at the light, black at its range or beyond
+/// (along the tile's axis), and dark blue where there is no caster; areas without a tile are left untouched.
+/// The outline shows the tile's state after the last `prepare`: orange rendered, green kept, grey empty, blue
+/// hidden, red postponed ([`TileState`](crate::TileState)).
 #[derive(Debug)]
 pub struct AtlasDebug {
     label: String,
@@ -68,7 +68,7 @@ struct Instance {
 }
 
 impl AtlasDebug {
-    /// Makes the pipeline.
+    /// Creates the pipeline.
     ///
     /// # Errors
     /// [`DebugPassError`] if a format or the sample count of the pass does not fit.
@@ -101,7 +101,7 @@ impl AtlasDebug {
         })
     }
 
-    /// Takes over where the tiles of an atlas lie, as its last `prepare` left them. Each frame, before
+    /// Reads the layout of the tiles from the last `prepare` of an atlas. To be called each frame, before
     /// [`render`](Self::render).
     pub fn prepare(&mut self, device: &wgpu::Device, atlas: &ShadowAtlas) {
         let instances = atlas.debug_instances();
@@ -127,8 +127,8 @@ impl AtlasDebug {
         });
     }
 
-    /// Draws into the pass's viewport, after the atlas was encoded. Group 0, vertex buffer 0 and the pipeline
-    /// are set to others after.
+    /// Draws into the pass's viewport, after the atlas was encoded. Replaces the pass's pipeline, bind group
+    /// 0 and vertex buffer 0.
     pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
         let Some(shown) = &self.shown else { return };
         pass.set_pipeline(&self.pipeline);

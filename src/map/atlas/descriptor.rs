@@ -1,4 +1,4 @@
-//! What an atlas is made from and told each frame.
+//! Parameters of an atlas, and its input for each frame.
 
 use std::num::NonZeroU32;
 
@@ -16,27 +16,26 @@ pub(crate) const LEAST_TILE: u32 = 16;
 /// Layers of which shaders can be told.
 const MOST_LAYERS: u32 = 1 << 12;
 
-/// How to make a [`ShadowAtlas`](crate::ShadowAtlas).
+/// Parameters of a [`ShadowAtlas`](crate::ShadowAtlas).
 #[derive(Clone, Debug)]
 pub struct ShadowAtlasDescriptor<'a> {
-    /// Name of the atlas in debuggers. Default none.
+    /// Name shown in debuggers. Default none.
     pub label: Option<&'a str>,
-    /// Texels along a side of a layer, the largest size of a tile: a power of two from 16 to 8192, up to the
-    /// device's `max_texture_dimension_2d`. Default 1024, the largest that lights ask for by
-    /// default. Layers are made when lights need them.
+    /// Texels along a side of a layer, which is also the largest size of a tile: a power of two from 16 to
+    /// 8192, up to the device's `max_texture_dimension_2d`. Default 1024, the largest size that lights
+    /// request by default. Layers are created when lights need them.
     pub layer_size: u32,
-    /// Bytes that layers may take; as many whole layers as that gives, at least one. Default 256 MiB: 64
-    /// layers of 1024 texels in 32 bits. Layers of static casters
-    /// ([`static_layers`](Self::static_layers)) come on top, at most as much again.
+    /// Bytes that layers may take, rounded down to whole layers, but at least one. Default 256 MiB: 64 layers
+    /// of 1024 texels in 32 bits. Layers of static casters ([`static_layers`](Self::static_layers)) come on
+    /// top, at most as much again.
     pub memory: u64,
     /// How depths are stored, drawn and compared.
     pub settings: MapSettings,
-    /// The most tiles drawn in one `prepare`; default none. At least 1. See
-    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait and what the
-    /// budget does not count.
+    /// The maximum number of tiles drawn per `prepare`, at least 1; default no limit. See
+    /// [`ShadowAtlas::max_age`](crate::ShadowAtlas::max_age) for the order, the longest wait, and what the
+    /// budget does not include.
     pub max_tiles_per_frame: Option<u32>,
-    /// Whether static casters are kept in layers under those that move. Default
-    /// [`StaticLayers::Auto`].
+    /// Whether static casters are cached in layers under those that move. Default [`StaticLayers::Auto`].
     pub static_layers: StaticLayers,
 }
 
@@ -88,7 +87,7 @@ impl ShadowAtlasDescriptor<'_> {
     }
 }
 
-/// A light of an atlas, and how many texels it is to have.
+/// A light of an atlas, and the size of its tiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtlasLight {
     light: Light,
@@ -99,7 +98,7 @@ pub struct AtlasLight {
 }
 
 impl AtlasLight {
-    /// A point light or a spot, with tiles of 64 to 1024 texels by what it is worth on screen.
+    /// A point light or a spot, with tiles of 64 to 1024 texels according to its importance on screen.
     pub fn new(light: impl Into<LocalLight>) -> Self {
         let light: LocalLight = light.into();
         Self {
@@ -114,9 +113,9 @@ impl AtlasLight {
         }
     }
 
-    /// A directional light with cascades for each view of the frame, of 1024 texels, or of 256 at least
-    /// where the space is short. In a frame without views it has one tile, fitted to all that casts (and
-    /// receives, where the frame says what does).
+    /// A directional light with cascades for each view of the frame, of 1024 texels, or at least 256 if space
+    /// runs short. In a frame without views it has one tile, fitted to all casters (and receivers, if the
+    /// frame specifies them).
     pub fn directional(light: DirectionalLight, cascades: Cascades) -> Self {
         Self {
             light: light.into(),
@@ -130,12 +129,12 @@ impl AtlasLight {
         }
     }
 
-    /// The same with tiles of another size.
+    /// The same light with tiles of another size.
     pub fn with_size(self, size: TileSize) -> Self {
         Self { size, ..self }
     }
 
-    /// The same, drawn whatever the budget
+    /// The same light, drawn regardless of the budget
     /// ([`max_tiles_per_frame`](ShadowAtlasDescriptor::max_tiles_per_frame)).
     pub fn pinned(self) -> Self {
         Self {
@@ -144,14 +143,14 @@ impl AtlasLight {
         }
     }
 
-    /// The same, casting the shadows of casters alone that are on any of these layers, a bit each
-    /// ([`Caster::layers`]).
+    /// The same light, restricted to casters on any of these layers, one bit each ([`Caster::layers`]).
     pub fn with_layers(mut self, layers: u32) -> Self {
         self.filter.layers = layers;
         self
     }
 
-    /// The same, casting no shadow of what is its owner's ([`Caster::owner`]): a lamp's own shade.
+    /// The same light, without the shadows of casters of this owner ([`Caster::owner`]), such as a lamp's own
+    /// shade.
     pub fn owned_by(mut self, owner: NonZeroU32) -> Self {
         self.filter.owner = Some(owner);
         self
@@ -195,22 +194,22 @@ impl From<SpotLight> for LocalLight {
     }
 }
 
-/// One of a frame's cameras, and the picture that it fills.
+/// One of a frame's cameras, and the size of its picture.
 #[derive(Clone, Copy, Debug)]
 pub struct AtlasView<'a> {
     /// The camera.
     pub view: &'a View,
-    /// Of its picture, in pixels: each greater than 0.
+    /// Width of its picture in pixels; greater than 0.
     pub width: u32,
     /// See `width`.
     pub height: u32,
-    /// The depths between which the picture shows anything, if the host knows them: cascades then divide
-    /// no more than that.
+    /// The range of depths visible in the picture, if the host knows it: cascades then divide only that
+    /// range.
     pub depth_bounds: Option<DepthBounds>,
 }
 
 impl<'a> AtlasView<'a> {
-    /// A camera and its picture's width and height in pixels.
+    /// A camera, and the width and height of its picture in pixels.
     pub fn new(view: &'a View, width: u32, height: u32) -> Self {
         Self {
             view,
@@ -221,22 +220,22 @@ impl<'a> AtlasView<'a> {
     }
 }
 
-/// What a [`ShadowAtlas`](crate::ShadowAtlas) is to show this frame.
+/// The input of a [`ShadowAtlas`](crate::ShadowAtlas) for one frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AtlasFrame<'a> {
-    /// The lights; shaders name them by their place here. Lights that were there last frame keep their
-    /// tiles wherever they now stand in the slice.
+    /// The lights; shaders identify them by their index here. Lights from the last frame keep their tiles
+    /// even if their index has changed.
     pub lights: &'a [AtlasLight],
-    /// Everything that may cast; what a light cannot reach is left out by the atlas itself. Their order
-    /// does not matter, but what is found at another place in the slice than last frame counts as moved:
-    /// take casters out by `swap_remove` rather than by `remove`.
+    /// Everything that may cast; the atlas itself leaves out what a light cannot reach. The order does not
+    /// matter, but a caster at another index than in the last frame counts as moved: remove casters with
+    /// `swap_remove` rather than `remove`.
     pub casters: &'a [Caster],
-    /// The cameras that see the frame. They decide how large tiles are that have no fixed size, which can
-    /// be put off because no kernel reads them for anything that is seen, and where cascades lie. None:
-    /// everything is seen from everywhere.
+    /// The cameras of the frame. They determine the size of tiles without a fixed size, which tiles can be
+    /// postponed because no kernel reads them for anything visible, and where cascades lie. If empty,
+    /// everything counts as visible.
     pub views: &'a [AtlasView<'a>],
-    /// Bounds of all receivers in world space: a directional light's tiles cover no more than those.
-    /// `None`: receivers may be anywhere.
+    /// Bounds of all receivers in world space: a directional light's tiles cover only those. `None`:
+    /// receivers may be anywhere.
     pub receivers: Option<Bounds>,
 }
 

@@ -28,32 +28,32 @@ use lights::{Entry, entries};
 pub use statistics::AtlasStatistics;
 use suns::Suns;
 
-/// The shadow maps of all lights of a scene, of any kinds and sizes, as tiles of one texture: one light
-/// buffer, and one bind group that is made again only when the texture or the buffer grows.
+/// The shadow maps of all lights of a scene, of any kinds and sizes, as tiles of one texture. There is one
+/// light buffer, and one bind group that needs to be recreated only when the texture or the buffer grows.
 ///
 /// A point light has six tiles, the faces of a cube; a spot has one; a directional light has one for each
-/// cascade and view. Each tile is what the same light's [`CubeShadowMap`](crate::CubeShadowMap) or
-/// [`ShadowMap`](crate::ShadowMap) of that size would hold, texel for texel; depths of steep triangles may
-/// differ by the rasteriser's rounding, which goes by where in the layer a tile lies (2^-14 of the depth
-/// is the most that was seen).
+/// cascade and view. Each tile holds the same as a [`CubeShadowMap`](crate::CubeShadowMap) or
+/// [`ShadowMap`](crate::ShadowMap) of that size would for the same light, texel for texel; depths of steep
+/// triangles may differ by the rasteriser's rounding, which depends on the tile's place in the layer (by at
+/// most 2^-14 of the depth in our measurements).
 ///
-/// Receivers see what they see on such a map. [`Kernel::HardwareBilinear`](crate::Kernel) alone takes what lies
-/// beside a tile for what is on its edge: half a texel along the seams of a point light's faces and the
-/// border of a spot.
+/// Receivers also see the same as with such a map. The one exception is
+/// [`Kernel::HardwareBilinear`](crate::Kernel), which clamps at a tile's edge: this affects half a texel along
+/// the seams of a point light's faces and along the border of a spot.
 ///
-/// # What is drawn again
+/// # What is redrawn
 ///
-/// A tile whose light, casters, transforms and mesh revisions are those it was drawn with is left alone,
-/// as in a [`CubeShadowMap`](crate::CubeShadowMap). A still scene costs one comparison of 80 bytes a
+/// A tile is left alone as long as its light, casters, transforms and mesh revisions are those it was drawn
+/// with, as in a [`CubeShadowMap`](crate::CubeShadowMap). A static scene costs one comparison of 80 bytes per
 /// caster and no GPU work.
 ///
 /// # Space
 ///
-/// Lights say how large their tiles are, or between which sizes what they are worth on screen decides
-/// ([`TileSize`](crate::TileSize)). Lights to which nothing casts have none. Where
-/// [`memory`](ShadowAtlasDescriptor::memory) is short, the least important are halved, and
-/// [`AtlasStatistics::lights_reduced`] says how many; no light is left out. A tile that changed its size or
-/// place is drawn at once, whatever the budget.
+/// Each light specifies the size of its tiles, or a range of sizes within which its importance on screen
+/// decides ([`TileSize`](crate::TileSize)). Lights without casters have no tiles. When
+/// [`memory`](ShadowAtlasDescriptor::memory) runs short, the tiles of the least important lights are halved,
+/// and [`AtlasStatistics::lights_reduced`] counts those lights; no light is left out. A tile whose size or
+/// place has changed is drawn at once, regardless of the budget.
 #[derive(Debug)]
 pub struct ShadowAtlas {
     layer_size: u32,
@@ -82,30 +82,30 @@ pub struct ShadowAtlas {
     statistics: AtlasStatistics,
 }
 
-/// Where one tile lies, and what it shows.
+/// One tile: its place in the texture and its projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct AtlasTile {
     /// The layer of the texture.
     pub layer: u32,
-    /// The corner nearest to texel (0, 0), in texels.
+    /// Of the corner nearest to texel (0, 0), in texels.
     pub x: u32,
     /// See `x`.
     pub y: u32,
     /// Texels along a side.
     pub size: u32,
-    /// World space to clip space. The frame is left-handed: triangles that are counter-clockwise seen from
-    /// the light are clockwise on the tile.
+    /// World space to clip space. It maps to a left-handed space: triangles that are counter-clockwise seen
+    /// from the light are clockwise on the tile.
     pub clip_from_world: Mat4,
-    /// What became of it in the last `prepare`.
+    /// Its state after the last `prepare`.
     pub statistics: TileStatistics,
 }
 
 impl ShadowAtlas {
-    /// Makes an atlas. It has no texture until a light casts.
+    /// Creates an atlas. It allocates no texture until a light has casters.
     ///
     /// # Errors
-    /// [`ShadowAtlasError`] if a number is out of range.
+    /// [`ShadowAtlasError`] if a parameter is out of range.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &ShadowAtlasDescriptor<'_>,
@@ -156,13 +156,13 @@ impl ShadowAtlas {
         })
     }
 
-    /// Decides which casters go on which tiles, how large those are and which are drawn, and stages what
-    /// that needs.
+    /// Decides which casters belong to which tiles, how large the tiles are and which of them to draw, and
+    /// stages the uploads.
     ///
     /// # Errors
-    /// [`ShadowAtlasError`] if a light, a view or a caster is out of range, or there are too many. Receivers
-    /// then see what was last encoded. What an earlier `prepare` found and nobody encoded is given up: the
-    /// next frame finds it again.
+    /// [`ShadowAtlasError`] if a light, a view or a caster is out of range, or if there are too many.
+    /// Receivers then see what was last encoded. Work that an earlier `prepare` found but that was not
+    /// encoded is dropped; the next frame finds it again.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -255,25 +255,24 @@ impl ShadowAtlas {
         }
     }
 
-    /// Records what the last [`prepare`](Self::prepare) found necessary: its passes, and what it tells
-    /// receivers of the lights. Once: a second call before the next `prepare` records nothing.
+    /// Records the work that the last [`prepare`](Self::prepare) found necessary: render passes, and the
+    /// lights' data for receivers. Does so once: a second call before the next `prepare` records nothing.
     ///
-    /// Call it after every `prepare`, whatever that found. Until it is called, receivers see texels and
-    /// lights as they were; of an atlas that was never drawn they see all lights dark. What is recorded
-    /// must be submitted: if its encoder is dropped, the `prepare` after that draws everything again
+    /// Call it after every `prepare`, whatever the result. Until then, receivers see the previous texels and
+    /// lights; an atlas that has never been drawn makes all lights appear dark. The recorded work must be
+    /// submitted: if the encoder is dropped, the next `prepare` redraws everything
     /// ([`AtlasStatistics::encoder_dropped`]).
     ///
     /// Casters that only the host can draw ([`CasterMesh::host_drawn`](crate::CasterMesh::host_drawn)) are
-    /// missing from what this draws. Their tiles are counted
-    /// ([`AtlasStatistics::tiles_incomplete`]) and count as not drawn, so that the next frame draws them
-    /// again. Hosts that have any call [`encode_with`](Self::encode_with).
+    /// not drawn by this call. Tiles that lack them are counted ([`AtlasStatistics::tiles_incomplete`]) and
+    /// redrawn in the next frame. Hosts with such casters call [`encode_with`](Self::encode_with) instead.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         self.encode_tiles(encoder, None);
     }
 
-    /// As [`encode`](Self::encode), and asks the host to draw what only it can: `draw` is called within the
-    /// pass of each tile that such casters touch, after all else on that tile, once for the tile, or
-    /// once for its static casters and once for the others ([`StaticLayers`](crate::StaticLayers)).
+    /// Like [`encode`](Self::encode), but also lets the host draw what only it can: `draw` is called within
+    /// the pass of each tile that such casters touch, after everything else on that tile, either once per
+    /// tile, or once for its static casters and once for the others ([`StaticLayers`](crate::StaticLayers)).
     ///
     /// Viewport and scissor are set, and must stay. The pass has no colour target, one sample and a depth
     /// target of the atlas's [`format`](MapSettings::format); compare with `Greater`, write
@@ -315,26 +314,26 @@ impl ShadowAtlas {
         }
     }
 
-    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has every tile drawn again that a view
-    /// shows, whatever the budget. What the last one found is forgotten.
+    /// Marks every tile as outdated: the next [`prepare`](Self::prepare) redraws all tiles that a view shows,
+    /// regardless of the budget. The result of the last one is discarded.
     ///
-    /// For a host that has written to the texture, or has lost what was recorded in a way that the atlas
-    /// cannot see: an encoder that is kept but never submitted, a submission that failed.
+    /// For a host that has written to the texture, or has lost recorded work in a way that the atlas cannot
+    /// detect: an encoder that is kept but never submitted, or a submission that failed.
     pub fn invalidate(&mut self) {
         self.slots.iter_mut().for_each(Slot::doubt_texels);
         self.gpu.doubt();
     }
 
-    /// The number by which shaders name a light of the last [`prepare`](Self::prepare) for one of its
-    /// views: `view * lights + light`. Only directional lights look different from another view. With one
-    /// view, or none, it is the light's place in the frame.
+    /// The index that shaders use for a light of the last [`prepare`](Self::prepare) in one of its views:
+    /// `view * lights + light`. Only directional lights differ between views. With one view, or none, it is
+    /// the light's index in the frame.
     pub fn light_index(&self, light: usize, view: usize) -> u32 {
         (view * self.lights + light) as u32
     }
 
     /// The tiles of a light: the faces of a point light in the order of
-    /// [`CubeFace::ALL`](crate::CubeFace::ALL), or the cascades of a directional light from the nearest
-    /// on, of which those are left out that nothing casts on; empty where nothing casts.
+    /// [`CubeFace::ALL`](crate::CubeFace::ALL), or the cascades of a directional light from the nearest on,
+    /// without those that have no casters. Empty if nothing casts.
     pub fn tiles(&self, light: usize, view: usize) -> Vec<AtlasTile> {
         let Some(index) = self.slot_of(light, view) else {
             return Vec::new();
@@ -372,30 +371,30 @@ impl ShadowAtlas {
         self.gpu.texture().view()
     }
 
-    /// Changes when a bind group of this atlas must be made again: when its texture or its buffer of lights
-    /// grew, or was given back. Compare it after each [`prepare`](Self::prepare), before bind groups are
-    /// used. To a bind group that was not made again all lights are dark, so that nobody takes it for
-    /// right.
+    /// Changes when bind groups of this atlas must be recreated: when its texture or its light buffer has
+    /// grown or been released. Compare it after each [`prepare`](Self::prepare), before using bind groups.
+    /// With an outdated bind group all lights appear dark, so that the mistake is noticed.
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.gpu.lights().revision()
     }
 
-    /// The most frames that a tile which changed waits to be drawn while a view shows it: as many tiles as
-    /// the last frame had over half of `max_tiles_per_frame`, both rounded up; `None` without a budget.
+    /// The maximum number of frames that a changed tile waits to be drawn while a view shows it: the number
+    /// of tiles in the last frame divided by half of `max_tiles_per_frame`, both rounded up; `None` without a
+    /// budget.
     ///
-    /// Half the budget goes to the tiles that have waited longest, the rest to the most important: those where
-    /// most has changed (the share of the tile that what did covers) for lights that are nearest to the eye
-    /// and whose range is largest on screen. A light that moved has its tiles drawn together, and is seen
-    /// where it was, with its shadows, until then; a new one is dark until then. Pinned lights, tiles that changed their size or place,
-    /// the first cascades of a directional light, and tiles that turned visible and show something else
-    /// are drawn at once, outside the budget.
+    /// Half the budget goes to the tiles that have waited longest, the rest to the most important ones: those with the
+    /// most change (the share of the tile covered by what changed), of lights that are nearest to the eye and whose
+    /// range is largest on screen. The tiles of a light that has moved are drawn together; until then it is seen at its
+    /// old place with its old shadows. A new light is dark until then. Pinned lights, tiles whose size or place
+    /// changed, the first cascades of a directional light, and outdated tiles that become visible are drawn at once,
+    /// outside the budget.
     pub fn max_age(&self) -> Option<u32> {
         let tiles = self.slots.iter().map(|slot| slot.tiles.len()).sum();
         Some(longest_wait(tiles, self.budget?))
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> AtlasStatistics {
         self.statistics
     }

@@ -1,13 +1,13 @@
-//! What a frame of an atlas took, for a host to show.
+//! Per-frame statistics of an atlas, for a host to display.
 
 use std::time::Duration;
 
 use crate::map::plan::Tally;
 
-/// What the last [`ShadowAtlas::prepare`](crate::ShadowAtlas::prepare) found and the next `encode` will
-/// do.
+/// The result of the last [`ShadowAtlas::prepare`](crate::ShadowAtlas::prepare), which the next `encode` will
+/// carry out.
 ///
-/// Each tile of each light in the frame is one of rendered, kept, empty, hidden and postponed.
+/// Each tile of each light in the frame is rendered, kept, empty, hidden or postponed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct AtlasStatistics {
@@ -15,28 +15,28 @@ pub struct AtlasStatistics {
     pub tiles_rendered: u32,
     /// Tiles with casters whose content has not changed since they were drawn.
     pub tiles_kept: u32,
-    /// Tiles without a caster, clear already or without texels.
+    /// Tiles without casters that are already clear or have no texels.
     pub tiles_empty: u32,
     /// Tiles that changed but can hold no receiver that a view shows.
     pub tiles_hidden: u32,
-    /// Tiles that changed and wait for a later frame's budget.
+    /// Tiles that changed but wait for the budget of a later frame.
     pub tiles_postponed: u32,
-    /// Those of `tiles_rendered` whose static casters are copied from a second layer
-    /// ([`StaticLayers`](crate::StaticLayers)), not drawn.
+    /// The subset of `tiles_rendered` whose static casters are copied from a second layer
+    /// ([`StaticLayers`](crate::StaticLayers)) rather than drawn.
     pub tiles_copied: u32,
-    /// Tiles of second layers that are drawn, to be copied in this frame and later ones.
+    /// Tiles of second layers that are drawn in this frame, to be copied in this one and later ones.
     pub static_tiles_drawn: u32,
-    /// Tiles that the last `encode` drew without casters that only the host can draw, as it was not asked
-    /// to ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with)): counted when it does so, and drawn
-    /// again in the next frame.
+    /// Tiles that the last `encode` drew without the casters that only the host can draw, because it was
+    /// called instead of [`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with). They are redrawn in
+    /// the next frame.
     pub tiles_incomplete: u32,
-    /// Lights that want larger tiles than there is room for.
+    /// Lights whose tiles are smaller than requested for lack of space.
     pub lights_reduced: u32,
-    /// Lights whose tiles changed size or place, and are drawn anew for that.
+    /// Lights whose tiles are redrawn because their size or place changed.
     pub lights_moved: u32,
     /// Casters that touch a tile, counted once for each light.
     pub casters_in_range: u32,
-    /// Casters that touch none, counted once for each light.
+    /// Casters that touch no tile, counted once for each light.
     pub casters_out_of_range: u32,
     /// Draw calls.
     pub draws: u32,
@@ -44,18 +44,18 @@ pub struct AtlasStatistics {
     pub triangles: u64,
     /// Layers of the texture.
     pub layers: u32,
-    /// Texels in tiles.
+    /// Texels in all tiles.
     pub texels: u64,
-    /// GPU memory held: textures and buffers, without the staging buffers in which `uploaded` waits:
-    /// these are kept, of powers of two from 64 KB on, as many as frames wait for the GPU.
+    /// GPU memory held by textures and buffers. Not included are staging buffers for uploads: they are kept,
+    /// in sizes of powers of two from 64 KB, as many as there are frames in flight.
     pub bytes: u64,
-    /// Bytes that `encode` copies to the GPU: none where nothing has changed.
+    /// Bytes that `encode` copies to the GPU; 0 if nothing has changed.
     pub uploaded: u64,
-    /// Whether what the `prepare` before this one found necessary was never encoded: this one found it
-    /// again. Of a host that prepares and encodes once a frame, always false.
+    /// Whether the result of the previous `prepare` was never encoded, so that this one found the same work
+    /// again. Always false for a host that prepares and encodes once per frame.
     pub not_encoded: bool,
-    /// Whether an encoder that an `encode` had recorded into was dropped instead of submitted, since
-    /// the last `prepare`: everything is drawn again.
+    /// Whether an encoder that `encode` had recorded into was dropped instead of submitted since the last
+    /// `prepare`, so that everything is redrawn.
     pub encoder_dropped: bool,
     /// CPU time of `prepare`. Zero on the web, where the standard library has no clock.
     pub prepare: Duration,

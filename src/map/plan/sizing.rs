@@ -1,4 +1,4 @@
-//! How large each light's tiles are: by what they are worth on screen, within a bound of memory.
+//! The size of each light's tiles: by their importance on screen, within a memory limit.
 
 use crate::error::TileSizeError;
 
@@ -9,20 +9,19 @@ use crate::error::TileSizeError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum TileSize {
-    /// This many, whatever is seen. It is never made smaller: lights of fixed sizes that do not fit the
-    /// atlas together are an error.
+    /// This many, whatever the view. They are never made smaller: if all lights of fixed sizes do not fit the
+    /// atlas together, that is an error.
     Fixed(u32),
-    /// As many as give a texel a pixel at the far end of what the light lights, where that is seen, but
-    /// no fewer than `least` and no more than `most`. A directional light has no such end and gets
-    /// `most`.
+    /// Enough for one texel per pixel at the far end of the light's range, if that is visible, within `least`
+    /// and `most`. A directional light has no range and gets `most`.
     ///
-    /// A size is kept while it gives 1 to 2.5 texels a pixel, so that none changes while a camera
-    /// moves to and fro a little, and while the light is not seen at all.
+    /// A size is kept as long as it gives 1 to 2.5 texels per pixel, so that small camera movements change
+    /// nothing, and as long as the light is not visible at all.
     ///
-    /// Where the atlas has not room for all, first the lights that are not seen get less, down to
-    /// `least`. Then those seen are halved in rounds, in each round from the least important (in
-    /// octaves of what they want; of equals the last in the frame's list first) and each at most once,
-    /// until all fit. Statistics say how many wanted more.
+    /// If the atlas has no room for all of them, lights that are not visible are reduced first, down to
+    /// `least`. Then visible ones are halved in rounds until all fit, each at most once per round, starting
+    /// with the least important (in octaves of the desired size; among equals, the last in the frame's list
+    /// first). Statistics count the lights that wanted more.
     Auto {
         /// The fewest texels along a side.
         least: u32,

@@ -1,4 +1,4 @@
-//! Meshes that are the host's: its own buffers, many places, or geometry that only it can draw.
+//! Meshes owned by the host: its own buffers, instances, or geometry that only it can draw.
 
 use std::sync::Arc;
 
@@ -8,16 +8,16 @@ use crate::mesh::host::{HostInstances, HostMesh, POSITION_SIZE, check_bounds};
 use crate::mesh::{Bounds, MeshKind};
 
 impl CasterMesh {
-    /// Shares the host's own vertices and indices, for shadow maps alone: nothing is uploaded, welded or
-    /// kept in main memory, and no adjacency is needed. A mesh that the host deforms there casts the
-    /// shadow of its present form ([`bump_revision`](Self::bump_revision)).
+    /// Shares the host's own vertices and indices, for shadow maps only: nothing is uploaded, welded or kept
+    /// in main memory, and no adjacency is needed. A mesh that the host deforms there casts the shadow of its
+    /// current shape ([`bump_revision`](Self::bump_revision)).
     ///
-    /// Shadow volumes need to know which triangles meet at an edge, and refuse such a mesh
-    /// ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)). Nor is it known whether it is
-    /// closed: [`kind`](Self::kind) says [`MeshKind::General`], and maps draw both sides of it.
+    /// Shadow volumes need to know which triangles meet at an edge, and reject such a mesh
+    /// ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)). Nor is it known whether the mesh is
+    /// closed: [`kind`](Self::kind) is [`MeshKind::General`], and maps draw both sides of it.
     ///
     /// # Errors
-    /// [`CasterMeshError`] if layouts, sizes, usages or bounds do not fit.
+    /// [`CasterMeshError`] if layouts, sizes, usages or bounds are unsuitable.
     pub fn from_host(device: &wgpu::Device, mesh: &HostMesh<'_>) -> Result<Self, CasterMeshError> {
         mesh.validate(device)?;
         let bounds = mesh.bounds;
@@ -41,16 +41,17 @@ impl CasterMesh {
         ))
     }
 
-    /// Stands for geometry that only the host can draw into a map: alpha-tested, skinned by its own
-    /// shader, tessellated, driven by the GPU. As a [`Caster`](crate::Caster) its bounds are culled, and
-    /// it is cached, like any other's; where a tile that they touch is drawn, the host is asked to draw it
-    /// ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with), and the same of other maps). When it has changed,
-    /// [`bump_revision`](Self::bump_revision) says so.
+    /// A placeholder for geometry that only the host can draw into a map: alpha-tested, skinned by its own shader,
+    /// tessellated, or GPU-driven. As a [`Caster`](crate::Caster) it is culled by its bounds and cached like any other.
+    /// When a tile that it touches is drawn, the host is asked to draw it
+    /// ([`ShadowAtlas::encode_with`](crate::ShadowAtlas::encode_with), and its counterparts of other maps). When the
+    /// geometry has changed, call [`bump_revision`](Self::bump_revision).
     ///
-    /// `bounds`, in the mesh's own space, enclose all that it will ever draw; `triangles`, at least 1, is
-    /// about how many that are, by which [`StaticLayers`](crate::StaticLayers) go.
+    /// `bounds`, in the mesh's own space, must enclose everything that will ever be drawn; `triangles`, at
+    /// least 1, is the approximate number of triangles, which [`StaticLayers`](crate::StaticLayers) use for
+    /// their decision.
     ///
-    /// Shadow volumes refuse such casters ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    /// Shadow volumes reject such casters ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
     ///
     /// # Errors
     /// [`CasterMeshError`] if the bounds are not finite, or there is no triangle.
@@ -91,18 +92,19 @@ impl CasterMesh {
         Ok(Self(Arc::new(inner)))
     }
 
-    /// A mesh at many places, which lie in a buffer of the host: one caster for a whole forest, in one draw
-    /// a tile. It shares the mesh's buffers, but has a revision of its own: transforms that the host changes,
-    /// and positions of the mesh, count from the frame that follows a
+    /// Instances of a mesh, with transforms in a buffer of the host: one caster for a whole forest, in one
+    /// draw per tile. It shares the mesh's buffers, but has its own revision: changes to the transforms, and
+    /// to the positions of the mesh, take effect in the frame that follows a
     /// [`bump_revision`](Self::bump_revision) of this one.
     ///
-    /// The caster's own transform comes after each of them. Positions in between are in `f32`, from the
-    /// caster's origin: place the caster near its instances, not all at the world's origin. Both sides are
-    /// drawn, as some places may mirror it. For shadow maps and the atlas; shadow volumes refuse it
-    /// ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
+    /// The caster's own transform is applied after that of each instance. Intermediate positions are in
+    /// `f32`, relative to the caster's origin, so place the caster near its instances rather than at the
+    /// world's origin. Both sides are drawn, as some instances may be mirrored. For shadow maps and the
+    /// atlas; shadow volumes reject it ([`NoAdjacency`](crate::error::ShadowVolumeError::NoAdjacency)).
     ///
     /// # Errors
-    /// [`CasterMeshError`] if layout, size, usages or bounds do not fit, or the mesh is such a one itself.
+    /// [`CasterMeshError`] if layout, size, usages or bounds are unsuitable, or if the mesh is itself
+    /// instanced.
     pub fn at_places(&self, instances: &HostInstances<'_>) -> Result<Self, CasterMeshError> {
         let mesh = &self.0;
         if mesh.places.is_some() || mesh.host_drawn {

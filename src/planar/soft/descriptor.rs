@@ -1,26 +1,26 @@
-//! How to make a planar soft shadow.
+//! Parameters of a planar soft shadow.
 
 use crate::error::PlanarSoftShadowError;
 
 /// The most places of a light that a count of 8 bits tells apart.
 pub(super) const MOST_SAMPLES: u32 = 255;
 
-/// How to make a [`PlanarSoftShadow`](crate::PlanarSoftShadow).
+/// Parameters of a [`PlanarSoftShadow`](crate::PlanarSoftShadow).
 #[derive(Clone, Copy, Debug)]
 pub struct PlanarSoftShadowDescriptor<'a> {
-    /// Names its GPU objects, after "shadows planar soft". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows planar soft". Default `None`.
     pub label: Option<&'a str>,
     /// Texels along the rectangle's width and height. Default 512 each. 1 to the device's
-    /// `max_texture_dimension_2d`. Memory: 2 bytes a texel.
+    /// `max_texture_dimension_2d`. Memory: 2 bytes per texel.
     pub size: [u32; 2],
-    /// Places of the light that shadows are cast from. Default 64. 1 to 255, exact whatever the number: each adds one
-    /// step of 8 bits. Cost and steps between light and shadow grow with it.
+    /// Sample points on the light. Default 64. 1 to 255, all counted exactly in 8 bits. Both the cost and the number
+    /// of shades in a penumbra grow with it.
     pub samples: u32,
-    /// Whether each place's projection is moved within a texel, so that edges that are sharper than a texel are
-    /// smoothed over it. Default `true`.
+    /// Whether the projection of each sample is shifted within a texel, so that edges sharper than a texel are
+    /// antialiased. Default `true`.
     pub jitter: bool,
-    /// Whether a texture whose content has not changed is left alone. Default `true`; `false` draws every frame, for
-    /// measuring what that is worth.
+    /// Whether a texture whose content has not changed is left alone. Default `true`; `false` redraws it every
+    /// frame, to measure the benefit.
     #[doc(hidden)]
     pub cache: bool,
 }

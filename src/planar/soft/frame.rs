@@ -1,29 +1,30 @@
-//! What one frame consists of: a light with a size, a rectangle, casters.
+//! The input of one frame: a light with a size, a rectangle, and casters.
 
 use glam::Vec3;
 
 use crate::error::PlanarSoftShadowError;
 use crate::{Caster, Light};
 
-/// The form of a light with a size, around the place of a light without one. In world units; of a directional light,
-/// whose place is its direction at length 1, in tangents of angles.
+/// The shape of an area light, centred on the position of the light. In world units, or for a directional light
+/// (whose position is its direction at length 1) in tangents of angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LightShape {
-    /// A ball: seen as a disk from everywhere. Of a directional light: a disk across its direction.
+    /// A sphere, seen as a disk from everywhere. For a directional light, a disk perpendicular to its
+    /// direction.
     Sphere {
         /// Above 0. A light is never larger than far away: below its height above the plane, or part of it is
         /// behind the plane and lights nothing.
         radius: f32,
     },
-    /// A disk that shines to both sides.
+    /// A disk that shines from both sides.
     Disk {
         /// Above 0.
         radius: f32,
         /// Across it, of any length but 0.
         normal: Vec3,
     },
-    /// A parallelogram that shines to both sides.
+    /// A parallelogram that shines from both sides.
     Rectangle {
         /// From its middle to the middle of one side.
         half_width: Vec3,
@@ -32,27 +33,28 @@ pub enum LightShape {
     },
 }
 
-/// The part of a plane that receives: a parallelogram, mostly a rectangle, in world space.
+/// The part of a plane that receives: a rectangle or any other parallelogram, in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarRectangle {
     /// One of its corners.
     pub corner: Vec3,
-    /// From there to the next.
+    /// From there to the next corner.
     pub width: Vec3,
-    /// From the first to the one on the other side. It receives on the side that `width x height` points to.
+    /// From `corner` to the other neighbouring corner. The rectangle receives on the side that
+    /// `width x height` points to.
     pub height: Vec3,
 }
 
 /// One frame of a [`PlanarSoftShadow`](crate::PlanarSoftShadow).
 #[derive(Clone, Copy, Debug)]
 pub struct PlanarSoftFrame<'a> {
-    /// The light's middle. A spot shines all around here: its cone is the host's to draw.
+    /// The centre of the light. A spot shines in all directions here: applying its cone is up to the host.
     pub light: Light,
-    /// Its form.
+    /// Its shape.
     pub shape: LightShape,
-    /// What receives.
+    /// The receiver.
     pub receiver: PlanarRectangle,
-    /// What casts.
+    /// The casters.
     pub casters: &'a [Caster],
 }
 

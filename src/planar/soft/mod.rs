@@ -1,4 +1,5 @@
-//! Soft shadows on planes: the light sampled at many places, each a hard shadow, counted in a texture.
+//! Soft shadows on planes: the light is sampled at many points, each of which casts a hard shadow, counted in
+//! a texture.
 
 mod descriptor;
 mod frame;

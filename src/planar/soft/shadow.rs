@@ -18,38 +18,40 @@ use crate::scene::Casters;
 use crate::submissions::Submissions;
 use crate::uploads::Uploads;
 
-/// What the last [`PlanarSoftShadow::prepare`] found.
+/// The result of the last [`PlanarSoftShadow::prepare`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PlanarSoftStatistics {
-    /// Whether the texture is drawn by the next encode: not where nothing moved.
+    /// Whether the next `encode` draws the texture; false if nothing has moved.
     pub rendered: bool,
-    /// Places of the light that are behind the plane or in it, and light nothing.
+    /// Sample points of the light that are behind the plane or in it, and so light nothing.
     pub samples_behind: u32,
-    /// Draw calls of the next encode.
+    /// Draw calls of the next `encode`.
     pub draws: u32,
-    /// Triangles in them.
+    /// Triangles in those draws.
     pub triangles: u64,
     /// Bytes of GPU memory held.
     pub bytes: u64,
-    /// Bytes that the next encode copies.
+    /// Bytes that the next `encode` copies.
     pub uploaded: u64,
-    /// Whether what the `prepare` before this one found was never encoded, and is found again.
+    /// Whether the result of the previous `prepare` was never encoded, so that this one found the same work
+    /// again.
     pub not_encoded: bool,
-    /// Whether the encoder that was recorded into before was dropped, and everything is drawn again.
+    /// Whether the encoder that was last recorded into was dropped, so that everything is redrawn.
     pub encoder_dropped: bool,
 }
 
-/// Soft shadows of one light with a size on one rectangle: as many hard shadows as the light has
-/// [`samples`](PlanarSoftShadowDescriptor::samples), counted in a texture of the rectangle's own.
+/// Soft shadows of one area light on one rectangle: as many hard shadows as the light has
+/// [`samples`](PlanarSoftShadowDescriptor::samples), counted in a texture that covers the rectangle.
 ///
 /// [`prepare`](Self::prepare) once a frame, then [`encode`](Self::encode), then the host's own lighting, whose shader
 /// calls [`wgsl_module`](Self::wgsl_module)'s `shadows_planar_visibility(world)` with
-/// [`bind_group`](Self::bind_group). The texture stays as it is while light, rectangle and casters do; the camera does
-/// not matter to it.
+/// [`bind_group`](Self::bind_group). The texture is redrawn only when the light, the rectangle or the casters change;
+/// the camera does not matter.
 ///
-/// The error against the light as it is falls with the number of samples (figures in `docs/survey.md`), down to
-/// what the size of a texel leaves. As with [`PlanarShadow`](crate::PlanarShadow), nothing but the rectangle receives.
+/// The error relative to the true area light falls with the number of samples (figures in `docs/survey.md`), down to a
+/// limit set by the size of a texel. As with [`PlanarShadow`](crate::PlanarShadow), nothing but the rectangle
+/// receives.
 #[derive(Debug)]
 pub struct PlanarSoftShadow {
     label: String,
@@ -84,7 +86,7 @@ struct Shown {
 }
 
 impl PlanarSoftShadow {
-    /// Allocates the texture.
+    /// Creates the texture and the pipelines.
     ///
     /// # Errors
     /// [`PlanarSoftShadowError`] if the size or the number of samples is out of range.
@@ -121,12 +123,12 @@ impl PlanarSoftShadow {
         })
     }
 
-    /// Decides whether the texture is drawn, and stages what that needs. (Nothing goes through the queue, which is
-    /// there as in every other `prepare`.)
+    /// Decides whether to draw the texture, and stages the uploads. (Nothing is written through the queue, which
+    /// is a parameter only because every `prepare` takes one.)
     ///
     /// # Errors
-    /// [`PlanarSoftShadowError`] if the light, its shape, the rectangle or a caster is not sound, or the device's
-    /// buffers cannot hold the frame. The texture is then as it was.
+    /// [`PlanarSoftShadowError`] if the light, its shape, the rectangle or a caster is invalid, or if the
+    /// device's buffers cannot hold the frame. The texture is then unchanged.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -165,11 +167,11 @@ impl PlanarSoftShadow {
         Ok(())
     }
 
-    /// Records what the last [`prepare`](Self::prepare) found necessary. Once: a second call before the next
-    /// records nothing.
+    /// Records the work that the last [`prepare`](Self::prepare) found necessary. Does so once: a second call
+    /// before the next `prepare` records nothing.
     ///
-    /// What is recorded must be submitted: if its encoder is dropped, the `prepare` after that has the texture drawn
-    /// again ([`PlanarSoftStatistics::encoder_dropped`]).
+    /// The recorded work must be submitted: if the encoder is dropped, the next `prepare` redraws the texture
+    /// ([`PlanarSoftStatistics::encoder_dropped`]).
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let copied = self.uploads.record(encoder);
         let draws = self.draws.take();
@@ -193,8 +195,8 @@ impl PlanarSoftShadow {
         }
     }
 
-    /// Takes nothing for drawn: the next [`prepare`](Self::prepare) has the texture drawn again. For a host that has
-    /// lost what was recorded in a way that cannot be seen here. What was prepared and not yet encoded is dropped.
+    /// Marks the texture as outdated: the next [`prepare`](Self::prepare) redraws it. For a host that has lost
+    /// recorded work in a way that cannot be detected here. Work that was prepared but not yet encoded is dropped.
     pub fn invalidate(&mut self) {
         self.draws = None;
         self.shown = None;
@@ -205,8 +207,8 @@ impl PlanarSoftShadow {
         }
     }
 
-    /// Places of the light that a texel does not see, of [`samples`](PlanarSoftShadowDescriptor::samples), in steps
-    /// of 8 bits (`R8Unorm`). Columns run along the rectangle's width, rows along its height.
+    /// The number of sample points hidden from each texel, out of [`samples`](PlanarSoftShadowDescriptor::samples),
+    /// as an 8-bit value (`R8Unorm`). Columns run along the rectangle's width, rows along its height.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.target.counts
     }
@@ -217,15 +219,15 @@ impl PlanarSoftShadow {
         &self.receiver.layout
     }
 
-    /// What receivers read. It stays right for good.
+    /// The bindings that receivers read. It never needs to be recreated.
     pub fn bind_group(&self) -> &wgpu::BindGroup {
         &self.receiver.group
     }
 
-    /// WGSL of receivers, with the bindings of this bind group: `shadows_planar_visibility(world)` is how much of the
-    /// light a point of the rectangle in world space sees, 0 to 1. Beside the rectangle, and more than a texel's
-    /// width above or below its plane, it is 1. Several in one shader: [`wgsl::PLANAR_SOFT`](crate::wgsl::PLANAR_SOFT)
-    /// once, and bindings of your own for each.
+    /// WGSL for receivers, with the bindings of this bind group: `shadows_planar_visibility(world)` is the visible
+    /// share of the light at a point of the rectangle in world space, 0 to 1. Outside the rectangle, and more than a
+    /// texel's width above or below its plane, it is 1. For several in one shader, include
+    /// [`wgsl::PLANAR_SOFT`](crate::wgsl::PLANAR_SOFT) once, and declare bindings of your own for each.
     pub fn wgsl_module(group: u32) -> String {
         format!(
             "{}
@@ -246,7 +248,7 @@ fn shadows_planar_visibility(world: vec3f) -> f32 {{
         )
     }
 
-    /// What the last [`prepare`](Self::prepare) found.
+    /// Statistics of the last [`prepare`](Self::prepare).
     pub fn statistics(&self) -> PlanarSoftStatistics {
         self.statistics
     }

@@ -1,4 +1,4 @@
-//! The light that is baked, and places on it.
+//! The light that is baked, and sample points on it.
 
 use std::f64::consts::TAU;
 
@@ -8,27 +8,27 @@ use crate::error::LightMapError;
 use crate::reference::image::Lighting;
 use crate::{Light, SpotLight};
 
-/// The shape of a light that is baked.
+/// The shape of a baked light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Emitter {
     /// A point, or a single direction: hard shadows. The default.
     #[default]
     Point,
-    /// A ball, taken as the disk through its middle that faces the receiver, as by
+    /// A sphere, treated as the disk through its centre that faces the receiver, as in
     /// [`ReferenceImage::area_visibility`](crate::reference::ReferenceImage::area_visibility).
     Sphere {
         /// World units, finite, above 0; of a directional light the tangent of its angular radius (the sun's: 0.00465).
         radius: f32,
     },
-    /// A rectangle around a point light or a spot, which shines to both sides.
+    /// A rectangle around a point light or a spot, which shines from both sides.
     Rectangle {
         /// From the middle to two neighbouring sides, in world units, world space; finite and not parallel.
         half_sides: [Vec3; 2],
     },
 }
 
-/// A light that does not move.
+/// A static light, to be baked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakedLight {
     light: Light,
@@ -36,8 +36,8 @@ pub struct BakedLight {
 }
 
 impl BakedLight {
-    /// A light without a size. What lies outside its range or its cone is not baked: the host has no light there to
-    /// multiply. `near` of the light is for maps, and ignored.
+    /// A light without a size. Its range and cone are not baked in: the host has no light to multiply outside them.
+    /// The light's `near` is for maps and ignored.
     pub fn new(light: impl Into<Light>) -> Self {
         Self {
             light: light.into(),
@@ -45,7 +45,7 @@ impl BakedLight {
         }
     }
 
-    /// The same with a size.
+    /// The same light with a size.
     #[must_use]
     pub fn with_emitter(mut self, emitter: Emitter) -> Self {
         self.emitter = emitter;

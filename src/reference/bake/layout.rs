@@ -1,4 +1,4 @@
-//! Which receiver has which texels.
+//! Which texels belong to which receiver.
 
 use std::fmt;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ const MOST: u32 = 8192;
 const NONE: u32 = u32::MAX;
 pub(super) const SEVERAL: u32 = u32::MAX - 1;
 
-/// Texels of a map, from its top left.
+/// A rectangle of texels in a map, from its top left.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct TexelRectangle {
     /// First column.
@@ -35,8 +35,8 @@ pub struct TexelRectangle {
 }
 
 impl TexelRectangle {
-    /// What makes a receiver's own texture coordinates (0 to 1 over the rectangle) those of the whole map:
-    /// factors of both, then what is added to both.
+    /// Converts a receiver's own texture coordinates (0 to 1 over the rectangle) to those of the whole map:
+    /// two scale factors, then two offsets.
     pub fn scale_and_offset(&self, map_size: [u32; 2]) -> [f32; 4] {
         let [width, height] = map_size.map(f64::from);
         [
@@ -62,7 +62,8 @@ impl TexelRectangle {
     }
 }
 
-/// A mesh that receives shadows, with the texture coordinates of its light map. An instance is a receiver of its own.
+/// A mesh that receives shadows, with the texture coordinates of its light map. Each instance is a receiver of its
+/// own.
 #[derive(Clone, Copy, Debug)]
 pub struct LightMapReceiver<'a> {
     /// Vertex positions in object space.
@@ -70,16 +71,16 @@ pub struct LightMapReceiver<'a> {
     /// Three indices into `positions` per triangle.
     pub indices: &'a [u32],
     /// Texture coordinates, one pair per vertex, from (0, 0) at the rectangle's top left to (1, 1) at its bottom right.
-    /// No two triangles may share more than edges: each place of the map is one place of the world.
+    /// Triangles may share edges but must not overlap: each point of the map corresponds to one point of the world.
     pub uvs: &'a [[f32; 2]],
-    /// World from object space; applied in f64. It may mirror.
+    /// World from object space; applied in f64. It may include mirroring.
     pub transform: DAffine3,
-    /// The receiver's part of the map. Rectangles may touch; the margins between charts are best left in
-    /// the texture coordinates.
+    /// The receiver's part of the map. Rectangles may touch; the texture coordinates should leave margins
+    /// between charts.
     pub rectangle: TexelRectangle,
-    /// Whether triangles are seen from both sides, as sheets are; then the side that the light is on is baked. Of
-    /// others the front is (counter-clockwise in object space), and texels on faces that are turned away from the light
-    /// take after their neighbours, so that they darken none of them across a crease.
+    /// Whether triangles are visible from both sides, like sheets; the side that faces the light is then baked.
+    /// Otherwise the front is baked (counter-clockwise in object space), and texels on faces turned away from the light
+    /// copy their neighbours, so that they do not darken them across a crease.
     pub two_sided: bool,
 }
 
@@ -107,8 +108,8 @@ impl ChartTriangle {
     }
 }
 
-/// Checked texture coordinates of receivers, ready for [`bake`](super::super::ReferenceScene::bake). A clone
-/// shares them.
+/// Checked texture coordinates of receivers, ready for [`bake`](super::super::ReferenceScene::bake). Clones
+/// share them.
 #[derive(Clone)]
 pub struct LightMapLayout {
     size: [u32; 2],
@@ -134,13 +135,13 @@ impl fmt::Debug for LightMapLayout {
 impl LightMapLayout {
     /// Checks receivers for a map of `size` texels (columns and rows, each from 1 to 8192).
     ///
-    /// Triangles without area in the world, or so thin that rounding of the positions to f32 decides it, have no place in
-    /// the map, and theirs is not asked for. Touching charts may overlap by what rounding of texture coordinates
-    /// makes of edges that are one (4 ulps of 1).
+    /// Triangles without area in the world, or so thin that this depends on the rounding of positions to f32, have no
+    /// place in the map, and their texture coordinates are not checked. Touching charts may overlap by the rounding
+    /// error of texture coordinates along shared edges (4 ulps of 1).
     ///
     /// # Errors
-    /// [`LightMapError`] names the receiver, and the triangle whose texture coordinates are outside 0 to 1, NaN, without an
-    /// area, or on those of another triangle.
+    /// [`LightMapError`] names the receiver, and the triangle whose texture coordinates are outside 0 to 1, NaN,
+    /// without an area, or overlap those of another triangle.
     pub fn new(size: [u32; 2], receivers: &[LightMapReceiver<'_>]) -> Result<Self, LightMapError> {
         if size.iter().any(|side| !(1..=MOST).contains(side)) {
             return Err(LightMapError::Size(size));
@@ -174,19 +175,19 @@ impl LightMapLayout {
         self.size
     }
 
-    /// The part of each texel that a receiver covers, 0 to 1, row-major from the top left.
+    /// The fraction of each texel that a receiver covers, 0 to 1, row-major from the top left.
     pub fn coverage(&self) -> &[f32] {
         &self.coverage
     }
 
-    /// Texels of which a receiver covers something.
+    /// Number of texels that a receiver covers at least in part.
     pub fn covered_texels(&self) -> usize {
         self.coverage.iter().filter(|part| **part > 0.0).count()
     }
 
-    /// Covered texels that a bilinear filter reads for another chart too: those with two charts in them or a
-    /// neighbour of another chart. There shadows bleed from one into the other; move charts two texels apart.
-    /// Charts are triangles that share vertices (position and texture coordinates).
+    /// Number of covered texels that a bilinear filter also reads for another chart: those that contain two
+    /// charts or have a neighbour of another chart. Shadows bleed between charts there; move the charts two
+    /// texels apart. A chart consists of triangles that share vertices (position and texture coordinates).
     pub fn crowded_texels(&self) -> usize {
         self.crowded
     }

@@ -8,9 +8,9 @@ use super::margin::grow;
 use super::texel::Texel;
 use crate::error::LightMapError;
 
-/// How much of a light is seen from each texel; made by [`bake`](super::super::ReferenceScene::bake).
+/// How much of a light is visible from each texel; created by [`bake`](super::super::ReferenceScene::bake).
 ///
-/// Lists are row-major from the top left. Two maps are equal if their texels are, however long they took.
+/// Lists are row-major from the top left. Two maps are equal if their texels are; `seconds` is not compared.
 #[derive(Clone)]
 pub struct LightMap {
     size: [u32; 2],
@@ -81,23 +81,24 @@ impl LightMap {
         self.size
     }
 
-    /// Wall-clock seconds the bake took.
+    /// Wall-clock seconds that the bake took.
     pub fn seconds(&self) -> f64 {
         self.seconds
     }
 
-    /// The visible part of the light, 0 in shadow, 1 lit. In the margin it is the neighbours', beyond it 0.
+    /// The visible fraction of the light: 0 in shadow, 1 lit. In the margin it is taken from the neighbours,
+    /// beyond that it is 0.
     pub fn visibility(&self) -> &[f32] {
         &self.visibility
     }
 
-    /// The part of each texel that receivers cover, 0 to 1; 0 in the margin.
+    /// The fraction of each texel that receivers cover, 0 to 1; 0 in the margin.
     pub fn coverage(&self) -> &[f32] {
         &self.coverage
     }
 
-    /// What a bilinear sampler reads at a place, in texels from the top left: (0.5, 0.5) is the middle of the first.
-    /// Beyond the map its edge counts (`ClampToEdge`).
+    /// The value that a bilinear sampler reads at a position, in texels from the top left: (0.5, 0.5) is the centre
+    /// of the first texel. Beyond the map, its edge is used (`ClampToEdge`).
     pub fn bilinear(&self, at: [f64; 2]) -> f32 {
         let parts = [0, 1].map(|axis| {
             let last = self.size[axis] - 1;
@@ -114,9 +115,10 @@ impl LightMap {
         ((1.0 - v) * row(above) + v * row(below)) as f32
     }
 
-    /// The next mip level, each texel the mean over what its four cover; with its margin, anew. `None` after the last.
+    /// The next mip level: each texel is the mean of four, weighted by coverage, and the margin is filled again.
+    /// `None` after the last.
     ///
-    /// Charts that share a texel of a level are one there: leave gaps of `2^n` texels for level `n`.
+    /// Charts that share a texel of a level blend there: leave gaps of `2^n` texels for level `n`.
     #[must_use]
     pub fn half(&self) -> Option<Self> {
         if self.size == [1, 1] {
@@ -158,7 +160,7 @@ impl LightMap {
         Some(half.with_margin())
     }
 
-    /// As `R8Unorm`, a byte a texel: 255 is lit. An 8-bit step is 0.004 of visibility.
+    /// As `R8Unorm`, one byte per texel: 255 is lit. One step is 0.004 of visibility.
     pub fn r8(&self) -> LightMapImage {
         let bytes = self.visibility.iter().map(|&value| byte(value));
         LightMapImage::new(wgpu::TextureFormat::R8Unorm, self.size, bytes.collect())
@@ -170,7 +172,7 @@ impl LightMap {
         LightMapImage::new(wgpu::TextureFormat::R32Float, self.size, bytes)
     }
 
-    /// Up to four lights in the channels of one `Rgba8Unorm` image. Channels without a map are 255, lit.
+    /// Up to four lights in the channels of one `Rgba8Unorm` image. Channels without a map are 255 (lit).
     ///
     /// # Errors
     /// [`LightMapError`] if there are none or more than four maps, or they differ in size.
@@ -195,15 +197,15 @@ fn byte(value: f32) -> u8 {
     (255.0 * value).round() as u8
 }
 
-/// Bytes as `wgpu::Queue::write_texture` takes them. They are linear, as visibility is: no sRGB format.
+/// An image for `wgpu::Queue::write_texture`. Its values are linear, not sRGB.
 #[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LightMapImage {
-    /// Of the texture.
+    /// Format of the texture.
     pub format: wgpu::TextureFormat,
     /// Columns, rows, one layer.
     pub size: wgpu::Extent3d,
-    /// No padding: `write_texture` needs none; copies from a buffer need multiples of 256.
+    /// Without padding, which suits `write_texture`; copies from a buffer need multiples of 256.
     pub bytes_per_row: u32,
     /// Row-major from the top left.
     pub bytes: Vec<u8>,
@@ -234,7 +236,7 @@ impl LightMapImage {
         }
     }
 
-    /// The layout that `write_texture` is to be told.
+    /// The data layout to pass to `write_texture`.
     pub fn layout(&self) -> wgpu::TexelCopyBufferLayout {
         wgpu::TexelCopyBufferLayout {
             offset: 0,

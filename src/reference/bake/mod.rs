@@ -1,9 +1,9 @@
-//! Light maps: the visibility of a light that does not move past casters that do not move, found once by
-//! the reference's rays and kept in a texture over the receivers' second set of texture coordinates.
+//! Light maps: the visibility of a static light past static casters, computed once with the reference's rays
+//! and stored in a texture over the receivers' second set of texture coordinates.
 //!
-//! Each texel holds the mean, over the part of it that a receiver covers and over the light's area, of whether
-//! the light is seen from there: an area-sampled light map (Cook, Porter and Carpenter, "Distributed Ray
-//! Tracing", 1984, for the sampling). The host multiplies its light with it:
+//! Each texel holds the mean visibility over the light's area and over the part of the texel that a receiver
+//! covers: an area-sampled light map (for the sampling see Cook, Porter and Carpenter, "Distributed Ray
+//! Tracing", 1984). The host multiplies its light by it:
 //!
 //! ```wgsl
 //! // `place`: TexelRectangle::scale_and_offset, one for each receiver.
@@ -53,32 +53,33 @@
 //!
 //! # Together with dynamic shadows
 //!
-//! A shadow map for what moves goes on top. No caster may darken twice, so which casters are in which decides how the
-//! two visibilities, `baked` and `dynamic`, are joined:
+//! A shadow map adds the moving casters. No caster may darken twice, so how to combine the two visibilities, `baked`
+//! and `dynamic`, depends on which casters each of them holds:
 //!
-//! | the light map holds | the shadow map holds | join | right |
+//! | the light map holds | the shadow map holds | combination | correct |
 //! |---|---|---|---|
-//! | static casters | dynamic casters alone | `baked * dynamic` | exactly for hard lights; for a light with a size within 1/4 |
-//! | static casters | dynamic casters alone | `min(baked, dynamic)` | exactly for hard lights; for a light with a size up to 1/2 too light |
-//! | static casters | all casters | `min(baked, dynamic)` | exactly for hard lights; a static penumbra is the darker of its two renditions |
-//! | static casters | all casters | `baked * dynamic` | **wrong**: in the penumbrae of static casters `v` becomes `v * v` |
+//! | static casters | only dynamic casters | `baked * dynamic` | exactly for hard lights; for area lights to within 1/4 |
+//! | static casters | only dynamic casters | `min(baked, dynamic)` | exactly for hard lights; for area lights up to 1/2 too light |
+//! | static casters | all casters | `min(baked, dynamic)` | exactly for hard lights; a static penumbra is the darker of its two versions |
+//! | static casters | all casters | `baked * dynamic` | **incorrect**: in the penumbrae of static casters, `v` becomes `v * v` |
 //!
-//! The first is what this crate is made for. Give static and dynamic casters a bit each in
-//! [`Caster::layers`](crate::Caster::layers), and the light
-//! [`AtlasLight::with_layers`](crate::AtlasLight::with_layers) of the dynamic bit.
+//! The first is the recommended one. Give static and dynamic casters one bit each in
+//! [`Caster::layers`](crate::Caster::layers), and use
+//! [`AtlasLight::with_layers`](crate::AtlasLight::with_layers) to restrict the light to the dynamic bit.
 //!
-//! Why: a point sees a hard light if neither group is in the way, so visibilities multiply. Of a light with a size the
-//! two groups hide parts; how the parts overlap is not in two numbers. The whole scene's visibility lies between
-//! `max(0, baked + dynamic - 1)` (the parts are disjoint) and `min(baked, dynamic)` (one holds the other). The
-//! product lies between them too, at most 1/4 from either, and is exact where the parts overlap as chance would have it.
+//! The reason: a point sees a hard light if neither group is in the way, so visibilities multiply. Of an area light,
+//! each group hides a part, and two numbers do not say how these parts overlap. The visibility of the whole scene lies
+//! between `max(0, baked + dynamic - 1)` (the parts are disjoint) and `min(baked, dynamic)` (one contains the other).
+//! The product also lies between them, at most 1/4 from either, and is exact if the parts overlap as independent events
+//! would.
 //!
-//! Receivers that move have no light map. They need all casters in a shadow map: a second `AtlasLight` at the same
-//! place with both bits, or the third row of the table for all receivers.
+//! Moving receivers have no light map. They need all casters in a shadow map: use a second `AtlasLight` at the
+//! same place with both bits, or the third row of the table for all receivers.
 //!
-//! # Why here
+//! # Why it is part of the reference
 //!
-//! The rays, their bounds on rounding and the feature are the reference's: a point of a surface is never hidden by its
-//! own triangle, nor by those in its plane, without an offset and at any scale. Nothing else of the crate needs them.
+//! Baking uses the reference's rays and their bounds on rounding: a point on a surface is never hidden by its own
+//! triangle, nor by others in the same plane, without any offset and at any scale.
 
 mod charts;
 mod emitter;
@@ -105,16 +106,18 @@ use self::texel::{Baker, Texel};
 use super::ReferenceScene;
 use crate::error::LightMapError;
 
-/// How a light map is baked.
+/// Parameters of a bake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeDescriptor {
-    /// Rays a texel, over the part of it that is covered and over the light at once; at least 1. Default 64.
-    /// Baking takes time in proportion. In penumbrae four times the rays leave a third to a half of the error; at
-    /// hard edges the size of texels decides, and 4 do. Powers of two are sampled most evenly.
+    /// Rays per texel, distributed over its covered part and over the light together; at least 1. Default 64.
+    /// Baking time is proportional to it. In penumbrae, four times the rays leave a third to a half of the error;
+    /// at hard edges, where the size of texels limits accuracy, 4 rays are enough. Powers of two are sampled most
+    /// evenly.
     pub samples: u32,
-    /// By how many texels the content grows beyond the borders of charts, so that filters find nothing foreign
-    /// there. Bilinear filtering needs 1, on the map's mip level `n` 1 there, thus `2^n` here unless the
-    /// levels come from [`LightMap::half`], which grows each anew. Default 2. Charts must be twice as far apart.
+    /// How many texels the content extends beyond the borders of charts, so that filters read nothing unrelated
+    /// there. Bilinear filtering needs 1. On mip level `n` it needs 1 texel of that level, thus `2^n` here,
+    /// unless the levels come from [`LightMap::half`], which fills the margin of each. Default 2. Charts must be
+    /// twice as far apart.
     pub margin: u32,
 }
 
@@ -128,16 +131,16 @@ impl Default for BakeDescriptor {
 }
 
 impl ReferenceScene {
-    /// Bakes how much of a light the receivers of a layout see past this scene's casters.
+    /// Bakes how much of a light is visible to the receivers of a layout past this scene's casters.
     ///
     /// A receiver that casts is also an object of the scene, with the same positions and transform (its vertices may be
-    /// split where texture coordinates are): a coarser copy of itself would shadow it. The scene's holes
-    /// ([`with_opacity`](Self::with_opacity)) let light through, and its progress
-    /// ([`with_progress`](Self::with_progress)) hears of rows of the map. Rows are computed in parallel; the map is
-    /// the same, bit for bit, on any number of threads.
+    /// split where texture coordinates are), as a coarser copy would shadow it. The scene's holes
+    /// ([`with_opacity`](Self::with_opacity)) let light through, and its progress callback
+    /// ([`with_progress`](Self::with_progress)) is called for rows of the map. Rows are computed in parallel; the map
+    /// is bit-identical for any number of threads.
     ///
     /// # Errors
-    /// [`LightMapError`] if the light is not valid or there are no samples.
+    /// [`LightMapError`] if the light is invalid or there are no samples.
     pub fn bake(
         &self,
         layout: &LightMapLayout,

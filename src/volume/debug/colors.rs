@@ -2,15 +2,15 @@
 
 use crate::volume::CasterState;
 
-/// The colours of [`VolumeDebug`](crate::VolumeDebug): red, green, blue and opacity, not
-/// premultiplied, as the target's format takes them (linear, for a target that is sRGB).
+/// The colours of [`VolumeDebug`](crate::VolumeDebug): red, green, blue and opacity, not premultiplied, in
+/// the target's colour space (linear for an sRGB target).
 ///
 /// The default is the legend below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DebugColors {
-    /// Sides of volumes that are counted by z-pass. Default green, opacity 0.2.
+    /// Sides of volumes counted by z-pass. Default green, opacity 0.2.
     pub sides_z_pass: [f32; 4],
-    /// Sides of volumes that are counted by z-fail. Default orange, opacity 0.2.
+    /// Sides of volumes counted by z-fail. Default orange, opacity 0.2.
     pub sides_z_fail: [f32; 4],
     /// Light caps. Default yellow, opacity 0.2.
     pub light_caps: [f32; 4],
@@ -26,11 +26,11 @@ pub struct DebugColors {
     pub casters_out_of_range: [f32; 4],
     /// Casters in [`CasterState::OutOfView`]. Default grey, opacity 0.7.
     pub casters_out_of_view: [f32; 4],
-    /// Stencil counts 1 to 7, then 8 to 247, opaque whatever the fourth number is. Default blue,
-    /// green, yellow, orange, red, magenta, violet; white.
+    /// Stencil counts 1 to 7, then 8 to 247; always opaque, whatever the fourth number. Default blue, green,
+    /// yellow, orange, red, magenta, violet; white.
     pub counts: [[f32; 4]; 8],
-    /// Stencil counts 248 to 255, opaque: -8 to -1 modulo 256. In a closed volume they mean that
-    /// something is counted which should not be. Default black.
+    /// Stencil counts 248 to 255, opaque: -8 to -1 modulo 256. In a closed volume they indicate that
+    /// something is counted that should not be. Default black.
     pub negative: [f32; 4],
 }
 
@@ -65,7 +65,7 @@ impl Default for DebugColors {
 }
 
 impl DebugColors {
-    /// The colour of a stencil count; `None` for 0, which is left as it is.
+    /// The colour of a stencil count; `None` for 0, which is not drawn.
     pub fn of_count(&self, count: u8) -> Option<[f32; 4]> {
         match count {
             0 => None,

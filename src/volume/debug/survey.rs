@@ -1,4 +1,4 @@
-//! How many faces a frame's volumes have, and how many pixels they cover.
+//! The number of faces of a frame's volumes, and of the pixels they cover.
 
 use glam::{DMat4, DVec3, DVec4, Vec4Swizzles as _};
 
@@ -11,50 +11,48 @@ use crate::volume::plan::params::CasterParams;
 use crate::volume::renderer::Drawn;
 use crate::volume::silhouette::{Counts, CpuVolume, Way};
 
-/// The faces that one frame draws, counted and measured by
-/// [`ShadowVolumeRenderer::survey`].
+/// The faces that one frame draws, counted and measured, from [`ShadowVolumeRenderer::survey`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct VolumeSurvey {
-    /// Silhouette edges, each as often as it is extruded.
+    /// Silhouette edges, each counted as often as it is extruded.
     pub silhouette_edges: u64,
-    /// Those of them that are extruded to quads: of volumes that do not end in one point.
+    /// The subset extruded to quads, of volumes that do not end in one point.
     pub side_quads: u64,
-    /// Those of them that are extruded to triangles, which meet in one point at infinity.
+    /// The subset extruded to triangles, which meet in one point at infinity.
     pub side_triangles: u64,
     /// Triangles of light caps.
     pub light_cap_triangles: u64,
     /// Triangles of dark caps, fans included.
     pub dark_cap_triangles: u64,
-    /// Pixels that sides cover, each as often as it is covered.
+    /// Pixels covered by sides, each counted as often as it is covered.
     pub side_fill: f64,
-    /// The same, of light caps.
+    /// The same for light caps.
     pub light_cap_fill: f64,
-    /// The same, of dark caps.
+    /// The same for dark caps.
     pub dark_cap_fill: f64,
-    /// Casters that were taken for their bounding boxes, because their positions lie in a buffer of
-    /// the host's: of them the numbers above are estimates, and may be off by any factor.
+    /// Casters that were approximated by their bounding boxes, because their positions lie in a buffer of the
+    /// host. For them, the numbers above are rough estimates, which may be off by any factor.
     pub casters_by_bounds: u32,
 }
 
 impl VolumeSurvey {
-    /// Pixels covered by all faces, each as often as it is covered.
+    /// Pixels covered by all faces, each counted as often as it is covered.
     pub fn fill(&self) -> f64 {
         self.side_fill + self.light_cap_fill + self.dark_cap_fill
     }
 }
 
 impl ShadowVolumeRenderer {
-    /// Counts the faces that the last prepared frame draws under one light in one view, and estimates how many pixels of a target
-    /// of this size (its viewport covering all of it) they fill, whether the depth test then counts
-    /// them or not.
+    /// Counts the faces that the last prepared frame draws under one light in one view, and estimates how many pixels
+    /// of a target of this size they fill (with a viewport that covers all of it), before the depth test.
     ///
-    /// The silhouettes are searched on the CPU, whichever way the frame finds them, so that nothing
-    /// is read back and nothing waits. This takes the time of [`Silhouettes::Cpu`] for every caster
-    /// drawn, and as long again for the areas: for debugging and tuning, not for every frame. The
-    /// fill is the sum of the faces' areas on screen, clipped to it (and to the scissor rectangle of
-    /// [`VolumeView::target_size`]) as polygons: what a rasteriser covers but for rounding at
-    /// their edges, within a few percent where faces are larger than pixels.
+    /// The silhouettes are found on the CPU, regardless of how the frame finds them, so that nothing is read
+    /// back and nothing waits. This takes the time of [`Silhouettes::Cpu`] for every drawn caster, and as
+    /// long again for the areas: it is for debugging and tuning, not for every frame. The fill is the sum of
+    /// the faces' areas on screen, clipped to it (and to the scissor rectangle of
+    /// [`VolumeView::target_size`]) as polygons: what a rasteriser covers except for rounding at their edges,
+    /// to within a few percent if faces are larger than pixels.
     ///
     /// Where more than two triangles meet in an edge, [`Silhouettes::Vertex`] draws sides that cancel
     /// each other; they are not counted here.

@@ -1,4 +1,4 @@
-//! What volumes look like: their surface, their silhouettes, their counts, and how each is counted.
+//! Debug views of volumes: their surfaces, silhouettes and counts, and how each is counted.
 
 use glam::Mat4;
 use wgpu::util::DeviceExt as _;
@@ -28,23 +28,22 @@ use crate::volume::plan::params::{CasterParams, LightParams, ViewParams};
 use crate::volume::{ExactCount, ShadowVolumeFrame, ShadowVolumeRenderer};
 use crate::{Caster, DepthConvention, View};
 
-/// The pass that a [`VolumeDebug`] draws into.
+/// Parameters of a [`VolumeDebug`], which must match the pass that it draws into.
 #[derive(Clone, Copy, Debug)]
 pub struct VolumeDebugDescriptor<'a> {
-    /// Names the GPU objects, after "shadows volume debug". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows volume debug". Default `None`.
     pub label: Option<&'a str>,
-    /// Format of the pass's one colour attachment: one that blends. Default `Rgba8Unorm`.
+    /// Format of the pass's only colour attachment, which must be blendable. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
-    /// Format of the depth-stencil buffer that the volumes were counted in, or of a depth buffer alone
-    /// (`Depth32Float`, `Depth24Plus`), beside which they were counted exactly. Default
-    /// `Depth32FloatStencil8`.
+    /// Format of the depth-stencil buffer that the volumes were counted in, or of a plain depth buffer
+    /// (`Depth32Float`, `Depth24Plus`) if they were counted exactly. Default `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
     /// Samples per pixel of both, 1 (default) or 4.
     pub sample_count: u32,
-    /// How the host's projection maps depth; that of the renderers to be shown. Default
+    /// How the host's projection maps depth, as for the renderers to be shown. Default
     /// [`DepthConvention::InfiniteReverse`].
     pub depth: DepthConvention,
-    /// What is drawn how. Default: the legend in [`DebugColors`].
+    /// The colours. Default: the legend in [`DebugColors`].
     pub colors: DebugColors,
 }
 
@@ -63,11 +62,10 @@ impl Default for VolumeDebugDescriptor<'_> {
 
 /// Debug views of a [`ShadowVolumeRenderer`], drawn over the host's picture.
 ///
-/// All views are drawn into a pass with one colour attachment and the buffer that
-/// holds the scene's depth. Both of its aspects may be read-only. They change the pass's pipeline,
-/// bind groups 0 and 1, index buffer, vertex buffer 0 and stencil reference, nothing else; the
-/// scissor rectangle is the host's. One `VolumeDebug` serves any number of renderers of its device
-/// and depth convention.
+/// All views are drawn into a pass with one colour attachment and the buffer that holds the scene's depth,
+/// both of whose aspects may be read-only. They change the pass's pipeline, bind groups 0 and 1, index
+/// buffer, vertex buffer 0 and stencil reference, and nothing else; the scissor rectangle is the host's. One
+/// `VolumeDebug` serves any number of renderers of its device and depth convention.
 ///
 /// `docs/volume-debug.png` in the repository shows all of them; it is drawn by
 /// `cargo run --release --example volume_debug -- --out docs/volume-debug.png`.
@@ -105,8 +103,8 @@ impl VolumeDebug {
     /// Compiles the pipelines.
     ///
     /// # Errors
-    /// [`VolumeDebugError`] if a format or the sample count does not fit, or the device lacks a
-    /// feature or a limit; the message names it.
+    /// [`VolumeDebugError`] if a format or the sample count is unsuitable, or if the device lacks a feature
+    /// or a limit; the message names it.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &VolumeDebugDescriptor<'_>,
@@ -146,15 +144,14 @@ impl VolumeDebug {
         })
     }
 
-    /// Readies [`draw_casters`](Self::draw_casters), the one view that shows casters of which the
-    /// renderer draws nothing: call it after the renderer's own
-    /// [`prepare`](ShadowVolumeRenderer::prepare), with the same frame. The other views need no
-    /// preparation.
+    /// Prepares [`draw_casters`](Self::draw_casters), the one view that also shows casters for which the
+    /// renderer draws nothing. Call it after the renderer's own [`prepare`](ShadowVolumeRenderer::prepare),
+    /// with the same frame. The other views need no preparation.
     ///
     /// # Errors
-    /// [`VolumeDebugError`], before any GPU work, if the renderer has another depth convention, or
-    /// was prepared with another number of casters, or a caster is not sound. What was prepared
-    /// before is then still drawn.
+    /// [`VolumeDebugError`], before any GPU work, if the renderer has another depth convention, if it was
+    /// prepared with another number of casters, or if a caster is invalid. What was prepared before is then
+    /// still drawn.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -258,12 +255,12 @@ impl VolumeDebug {
         shown.iter().zip(0..).map(show).collect()
     }
 
-    /// Draws the faces of all volumes that the renderer counts, transparent, where they are before
-    /// the visible surfaces: sides by method, light caps, dark caps. Dark caps at infinity are
-    /// before nothing, and are seen where the host's depth is behind infinity, so nowhere.
+    /// Draws the faces of all volumes that the renderer counts as transparent surfaces, where they are in
+    /// front of the visible surfaces: sides by method, light caps, dark caps. Dark caps at infinity are
+    /// behind everything and therefore never visible.
     ///
-    /// Goes where [`ShadowVolumeRenderer::render`] goes: after `encode`, in the same submission or a
-    /// later one.
+    /// To be called, like [`ShadowVolumeRenderer::render`], after `encode`, in the same submission or a later
+    /// one.
     ///
     /// # Errors
     /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view,
@@ -294,8 +291,8 @@ impl VolumeDebug {
         Ok(())
     }
 
-    /// Draws the silhouette edges of all volumes as lines one pixel wide, those behind other
-    /// surfaces included: the edges from which sides are extruded.
+    /// Draws the silhouette edges of all volumes, from which sides are extruded, as lines one pixel wide,
+    /// including those behind other surfaces.
     ///
     /// # Errors
     /// [`VolumeRenderError::NoSuch`] if the renderer's frame had no such light or view,
@@ -320,9 +317,9 @@ impl VolumeDebug {
         Ok(())
     }
 
-    /// Colours every sample by the stencil's count, so by the number of volumes that it is in;
-    /// a count of 0 is left as it is. To be drawn after [`ShadowVolumeRenderer::render`] and before
-    /// a light pass changes the count.
+    /// Colours every sample by its stencil count, which is the number of volumes that contain it; samples
+    /// with a count of 0 are left untouched. To be drawn after [`ShadowVolumeRenderer::render`] and before a
+    /// light pass changes the count.
     ///
     /// Nine triangles that cover the target, each with its own stencil test.
     ///
@@ -348,9 +345,9 @@ impl VolumeDebug {
     }
 
     /// Colours every sample by its exact count ([`Counter::Exact`](crate::Counter::Exact)), as
-    /// [`draw_counts`](Self::draw_counts) does by the stencil's, but that no count is taken for another:
-    /// all from 8 on are 8 or more, and negative ones, which only a wrong method comes to, are negative. To
-    /// be drawn after the pass that the count was made in. Needs no stencil.
+    /// [`draw_counts`](Self::draw_counts) does by the stencil count, but without ambiguity: counts of 8 and
+    /// above, however large, and negative ones, which only an incorrect method produces, are told apart. To
+    /// be drawn after the pass in which volumes were counted. Needs no stencil.
     ///
     /// Nine triangles that cover the target.
     ///
@@ -374,8 +371,8 @@ impl VolumeDebug {
             .draw(pass, counts)?)
     }
 
-    /// Draws the casters of the frame that [`prepare`](Self::prepare) was given, each in the colour
-    /// of what was decided for it, where they are visible.
+    /// Draws the visible casters of the frame passed to [`prepare`](Self::prepare), each in the colour of the
+    /// decision made for it.
     pub fn draw_casters(&self, pass: &mut wgpu::RenderPass<'_>) {
         for caster in &self.casters {
             let Some(feed) = self.feed(caster.feed) else {

@@ -42,15 +42,15 @@ use crate::volume::decide::world_box::WorldBox;
 use crate::volume::descriptor::ShadowVolumeDescriptor;
 use crate::volume::frame::Situation;
 
-/// Which of a volume's faces are counted.
+/// Which faces of a volume are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// z-pass for each caster for which it is proven right in this frame, z-fail for the others.
+    /// z-pass for each caster for which it is proven correct in this frame, z-fail for the others.
     #[default]
     Auto,
-    /// z-pass for all casters, for comparison. **Wrong wherever a caster lies between the near
-    /// rectangle and the light**: a part of the screen, or all of it, is then inverted.
+    /// z-pass for all casters, for comparison. **Incorrect whenever a caster lies between the near rectangle
+    /// and the light**: part or all of the screen is then inverted.
     #[doc(hidden)]
     ZPass,
     /// z-fail for all casters: always right, for those too that the host does not draw
@@ -63,11 +63,11 @@ pub enum Method {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Caps {
-    /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the
-    /// silhouette for a point light outside the caster's bounds; the full cap inside.
+    /// Nothing for a directional light, whose sides meet in one point at infinity; a fan over the silhouette
+    /// for a point light outside the caster's bounds; the full cap for one inside.
     #[default]
     AsNeeded,
-    /// The light cap once more at infinity, triangle by triangle.
+    /// The light cap repeated at infinity, triangle by triangle.
     Full,
 }
 

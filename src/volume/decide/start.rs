@@ -24,37 +24,37 @@
 
 /// Which side of a closed caster its shadow volume starts from.
 ///
-/// With normals that are smoothed over coarse triangles, shading ends somewhere on the triangles
-/// turned away from the light, or on those facing it; the caster's own shadow begins exactly where
-/// the one kind meets the other, along a ragged line of edges. [`AwayFacing`](Self::AwayFacing)
-/// leaves the terminator to shading alone. `docs/volume-start.png` in the repository shows both, drawn by
+/// With smooth normals over coarse triangles, shading ends somewhere within the triangles facing away from
+/// the light, or within those facing it, but the caster's own shadow begins exactly where the two kinds meet,
+/// along a ragged line of edges. [`AwayFacing`](Self::AwayFacing) leaves the terminator to shading alone.
+/// `docs/volume-start.png` in the repository shows both, drawn by
 /// `cargo run --release --example volume_debug -- --start docs/volume-start.png`.
 ///
-/// Shadows on anything but the caster itself are the same, but for single pixels on their edges and
-/// where the caster touches another surface, which the rasteriser decides (at most 2 of 65,536 in the
-/// pictures measured).
+/// Shadows on anything but the caster itself are the same, except for single pixels on their edges and where
+/// the caster touches another surface, which depend on rasterisation (at most 2 of 65,536 in the pictures
+/// measured).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StartFrom {
-    /// From the triangles facing the light: those turned away are in shadow. Right for any host.
+    /// From the triangles facing the light: those facing away are in shadow. Correct for any host.
     #[default]
     LightFacing,
-    /// From the triangles turned away from the light: a convex caster casts no shadow on itself, and
-    /// any other only where another part of it is between a point and the light.
+    /// From the triangles facing away from the light: a convex caster casts no shadow on itself, and any
+    /// other only where another part of it lies between a point and the light.
     ///
-    /// For hosts whose shading is dark where the *shading* normal turns from the light
+    /// For hosts whose shading is dark where the *shading* normal faces away from the light
     /// (`max(dot(n, l), 0)`); others would see light on the far side.
     ///
-    /// Holds for closed meshes wound counter-clockwise seen from outside (positions in the host's own
-    /// buffer are believed to be), while light and near rectangle are outside the caster's box. All
-    /// others start as with `LightFacing` (a mesh with a cavity, too), and the ragged line stays;
-    /// [`VolumeStatistics::casters_away_facing`](crate::VolumeStatistics::casters_away_facing) says how
-    /// many of the casters drawn start as asked. Vertices of the same position must be known as one
-    /// (as [`Adjacency`](crate::mesh::Adjacency) welds them).
+    /// Applies to closed meshes wound counter-clockwise seen from outside (which is assumed for positions in
+    /// the host's own buffer), while light and near rectangle are outside the caster's box. All others,
+    /// including meshes with a cavity, start as with `LightFacing` and keep the ragged line;
+    /// [`VolumeStatistics::casters_away_facing`](crate::VolumeStatistics::casters_away_facing) says how many
+    /// of the drawn casters start as requested. Vertices at the same position must be welded (as
+    /// [`Adjacency`](crate::mesh::Adjacency) does).
     ///
-    /// Costs a draw more for the sides of each caster, each with half of the faces culled, and the
-    /// light caps in z-pass. A surface of the host's that lies on the far side of a caster, nearer to
-    /// it than [`cap_bias_ulps`](crate::ShadowVolumeDescriptor::cap_bias_ulps) (a decal), is lit like
-    /// the caster itself.
+    /// Costs one more draw for the sides of each caster, with half of the faces culled in each of the two,
+    /// and the light caps in z-pass. A host surface that lies on the far side of a caster, nearer to it than
+    /// [`cap_bias_ulps`](crate::ShadowVolumeDescriptor::cap_bias_ulps) (such as a decal), is lit like the
+    /// caster itself.
     AwayFacing,
 }

@@ -1,4 +1,4 @@
-//! Where volumes are counted: in the stencil, modulo 256, or in a colour target, without end.
+//! Where volumes are counted: in the stencil, modulo 256, or in a colour target, without wrapping.
 
 use crate::volume::decide::method::Count;
 
@@ -10,23 +10,22 @@ const COUNT: &str = include_str!("../../../shaders/volume_count.wgsl");
 /// What it takes to count there.
 pub(crate) const FEATURE: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE;
 
-/// What holds the number of volumes that each visible point is in.
+/// Where the number of volumes that contain each visible point is counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Counter {
-    /// The 8-bit stencil, which wraps: a point in a multiple of 256 volumes at once reads 0 and is
-    /// lit. [`ShadowVolumeRenderer::may_wrap`](crate::ShadowVolumeRenderer::may_wrap) says whether
-    /// that can happen.
+    /// The 8-bit stencil, which wraps: a point in a multiple of 256 volumes at once reads 0 and is lit.
+    /// [`ShadowVolumeRenderer::may_wrap`](crate::ShadowVolumeRenderer::may_wrap) tells whether that can
+    /// happen.
     #[default]
     Stencil,
-    /// A target of 32-bit floats beside it, to which front and back faces add 1 and -1: exact as
-    /// long as fewer than 2^24 faces are in a row, four bytes a sample, and the fill of a blended
-    /// target instead of the stencil's.
+    /// An additional target of 32-bit floats, to which front and back faces add 1 and -1. Exact for fewer
+    /// than 2^24 faces in a row; takes four bytes per sample, and the fill of a blended target instead of the
+    /// stencil's.
     ///
-    /// The pass has this target (`R32Float`, cleared to 0) after those of `color_formats`, and its
-    /// stencil is neither read nor written, and need not be there. [`ExactCount`](crate::ExactCount) makes the target, the
-    /// pass, and what light passes need. Needs the feature
-    /// [`FLOAT32_BLENDABLE`](wgpu::Features::FLOAT32_BLENDABLE).
+    /// The pass has this target (`R32Float`, cleared to 0) after those of `color_formats`. Its stencil is neither read
+    /// nor written, and need not exist. [`ExactCount`](crate::ExactCount) provides the target, the pass, and what light
+    /// passes need. Needs the feature [`FLOAT32_BLENDABLE`](wgpu::Features::FLOAT32_BLENDABLE).
     Exact,
 }
 

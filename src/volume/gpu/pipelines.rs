@@ -1,4 +1,4 @@
-//! Pipelines that any number of renderers share.
+//! Pipelines shared by any number of renderers.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -11,9 +11,9 @@ use crate::volume::gpu::reset;
 use crate::volume::multiview::Multiview;
 use crate::volume::silhouette::{Extraction, Way, Ways};
 
-/// The compiled shaders of shadow volumes: made once, shared by any number of
-/// [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer)s (a clone is the same set). A renderer of a descriptor that another one
-/// had before compiles nothing.
+/// The compiled shaders of shadow volumes, created once and shared by any number of
+/// [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer)s (clones are the same set). A renderer compiles nothing if an
+/// earlier one had the same descriptor.
 ///
 /// What a pipeline depends on is the descriptor's pass (formats, samples, multiview mask, depth convention,
 /// counter), `cap_bias_ulps`, whether volumes may start from away-facing triangles, and where
@@ -77,10 +77,9 @@ pub(crate) struct OwnPipelines {
 }
 
 impl VolumePipelines {
-    /// An empty set: what renderers need is compiled as they are made, or by
-    /// [`warm_up`](Self::warm_up).
+    /// An empty set. Pipelines are compiled when renderers are created, or by [`warm_up`](Self::warm_up).
     ///
-    /// `cache`: the host's pipeline cache, which may hold what an earlier run compiled (needs
+    /// `cache`: the host's pipeline cache, which may hold pipelines of an earlier run (needs
     /// [`PIPELINE_CACHE`](wgpu::Features::PIPELINE_CACHE)).
     pub fn new(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Self {
         Self {
@@ -90,10 +89,10 @@ impl VolumePipelines {
         }
     }
 
-    /// Compiles all that a renderer of this descriptor needs and nobody needed before.
+    /// Compiles whatever a renderer with this descriptor needs and no other has needed before.
     ///
     /// # Errors
-    /// As [`ShadowVolumeRenderer::new`](crate::ShadowVolumeRenderer::new).
+    /// Those of [`ShadowVolumeRenderer::new`](crate::ShadowVolumeRenderer::new).
     pub fn warm_up(
         &self,
         descriptor: &ShadowVolumeDescriptor<'_>,
@@ -104,7 +103,7 @@ impl VolumePipelines {
         Ok(())
     }
 
-    /// How many pipelines were compiled so far.
+    /// Number of pipelines compiled so far.
     pub fn count(&self) -> usize {
         let compiled = self.lock();
         let extraction = compiled.extraction.as_ref().map_or(0, |_| 3);

@@ -1,4 +1,4 @@
-//! A count of volumes that never wraps: its target, its pass, and what light passes read of it.
+//! A count of volumes that never wraps: its target, its pass, and how light passes read it.
 
 use std::num::NonZeroU32;
 
@@ -18,20 +18,19 @@ const MARK: &str = include_str!("../../../shaders/volume_mark.wgsl");
 const MARK_SAMPLES: &str = include_str!("../../../shaders/volume_mark_samples.wgsl");
 const MARK_LAYERS: &str = include_str!("../../../shaders/volume_mark_layers.wgsl");
 
-/// What an [`ExactCount`] is like.
+/// Parameters of an [`ExactCount`].
 #[derive(Clone, Copy, Debug)]
 pub struct ExactCountDescriptor<'a> {
-    /// Names the GPU objects, after "shadows count". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows count". Default `None`.
     pub label: Option<&'a str>,
     /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
     /// the device's `max_texture_dimension_2d`. Default 1 x 1.
     pub size: [u32; 2],
-    /// Format of the host's depth-stencil buffer, or of its depth buffer: `Depth32Float` and
-    /// `Depth24Plus` will do where nobody asks for [`ExactCount::encode`]. Default
-    /// `Depth32FloatStencil8`.
+    /// Format of the host's depth-stencil buffer, or of its depth buffer: `Depth32Float` and `Depth24Plus`
+    /// will do unless [`ExactCount::encode`] is used. Default `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Its samples per pixel, 1 (default) or 4; on wgpu's GL back end, whose shaders read no
-    /// multisampled texture, 1. Each sample is counted by itself.
+    /// Its samples per pixel, 1 (default) or 4; only 1 on wgpu's GL back end, whose shaders cannot read
+    /// multisampled textures. Each sample has its own count.
     pub sample_count: u32,
     /// The layers that a pass draws into all at once, a bit each: that of
     /// [`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask). Default `None`.
@@ -51,24 +50,23 @@ impl Default for ExactCountDescriptor<'_> {
     }
 }
 
-/// How many volumes each visible point is in, as 32-bit floats: for renderers with
+/// The number of volumes that contain each visible point, as 32-bit floats, for renderers with
 /// [`Counter::Exact`](crate::Counter::Exact).
 ///
 /// For each light:
 /// 1. [`begin`](Self::begin) a pass and draw
 ///    [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render) into it;
-/// 2. either, if the buffer has a stencil, [`encode`](Self::encode), which marks in the stencil what is in shadow: every form of
-///    light pass then goes on as after counting in the stencil
+/// 2. either, if the buffer has a stencil, [`encode`](Self::encode), which marks shadow in the stencil, so that every
+///    kind of light pass works as after counting in the stencil
 ///    ([`light_pass_stencil`](crate::ShadowVolumeRenderer::light_pass_stencil) with its guard,
 ///    [`LightJoin`](crate::LightJoin), [`ShadowMask`](crate::ShadowMask));
-/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample a pixel as
-///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as
-///    `texture_multisampled_2d<f32>`, by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES).
-///    (Both are bound as floats that cannot be filtered.) Of several views as `texture_2d_array<f32>`, by
-///    [`wgsl::EXACT_LAYERS`](crate::wgsl::EXACT_LAYERS);
+/// 3. or a lighting pass that reads [`view`](Self::view) in its shader: with one sample per pixel as
+///    `texture_2d<f32>`, by [`wgsl::EXACT`](crate::wgsl::EXACT); with four as `texture_multisampled_2d<f32>`,
+///    by [`wgsl::EXACT_SAMPLES`](crate::wgsl::EXACT_SAMPLES). (Both are bound as unfilterable floats.) Of
+///    several views as `texture_2d_array<f32>`, by [`wgsl::EXACT_LAYERS`](crate::wgsl::EXACT_LAYERS);
 /// 4. or [`ShadowMask::encode_counts`](crate::ShadowMask::encode_counts), for any later pass.
 ///
-/// GPU memory: four bytes a sample.
+/// GPU memory: four bytes per sample.
 #[derive(Debug)]
 pub struct ExactCount {
     label: String,
@@ -81,7 +79,7 @@ pub struct ExactCount {
 }
 
 impl ExactCount {
-    /// Makes the target and the pipeline.
+    /// Creates the target and the pipeline.
     ///
     /// # Errors
     /// [`ScreenPassError`] if the device lacks
@@ -137,8 +135,7 @@ impl ExactCount {
     /// draws into: all counts are 0, and the depth-stencil buffer is only read.
     ///
     /// # Errors
-    /// [`ScreenPassError::Buffer`] if the buffer is not as the descriptor said. Nothing is then
-    /// recorded.
+    /// [`ScreenPassError::Buffer`] if the buffer does not match the descriptor. Nothing is then recorded.
     pub fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
@@ -166,7 +163,7 @@ impl ExactCount {
     /// depth is only read.
     ///
     /// # Errors
-    /// [`ScreenPassError::Buffer`] if the buffer is not as the descriptor said,
+    /// [`ScreenPassError::Buffer`] if the buffer does not match the descriptor,
     /// [`ScreenPassError::NoStencil`] if it has no stencil. Nothing is then recorded.
     pub fn encode(
         &self,
@@ -193,13 +190,13 @@ impl ExactCount {
         Ok(())
     }
 
-    /// The counts, `R32Float`: to bind, or to be the last colour attachment of a pass that the host
-    /// begins itself and clears to 0.
+    /// The counts, `R32Float`: to be bound, or to be used as the last colour attachment of a pass that the
+    /// host begins itself and clears to 0.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.view
     }
 
-    /// The texture itself, which may also be copied from where it has one sample a pixel.
+    /// The texture itself, which may also be copied from if it has one sample per pixel.
     pub fn texture(&self) -> &wgpu::Texture {
         self.view.texture()
     }

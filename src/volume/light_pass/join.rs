@@ -1,4 +1,4 @@
-//! Ambient and direct light from two targets, joined by a full-screen pass.
+//! Combining ambient and direct light from two targets in a full-screen pass.
 
 use std::num::NonZeroU32;
 
@@ -13,18 +13,18 @@ const JOIN: &str = include_str!("../../../shaders/volume_join.wgsl");
 const JOIN_SAMPLES: &str = include_str!("../../../shaders/volume_join_samples.wgsl");
 const JOIN_LAYERS: &str = include_str!("../../../shaders/volume_join_layers.wgsl");
 
-/// What a [`LightJoin`] draws into.
+/// Parameters of a [`LightJoin`].
 #[derive(Clone, Copy, Debug)]
 pub struct LightJoinDescriptor<'a> {
-    /// Names the GPU objects, after "shadows join". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows join". Default `None`.
     pub label: Option<&'a str>,
-    /// Format of the target: one that blends. Default `Rgba8Unorm`.
+    /// Format of the target, which must be blendable. Default `Rgba8Unorm`.
     pub color_format: wgpu::TextureFormat,
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
     /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Samples per pixel of target, depth-stencil buffer and sources: 1 (default) or 4; on wgpu's GL
-    /// back end, whose shaders read no multisampled texture, 1.
+    /// Samples per pixel of target, depth-stencil buffer and sources: 1 (default) or 4; only 1 on wgpu's GL
+    /// back end, whose shaders cannot read multisampled textures.
     pub sample_count: u32,
     /// The layers that a pass draws into all at once, a bit each: that of
     /// [`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask). Default `None`.
@@ -44,14 +44,14 @@ impl Default for LightJoinDescriptor<'_> {
     }
 }
 
-/// Joins what the host has drawn in one go: ambient light in one target, diffuse and specular light
+/// Combines what the host has drawn in a single pass: ambient light in one target, diffuse and specular light
 /// in another (Wolff, "OpenGL 4 Shading Language Cookbook", 3rd edition, 2018, chapter 8).
 ///
-/// The scene's geometry is drawn once, with both targets and the depth; then the volumes are
-/// counted; then one pass with that depth-stencil buffer (which may be read-only) and a third
-/// target: [`render_ambient`](Self::render_ambient) copies the ambient light everywhere,
-/// [`render_lit`](Self::render_lit) adds the rest where the count is 0. With several lights, each
-/// has its own source and its own count, and the second is called for each.
+/// The scene's geometry is drawn once, with both targets and the depth; then the volumes are counted; then
+/// one pass with that depth-stencil buffer (which may be read-only) and a third target:
+/// [`render_ambient`](Self::render_ambient) copies the ambient light everywhere,
+/// [`render_lit`](Self::render_lit) adds the rest where the count is 0. With several lights, each has its own
+/// source and its own count, and `render_lit` is called for each.
 #[derive(Debug)]
 pub struct LightJoin {
     device: wgpu::Device,
@@ -67,7 +67,7 @@ impl LightJoin {
     /// Compiles the pipelines.
     ///
     /// # Errors
-    /// [`ScreenPassError`] if a format or the sample count does not fit the device.
+    /// [`ScreenPassError`] if the device does not support a format or the sample count.
     pub fn new(
         device: &wgpu::Device,
         descriptor: &LightJoinDescriptor<'_>,
@@ -142,12 +142,12 @@ impl LightJoin {
         Ok(bind(&self.device, &self.label, &self.layout, source))
     }
 
-    /// Draws what [`bind`](Self::bind) was given over the whole target.
+    /// Draws the source of [`bind`](Self::bind) over the whole target.
     pub fn render_ambient(&self, pass: &mut wgpu::RenderPass<'_>, source: &wgpu::BindGroup) {
         draw(pass, &self.ambient, source);
     }
 
-    /// Adds what [`bind`](Self::bind) was given where the stencil count is 0; alpha stays.
+    /// Adds the source of [`bind`](Self::bind) where the stencil count is 0; alpha is unchanged.
     pub fn render_lit(&self, pass: &mut wgpu::RenderPass<'_>, source: &wgpu::BindGroup) {
         draw(pass, &self.lit, source);
     }

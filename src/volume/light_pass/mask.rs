@@ -1,4 +1,4 @@
-//! A mask of what each light reaches, for any later pass to sample.
+//! A mask of what each light reaches, for later passes to sample.
 
 use std::num::NonZeroU32;
 
@@ -21,21 +21,20 @@ const COUNTS_SAMPLES: &str = include_str!("../../../shaders/volume_mask_counts_s
 const COUNTS_LAYERS: &str = include_str!("../../../shaders/volume_mask_counts_layers.wgsl");
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
-/// What a [`ShadowMask`] is like.
+/// Parameters of a [`ShadowMask`].
 #[derive(Clone, Copy, Debug)]
 pub struct ShadowMaskDescriptor<'a> {
-    /// Names the GPU objects, after "shadows mask". Default `None`.
+    /// Name of its GPU objects in debuggers, after "shadows mask". Default `None`.
     pub label: Option<&'a str>,
     /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
     /// the device's `max_texture_dimension_2d`. Default 1 x 1.
     pub size: [u32; 2],
-    /// Lights that are kept apart, one layer each: 1 (default) to the device's
-    /// `max_texture_array_layers`.
+    /// Number of lights, each of which has one layer: 1 (default) to the device's `max_texture_array_layers`.
     pub lights: u32,
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
     /// `Depth32FloatStencil8`.
     pub depth_stencil_format: wgpu::TextureFormat,
-    /// Its samples per pixel, 1 (default) or 4. With 4, the mask holds the share that is lit.
+    /// Its samples per pixel, 1 (default) or 4. With 4, the mask holds the fraction of lit samples.
     pub sample_count: u32,
     /// The layers that a pass draws into all at once, a bit each: that of
     /// [`ShadowVolumeDescriptor::multiview_mask`](crate::ShadowVolumeDescriptor::multiview_mask). Default `None`.
@@ -44,8 +43,8 @@ pub struct ShadowMaskDescriptor<'a> {
     pub multiview_mask: Option<NonZeroU32>,
     /// What the volumes were counted in. Default [`Counter::Stencil`]: the mask is filled by
     /// [`encode`](ShadowMask::encode). With [`Counter::Exact`] it is filled by
-    /// [`encode_counts`](ShadowMask::encode_counts), `depth_stencil_format` is not looked at, and nobody
-    /// needs a stencil.
+    /// [`encode_counts`](ShadowMask::encode_counts), `depth_stencil_format` is ignored, and no stencil is
+    /// needed.
     pub counter: Counter,
 }
 
@@ -63,21 +62,20 @@ impl Default for ShadowMaskDescriptor<'_> {
     }
 }
 
-/// The shadows of up to as many lights as a texture has layers, one byte a pixel and light.
+/// The shadows of as many lights as a texture can have layers, with one byte per pixel and light.
 ///
-/// Volumes are counted in the stencil buffer one light after another; each answer is copied into
-/// the light's layer, and one lighting pass reads them all:
+/// Volumes are counted in the stencil buffer one light after another; each result is copied into the light's
+/// layer, and one lighting pass reads them all:
 ///
 /// 1. for each light: a pass that clears the stencil and draws
 ///    [`ShadowVolumeRenderer::render`](crate::ShadowVolumeRenderer::render), then
 ///    [`encode`](Self::encode) with the light's layer;
 /// 2. the host's lighting pass, with [`view`](Self::view) bound as `texture_2d_array<f32>` and
-///    [`wgsl::MASK`](crate::wgsl::MASK) in its shader. It needs no stencil, and may blend as it
-///    likes.
+///    [`wgsl::MASK`](crate::wgsl::MASK) in its shader. It needs no stencil, and may use any blending.
 ///
-/// GPU memory: a byte for each pixel and light, and with four samples five more for each pixel. On
-/// wgpu's GL back end, which takes some textures for no arrays, one more for each pixel if there is one
-/// light or a multiple of six.
+/// GPU memory: one byte per pixel and light, and with four samples five more per pixel. On wgpu's GL back
+/// end, which does not treat some textures as arrays, one more byte per pixel if the number of lights is one
+/// or a multiple of six.
 #[derive(Debug)]
 pub struct ShadowMask {
     label: String,
@@ -102,7 +100,7 @@ struct Samples {
 }
 
 impl ShadowMask {
-    /// Makes the texture and the pipeline.
+    /// Creates the texture and the pipeline.
     ///
     /// # Errors
     /// [`ScreenPassError`] if the size, the number of lights, the format or the sample count is out
@@ -186,12 +184,12 @@ impl ShadowMask {
         })
     }
 
-    /// Records a pass that copies what the stencil says of one light into the light's layer: 1
-    /// where the count is 0, else 0. The depth-stencil buffer is only read.
+    /// Records a pass that copies the stencil's result for one light into the light's layer: 1 where the
+    /// count is 0, otherwise 0. The depth-stencil buffer is only read.
     ///
     /// # Errors
-    /// [`ScreenPassError`] if there is no such layer, or the buffer is not as the descriptor said.
-    /// Nothing is then recorded.
+    /// [`ScreenPassError`] if there is no such layer, or if the buffer does not match the descriptor. Nothing
+    /// is then recorded.
     pub fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -237,8 +235,8 @@ impl ShadowMask {
         Ok(())
     }
 
-    /// Records a pass that writes what the exact counts say of one light into the light's layer: 1
-    /// where the count is 0, else 0; of several samples, the share that is lit.
+    /// Records a pass that writes the result of the exact counts for one light into the light's layer: 1
+    /// where the count is 0, otherwise 0; with several samples, the fraction of lit ones.
     ///
     /// # Errors
     /// [`ScreenPassError`] if there is no such layer, the mask was made for another counter, or the
@@ -295,8 +293,8 @@ impl ShadowMask {
         &self.view
     }
 
-    /// The texture itself, which may also be copied from. On wgpu's GL back end it may have a layer
-    /// more than there are lights, which nothing is drawn into.
+    /// The texture itself, which may also be copied from. On wgpu's GL back end it may have an additional,
+    /// unused layer.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.texture
     }

@@ -1,4 +1,4 @@
-//! What a host's light passes need: masks, exact counts, pictures joined.
+//! Helpers for the host's light passes: masks, exact counts, and combining targets.
 
 pub(crate) mod checks;
 pub(crate) mod exact_count;

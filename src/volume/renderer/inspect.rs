@@ -1,4 +1,4 @@
-//! What a host may ask a renderer about its last frame.
+//! Queries about the last frame of a renderer.
 
 use super::{Drawn, ShadowVolumeRenderer};
 use crate::DepthConvention;
@@ -10,13 +10,13 @@ use crate::volume::plan::merged::MergedDraw;
 use crate::volume::{CasterState, VolumeStatistics};
 
 impl ShadowVolumeRenderer {
-    /// What the last [`prepare`](Self::prepare) came to, of all lights and views together.
+    /// Statistics of the last [`prepare`](Self::prepare), for all lights and views together.
     pub fn statistics(&self) -> VolumeStatistics {
         self.statistics
     }
 
-    /// What was decided under one light in one view for each caster of the last frame that was
-    /// prepared, in the frame's order. Empty if the frame had no such light or view.
+    /// The decision for each caster under one light in one view in the last prepared frame, in the frame's
+    /// order. Empty if the frame had no such light or view.
     pub fn caster_states(&self, light: usize, view: usize) -> Vec<CasterState> {
         let Some(pair) = self.volumes.pair(light, view) else {
             return Vec::new();
@@ -87,16 +87,16 @@ impl ShadowVolumeRenderer {
         true
     }
 
-    /// No point visible in a view is in more volumes of a light than this, of those that the last
-    /// [`prepare`](Self::prepare) draws; 0 if the frame had no such light or view.
+    /// An upper bound on the number of a light's volumes that contain any point visible in a view, among
+    /// those that the last [`prepare`](Self::prepare) draws; 0 if the frame had no such light or view.
     ///
-    /// The bound is 1 for a convex caster and grows with the number of silhouette edges that one
-    /// plane through the light cuts; casters add up where their bounding spheres overlap as seen
-    /// from the light. A mesh over positions in the host's own buffer counts with all its triangles.
+    /// The bound is 1 for a convex caster and grows with the number of silhouette edges that a plane through
+    /// the light intersects. Casters add up where their bounding spheres overlap as seen from the light. A
+    /// mesh over positions in the host's own buffer counts with all its triangles.
     ///
-    /// The first time this takes the CPU once or twice as long as extracting the volumes
-    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)). Each caster's bound is kept with its volume, so where
-    /// nothing moved only the casters are sorted. On the scenes of the example `compare` the bound is 3
+    /// The first call takes one to two times as long as extracting the volumes on the CPU
+    /// ([`Silhouettes::Cpu`](crate::Silhouettes::Cpu)). Each caster's bound is kept with its volume, so if
+    /// nothing has moved, only the casters are sorted. On the scenes of the example `compare` the bound is 3
     /// for `spheres`, 17 for `teapot` and 62 for `courtyard`.
     pub fn count_bound(&mut self, light: usize, view: usize) -> u64 {
         let pair = self.volumes.pair(light, view);
@@ -109,11 +109,11 @@ impl ShadowVolumeRenderer {
         count_bound::bound(&windows, light, &mut self.cache, &mut self.on_cpu)
     }
 
-    /// Whether the counter could wrap under a light in a view of the frame prepared last, so that a
-    /// point in shadow would be lit: [`count_bound`](Self::count_bound) is at least 256, or with
+    /// Whether the counter could wrap for a light in a view of the last prepared frame, so that a point in
+    /// shadow would be lit: [`count_bound`](Self::count_bound) is at least 256, or with
     /// [`Counter::Exact`](crate::Counter::Exact) 2^24.
     ///
-    /// `false` is certain. `true` may be a false alarm, for the bound is not the count.
+    /// `false` is certain. `true` may be a false alarm, because the bound is not the count.
     pub fn may_wrap(&mut self, light: usize, view: usize) -> bool {
         self.count_bound(light, view) >= self.counter.end()
     }

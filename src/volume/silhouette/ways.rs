@@ -4,35 +4,33 @@ use crate::error::ShadowVolumeError;
 use crate::mesh::CasterMesh;
 use crate::volume::plan::limits;
 
-/// How the silhouettes of casters are found. All ways count the same volumes, but for a light at the
-/// very surface of a triangle: see [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer).
+/// How the silhouettes of casters are found. All ways give the same volumes, except for a light extremely
+/// near to the surface of a triangle: see [`ShadowVolumeRenderer`](crate::ShadowVolumeRenderer).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Silhouettes {
-    /// What is fastest and possible (the default): [`Compute`](Self::Compute) on a GPU,
-    /// [`Cpu`](Self::Cpu) on a software adapter (where one thread without an upload to speak of
-    /// beats the same work as shaders) and where there is no compute, [`Vertex`](Self::Vertex)
-    /// where vertex shaders read no storage buffers. Meshes over the host's own positions are
-    /// extracted by compute, wherever the others are not.
+    /// The fastest available way (the default): [`Compute`](Self::Compute) on a GPU, [`Cpu`](Self::Cpu) on a
+    /// software adapter (where one thread with hardly any upload beats the same work in shaders) and where
+    /// there are no compute shaders, and [`Vertex`](Self::Vertex) where vertex shaders cannot read storage
+    /// buffers. Meshes over the host's own positions always use compute shaders.
     #[default]
     Auto,
     /// Three compute passes. Needs compute, storage buffers in vertex shaders and indirect draws.
     Compute,
-    /// One thread of the CPU during `prepare`: facings, 64 triangles at a time by their planes, then
-    /// the edges near those that differ. Needs storage buffers in vertex shaders, and positions that
-    /// were uploaded by [`CasterMesh::new`]. A million triangles on a grid take no longer than a
-    /// plain loop over triangles and edges whose lists are never uploaded
-    /// (`cargo bench --bench shadow_volume`).
+    /// One CPU thread during `prepare`: facings, 64 triangles at a time by their planes, then the edges near
+    /// those that differ. Needs storage buffers in vertex shaders, and positions that were uploaded by
+    /// [`CasterMesh::new`]. A million triangles on a grid take no longer than a plain loop over triangles and
+    /// edges without any upload (`cargo bench --bench shadow_volume`).
     Cpu,
-    /// The vertex shader alone: every triangle and every edge is drawn every frame, and those that
-    /// are not part of the volume are degenerate. Runs at WebGL2's limits; needs positions that
-    /// were uploaded by [`CasterMesh::new`], and 76 bytes of GPU memory an edge and 36 a triangle.
+    /// Vertex shaders only: every triangle and every edge is drawn every frame, and those that are not part
+    /// of the volume become degenerate. Runs within WebGL2's limits; needs positions that were uploaded by
+    /// [`CasterMesh::new`], and 76 bytes of GPU memory per edge and 36 per triangle.
     ///
-    /// Weaker than the others in three ways: its work grows with the mesh, not the silhouette; casters
-    /// share no draws (their triangles and edges lie in buffers of their own, and without storage buffers
-    /// a vertex knows its caster by what is bound), so there are two to five for each; and where more than
-    /// two triangles meet in an edge, they are taken in pairs, so that sides may be drawn which cancel each
-    /// other. The picture is the same.
+    /// It has three disadvantages: its work grows with the mesh rather than the silhouette; casters share no
+    /// draws (their triangles and edges lie in separate buffers, and without storage buffers a vertex
+    /// identifies its caster by what is bound), so there are two to five draws for each; and where more than
+    /// two triangles meet in an edge, they are taken in pairs, so sides may be drawn that cancel each other.
+    /// The picture is the same.
     Vertex,
 }
 

@@ -82,40 +82,38 @@ impl Quantity {
     pub fn about(self) -> &'static str {
         match self {
             Self::Triangles => {
-                "Four spheres around the light, ever finer, under one light. A map draws each \
-                 triangle, so at most linear; what is kept is not drawn again. Volumes look at each \
-                 edge, and draw the outline (which grows with the square root) and, where a cap is \
-                 needed, triangles."
+                "Four spheres around one light, increasingly fine. A map draws each triangle, so at \
+                 most linear; what is kept is not redrawn. Volumes examine each edge, and draw the outline (which \
+                 grows with the square root) and, where a cap is needed, triangles."
             }
             Self::Casters => {
-                "Boxes on a grid, ever more and smaller, under one light: at most \
-                 linear, on the CPU as on the GPU. What stands still is compared and drawn no more \
-                 by maps; volumes are drawn each frame, and only looked for once."
+                "Boxes on a grid under one light, in increasing number and decreasing size: at most \
+                 linear, on both CPU and GPU. Maps compare static casters but do not redraw them; volumes are drawn \
+                 every frame, but extracted only once."
             }
             Self::Meshes => {
-                "The same boxes, each a mesh of its own, so that nothing is drawn or searched \
-                 together: at most linear all the same."
+                "The same boxes, each with its own mesh, so that nothing is drawn or extracted \
+                 together: still at most linear."
             }
             Self::Lights => {
-                "A hundred boxes; the lights on a circle above, all of which reach everything. One \
-                 atlas holds the maps of them all (256 texels a side), one renderer the volumes. Reading \
-                 the maps is the host's, and not counted here."
+                "A hundred boxes, with lights on a circle above, all of which reach everything. One \
+                 atlas holds the maps of all lights (256 texels a side), one renderer the volumes. Reading the maps \
+                 is up to the host and not included here."
             }
             Self::Views => {
-                "A hundred boxes, one light, seen from ever more sides in one frame. What of a volume \
-                 depends on the light is searched once for all views; what is drawn of it is chosen in \
-                 each. A lamp's map knows no views."
+                "A hundred boxes and one light, seen from an increasing number of sides in one \
+                 frame. Volumes are extracted once for all views; what is drawn of them is chosen for each view. A \
+                 cube map does not depend on views."
             }
             Self::Pixels => {
-                "A hundred boxes, one light. Maps are read once a pixel: linear, with the lit pass \
-                 less the lit pass without shadows. Volumes, their stencil pass alone, are at most \
-                 linear in the pixels that they fill; where their draws outweigh that fill, they \
-                 hardly grow."
+                "A hundred boxes, one light. Maps are read once per pixel: linear, for the lit pass \
+                 minus the lit pass without shadows. Volumes, with only their stencil pass, are at most linear in the \
+                 pixels that they fill; where their draws outweigh that fill, they hardly grow."
             }
             Self::Texels => {
                 "A hundred boxes, one light, six faces. Clearing and filling is linear in texels \
-                 once it outweighs the draws; a map that is kept is only read. With the lit pass, \
-                 less the lit pass without shadows. Volumes have no texels."
+                 once it outweighs the draws; a map that is kept is only read. Includes the lit pass, minus the lit \
+                 pass without shadows. Volumes have no texels."
             }
         }
     }

@@ -31,13 +31,13 @@ fn write_page(out: &mut String, clock: Clock, rounds: u32, series: &[Series]) ->
         "Written by `compare --growth` on {}: medians of at most {rounds} interleaved rounds, in \
          milliseconds. *Prepare* is the CPU's share (wall time), *GPU* what makes the map or the \
          stencil, by {clock}. *All moving*: every caster moves in every frame; *kept*: none does. \
-         All with their default settings.\n\n\
+         All techniques have their default settings.\n\n\
          The **slope** is that of a line through the logarithms by least squares, over the upper \
          half of the range (the points whose amount is at least the geometric mean of the least and \
          the greatest), with its standard error: 1 is linear, 0 does not grow. **On top** is the \
-         slope of what each point costs more than the first: what is there at any amount (a \
-         submission, the draws) does not hide how the rest grows. In words, by that: flat below 0.2 or \
-         where the last point is not a quarter above the first, linear from 0.8 to 1.2.\n",
+         slope of the additional cost of each point over the first, so that fixed costs (a submission, the \
+         draws) do not hide how the rest grows. It determines the words: flat below 0.2, or if the last point \
+         is not a quarter above the first; linear from 0.8 to 1.2.\n",
         date::date(date::now()),
     )?;
     writeln!(out, "{}", deviations(series))?;

@@ -2,12 +2,15 @@
 
 use super::limits::{Known, known};
 
-const RECEIVERS: &str = "only what does not cast receives: what casters throw on each other and on themselves is missing";
-const SURROUNDED: &str = "a light within a caster's bounds, or that sees them wider than 84 degrees to each side, has no \
-    picture of it, which `ProjectorState::Surrounded` says";
-const ELLIPSOIDS: &str = "a caster is an ellipsoid, and lies in its own shadow";
-const RIM: &str = "a receiver that is given as a polygon reaches a sixteenth of a pixel beyond it, onto what stands there";
-const FEET: &str = "what is within a texel of the plane reads the plane's texture: the foot of what stands on it is in its shadow";
+const RECEIVERS: &str = "only non-casters receive: shadows of casters on each other and on \
+    themselves are missing";
+const SURROUNDED: &str = "a light within a caster's bounds, or from which they extend beyond 84 \
+    degrees to either side, has no picture of it, as `ProjectorState::Surrounded` reports";
+const ELLIPSOIDS: &str = "casters are replaced by ellipsoids, and lie in their own shadow";
+const RIM: &str = "a receiver given as a polygon extends a sixteenth of a pixel beyond it, onto the \
+    objects that stand there";
+const FEET: &str = "anything within a texel of the plane reads the plane's texture: the foot of an \
+    object on it is in its own shadow";
 
 /// What one technique cannot do, for one reason.
 struct Lack {

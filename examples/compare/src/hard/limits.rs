@@ -75,20 +75,21 @@ const TEXTBOOK: &str =
     "the textbook map has a constant bias of 0.15, whatever the size of the scene";
 const GRAZING: &str = "one texel covers 1 / N.L texels of the ground in the light's direction, so shadow edges \
     are that much coarser";
-const CLIPPED: &str = "rasterisers clip in f32: where a triangle a million times larger than its distance from \
-    the light leaves a cube face, its edges move by a texel";
-const TILTED: &str = "rasterisers clip in f32, and f32 positions do not determine the plane of a surface seen from \
-    so close to it: a wide kernel is compared that much nearer to the light";
-const RIM: &str = "everything outside a spot's square map is lit, and where its cone touches the map's side \
-    half of a disk kernel lies outside";
-const FULL_CAPS: &str = "full caps draw distant triangles that lie almost in one plane with the light, and their \
-    equations are nearly singular";
+const CLIPPED: &str = "rasterisers clip in f32: where a triangle a million times larger than its \
+    distance from the light crosses the border of a cube face, its edges move by a texel";
+const TILTED: &str = "rasterisers clip in f32, and f32 positions do not determine the plane of a \
+    surface so close to the light: receivers are moved toward the light accordingly, which matters for \
+    wide kernels";
+const RIM: &str = "everything outside a spot's square map is lit, and where the cone touches the \
+    side of the map, half of a disk kernel lies outside";
+const FULL_CAPS: &str = "full caps draw distant triangles that are almost coplanar with the light, \
+    and their equations are nearly singular";
 const FACING: &str = "when the light is nearer to a triangle than 1e-5 of its size, f32 cannot tell on which \
     side of its plane the light is; `Silhouettes::Cpu` decides that in f64";
 const THIN: &str = "a caster that no texel centre hits casts no shadow";
 
 const ONE_DEPTH: &str = "hardware filtering compares four texels with one depth, so where a caster touches a \
-    receiver the shadow starts later, by the depth that a texel covers there";
+    receiver, the shadow starts late, by the depth that a texel covers there";
 const POSITIONS: &str = "positions in f32 are rounded by more than a texel or a pixel there; surfaces seen \
     edge-on are off by more than the bias in ulps";
 const VERTICES: &str =
@@ -96,9 +97,10 @@ const VERTICES: &str =
 const TWENTY_FOUR_BITS: &str = "depth is near / distance in steps of 2^-24: with the near plane at 2 cm a step is 0.7 m \
     deep at a distance of 500 m";
 
-const FINE_GRAZING: &str = "texels of a near cascade are a 25th as wide as the usual map's, and as fine as that \
-    derivatives of f32 positions do not tell planes that hold the light's direction but for 1e-5 (nor on a flat map of \
-    8192; with the triangles' own normals none is wrong)";
+const FINE_GRAZING: &str = "texels of a near cascade are a 25th as wide as those of the usual map, \
+    which is so fine that derivatives of f32 positions cannot resolve planes that contain the light's \
+    direction to within 1e-5 (the same happens on a flat map of 8192; with the triangles' own normals, \
+    no pixel is wrong)";
 
 const SNAPPED: &str = "hardware takes depth from corners that are snapped to 1/256 of a pixel: at N.L = 1e-5 \
     the sides of a volume whose caster stands on the ground are nearer to the ground than \

@@ -92,16 +92,16 @@ impl Table {
             "# Hard cases\n\n\
              Written by `{}` on {}, {}.\n\n\
              Each case was tried in {} rounds of random lights and cameras (fixed seeds), at \
-             {width}x{height} pixels, against exact ray casting in f64. A pixel is *interior* where \
-             resolution is no excuse: a pixel (volumes), or 1.5 texels plus the kernel's radius \
-             (maps), away from any edge of the true shadow.\n\n\
-             `0` means: no interior pixel is wrong in any round; `0 (edges)`, that only edges suffer \
-             more than they do elsewhere. A figure is a **known limit**: the wrong interior pixels in \
-             per cent of those that face the light. Its cause and its bound are below the table; above the \
-             bound it fails. **FAILS** is a defect. `-`: does not apply.\n\n\
+             {width}x{height} pixels, against exact ray casting in f64. A pixel is *interior* if \
+             resolution cannot explain an error: if it is a pixel (volumes), or 1.5 texels plus the kernel's \
+             radius (maps), away from any edge of the true shadow.\n\n\
+             `0` means: no interior pixel is wrong in any round; `0 (edges)`: only edges have more \
+             errors than elsewhere. A figure is a **known limit**: the wrong interior pixels in per cent of those \
+             that face the light. Its cause and its bound are given below the table; above the bound, the case \
+             fails. **FAILS** is a defect. `-`: does not apply.\n\n\
              On this driver `volume` found its silhouettes in the way `Silhouettes::{}`, as did the \
-             other volumes that name no way: `Auto` takes `Compute` on a GPU, which `volume-compute` \
-             does here, and `Cpu` on a software adapter.\n",
+             other volume techniques that do not specify a way: `Auto` chooses `Compute` on a GPU, which \
+             `volume-compute` uses here, and `Cpu` on a software adapter.\n",
             self.command, self.date, self.driver, self.rounds, self.way
         );
         self.results(&mut text, Part::Usual);
@@ -135,9 +135,9 @@ impl Table {
     fn cheap(&self, text: &mut String) {
         text.push_str(
             "## Cheap and baked techniques\n\n\
-             The same, on the cases that show where each of these ends. `planar` and `planar-soft` want a plane that \
-             receives, `baked` one sample a pixel. `-`: not tried. Truth is that of a light without a size; of soft \
-             edges the darker half counts as shadow.\n\n",
+             The same, on the cases that show where each of these breaks. `planar` and `planar-soft` \
+             need a plane that receives, `baked` one sample per pixel. `-`: not tried. The truth is that of a \
+             light without a size; of soft edges, the darker half counts as shadow.\n\n",
         );
         self.results(text, Part::Cheap);
     }

@@ -21,27 +21,27 @@ fn write_page(out: &mut String, plan: &Plan<'_>, watched: &[Watched]) -> std::fm
         "Written by `compare --temporal` on {}: {width} x {height} pixels, maps of {} texels a side, \
          {steps} small steps on each path. **A flip in excess is a pixel that a technique shows lit \
          in one step and in shadow in the next (or the reverse) although exact ray casting says the \
-         same in both.** Each step has a reference of its own. A technique without error flips \
-         nothing, and neither does a picture that stands still.\n",
+         same in both.** Each step has its own reference. A technique without errors flips nothing, \
+         and neither does a static picture.\n",
         date::date(date::now()),
         plan.side,
     )?;
     writeln!(
         out,
-        "- **light**: the light moves sideways by 0.3 texels of a map of {TEXELS} texels a step; \
-         the camera stands, so a pixel sees the same surface point all the time.\n\
+        "- **light**: the light moves sideways by 0.3 texels of a map of {TEXELS} texels a step; the \
+        camera does not move, so a pixel sees the same surface point all the time.\n\
          - **camera**: the camera moves sideways and a little forward, from a tenth of a pixel to a \
-         pixel a step. A pixel is compared with itself: the ragged edge of a map that stays where it \
-         is in the world moves over the pixels and flips some, as it does to the eye.\n\
+         pixel a step. A pixel is compared with itself: the ragged shadow edges of a map that is \
+         fixed in the world move over the pixels and flip some, as the eye would see it.\n\
          - **pan**: the picture moves by exactly a pixel a step (a shifted lens), and each surface \
-         point is compared with itself: what stays in its place in the world flips nothing, so this \
-         shows maps that move with the camera, and noise.\n"
+         point is compared with itself: anything fixed in the world flips nothing, so this shows maps that \
+         move with the camera, and noise.\n"
     )?;
     writeln!(
         out,
         "Flips in 10,000 pixels that face the light, a step: mean, (worst step), and those that jump \
-         by more than half of full light (soft kernels often cross one half by little). The last row \
-         of each light is what the reference flips: the shadows' own motion.\n\n\
+         by more than half of full light (soft kernels often cross one half by a little). The last \
+         row for each light shows what the reference flips: the shadows' own motion.\n\n\
          ![Flips a step](temporal.svg)"
     )?;
     for light in lights(watched) {
