@@ -2,8 +2,7 @@
 //!
 //! - `atlas_vs_cube_one_light`: one point light over 64 spheres, all moving, faces of 1024 texels: prepare,
 //!   encode and wait for the device, through a `ShadowAtlas` over a `CubeShadowMap`.
-//!   On llvmpipe about 1.4: it takes longer to draw into a texture that is wider than what is drawn, and 1.0
-//!   with layers of 1024 texels.
+//!   Layers are as wide as the faces: software drivers take longer to draw into a texture that is wider.
 //! - `one_tile_vs_own_map`: one spot of 512 texels among 64 in four layers of 2048, its caster moving: the
 //!   tile is drawn in a layer that is otherwise kept, over a `ShadowMap` of that size.
 //! - `prepare_kept_vs_moving`: `prepare` alone for 1,000 lights (600 points, 390 spots, 10 suns) and

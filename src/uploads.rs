@@ -82,6 +82,17 @@ impl Uploads {
     /// Writes into a buffer, no more than one may hold. Offset and length are multiples of 4.
     pub fn write(&mut self, to: &wgpu::Buffer, to_offset: u64, bytes: &[u8]) {
         let size = bytes.len() as u64;
+        self.write_with(to, to_offset, size, |mut room| room.copy_from_slice(bytes));
+    }
+
+    /// Has `size` bytes written straight to where they wait.
+    pub fn write_with(
+        &mut self,
+        to: &wgpu::Buffer,
+        to_offset: u64,
+        size: u64,
+        write: impl FnOnce(wgpu::WriteOnly<'_, [u8]>),
+    ) {
         if size == 0 {
             return;
         }
@@ -100,7 +111,7 @@ impl Uploads {
         let Ok(mut view) = slice.get_mapped_range_mut() else {
             return;
         };
-        view.slice(lead as usize..).copy_from_slice(bytes);
+        write(view.slice(lead as usize..));
         self.copy(Copy {
             from,
             from_offset: place.start,

@@ -33,15 +33,15 @@ pub(crate) enum Cull {
 }
 
 impl Cull {
-    /// `clear`: the light is outside the caster's bounds and the near plane does not cut them.
-    pub fn of(sides: CasterSides, record: &Record, clear: bool) -> Self {
+    /// `clear`: whether the light is outside the caster's bounds and the near plane does not cut them.
+    pub fn of(sides: CasterSides, record: &Record, clear: impl FnOnce() -> bool) -> Self {
         let (far, wound) = match sides {
             CasterSides::Both => return Self::None,
             CasterSides::Nearest => (false, record.solid),
             CasterSides::Far => (true, record.closed),
         };
         // Where it is not clear the light may be inside, or the near plane cut the nearest side.
-        if !wound || !far && !clear {
+        if !wound || !far && !clear() {
             return Self::None;
         }
         // The faces' frames are left-handed: what is counter-clockwise seen from the light is

@@ -25,6 +25,16 @@ impl CasterBounds {
         }
     }
 
+    /// Around all of a box.
+    pub fn of_box(min: DVec3, max: DVec3) -> Self {
+        let half = (max - min) * 0.5;
+        Self {
+            centre: min + half,
+            half,
+            radius: half.length(),
+        }
+    }
+
     /// Counted from another origin.
     pub fn relative_to(&self, origin: Vec3) -> Self {
         Self {
@@ -66,5 +76,11 @@ impl HalfSpace {
     pub fn touches(&self, bounds: &CasterBounds) -> bool {
         let room = bounds.extent(self.normal, self.length);
         self.normal.dot(bounds.centre) + self.offset + room >= 0.0
+    }
+
+    /// Whether all points of some bounds are inside.
+    pub fn holds(&self, bounds: &CasterBounds) -> bool {
+        let room = bounds.extent(self.normal, self.length);
+        self.normal.dot(bounds.centre) + self.offset - room >= 0.0
     }
 }

@@ -6,6 +6,7 @@ use std::num::NonZeroU32;
 
 use glam::{Affine3A, DVec3};
 
+use super::blocks::{Block, Blocks};
 use super::bounds::CasterBounds;
 use super::caster_tree::CasterSpheres;
 use super::digest::Digest;
@@ -86,12 +87,15 @@ pub(crate) struct Casters {
     records: Vec<Record>,
     /// Centre and radius of each record: what a light that moved looks through.
     spheres: CasterSpheres,
+    blocks: Blocks,
     meshes: Vec<Option<Shared>>,
     place_of_mesh: HashMap<u64, u32>,
     /// Found by the last [`compare`](Self::compare).
     different: Vec<u32>,
-    // Kept only for its memory: what the last update replaced, by index.
+    /// What the last update replaced, by index.
     replaced: Vec<(u32, Option<Record>)>,
+    // Kept only for its memory.
+    leaving: Leaving,
     /// Counts the updates.
     frame: u64,
 }
@@ -122,6 +126,11 @@ impl Casters {
     /// The mesh at a place that a record names.
     pub fn mesh(&self, place: u32) -> Option<&CasterMesh> {
         Some(&self.meshes.get(place as usize)?.as_ref()?.mesh)
+    }
+
+    /// The records by sixteens; the last few are in none.
+    pub fn blocks(&self) -> &[Block] {
+        self.blocks.all()
     }
 
     /// Finds the casters that are not what they were and checks those. Changes nothing that counts.
@@ -185,42 +194,59 @@ impl Casters {
         for &place in &different {
             let index = place as usize;
             let caster = &casters[index];
-            let mut new = self.record(caster);
-            if let Some(&since) = leaving.get(&new.digest) {
-                new.since = since;
-            }
-            let old = self.records.get(index).copied();
-            self.replaced.push((place, old));
-            let sphere = new.bounds.centre.extend(new.bounds.radius);
-            match old {
-                Some(old) => {
-                    self.leave_mesh(old.mesh);
-                    self.records[index] = new;
+            let compared = Compared::of(caster);
+            let digest = digest(&compared);
+            let since = leaving.get(&digest).copied().unwrap_or(self.frame);
+            let mesh = self.mesh_at(index, caster);
+            let bounds = CasterBounds::of(caster);
+            let sphere = bounds.centre.extend(bounds.radius);
+            let new = Record {
+                bounds,
+                digest,
+                triangles: caster.mesh.triangle_count(),
+                mesh,
+                closed: caster.mesh.kind() == MeshKind::Closed,
+                solid: caster.mesh.is_solid(),
+                // In f64, where no scale underflows.
+                mirrored: caster.transform().matrix3.determinant() < 0.0,
+                host_drawn: caster.mesh.is_host_drawn(),
+                layers: caster.layers,
+                owner: caster.owner,
+                since,
+            };
+            match self.records.get_mut(index) {
+                Some(record) => {
+                    self.replaced.push((place, Some(*record)));
+                    *record = new;
                     self.spheres.set(index, sphere);
-                    self.compared[index] = Compared::of(caster);
+                    self.compared[index] = compared;
                 }
                 None => {
+                    self.replaced.push((place, None));
                     self.records.push(new);
                     self.spheres.push(sphere);
-                    self.compared.push(Compared::of(caster));
+                    self.compared.push(compared);
                 }
             }
         }
-        // Given back for its memory.
+        self.blocks.update(&self.records, &different);
+        // Given back for their memory.
+        self.leaving = leaving;
         self.different = different;
         self.different.clear();
     }
 
     /// The casters that are no longer where they were in the host's list, which may only have
     /// changed their order: since when each has been what it was.
-    fn leaving(&self, count: usize) -> HashMap<u128, u64, BuildHasherDefault<DigestHasher>> {
+    fn leaving(&mut self, count: usize) -> Leaving {
+        let mut leaving = std::mem::take(&mut self.leaving);
+        leaving.clear();
         let different = self.different.iter().map(|&index| index as usize);
         let gone = different
             .filter(|&index| index < count)
             .chain(count..self.records.len())
             .filter_map(|index| self.records.get(index));
         // Of two that are alike the younger counts: what was drawn since then holds both.
-        let mut leaving = HashMap::default();
         for record in gone {
             let since = leaving.entry(record.digest).or_insert(record.since);
             *since = record.since.max(*since);
@@ -228,20 +254,17 @@ impl Casters {
         leaving
     }
 
-    fn record(&mut self, caster: &Caster) -> Record {
-        Record {
-            bounds: CasterBounds::of(caster),
-            digest: digest(&Compared::of(caster)),
-            triangles: caster.mesh.triangle_count(),
-            mesh: self.join_mesh(caster),
-            closed: caster.mesh.kind() == MeshKind::Closed,
-            solid: caster.mesh.is_solid(),
-            // In f64, where no scale underflows.
-            mirrored: caster.transform().matrix3.determinant() < 0.0,
-            host_drawn: caster.mesh.is_host_drawn(),
-            layers: caster.layers,
-            owner: caster.owner,
-            since: self.frame,
+    /// The place of the mesh of a caster, in exchange for that of the one before it.
+    fn mesh_at(&mut self, index: usize, caster: &Caster) -> u32 {
+        let before = self.compared.get(index).map(|before| before.mesh);
+        let old = self.records.get(index).map(|old| old.mesh);
+        match old {
+            Some(old) if before == Some(caster.mesh.id()) => old,
+            _ => {
+                let joined = self.join_mesh(caster);
+                old.into_iter().for_each(|old| self.leave_mesh(old));
+                joined
+            }
         }
     }
 
@@ -283,6 +306,9 @@ impl Casters {
         }
     }
 }
+
+/// Frames by digests of casters.
+type Leaving = HashMap<u128, u64, BuildHasherDefault<DigestHasher>>;
 
 /// Digests are hashes already.
 #[derive(Default)]

@@ -1,5 +1,6 @@
 //! The casters of a frame, and what of the world a view shows: nothing here knows any map.
 
+mod blocks;
 mod bounds;
 mod caster_tree;
 mod casters;
@@ -7,6 +8,7 @@ mod digest;
 mod filter;
 mod frustum;
 
+pub(crate) use blocks::Block;
 pub(crate) use bounds::{CasterBounds, HalfSpace};
 pub(crate) use casters::{Casters, Change, Record, caster_digest};
 pub(crate) use digest::Digest;

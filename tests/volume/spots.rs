@@ -1,4 +1,4 @@
-//! Of a spot's cone every shadow is whole, and what is outside of it costs next to nothing.
+//! Of what a light reaches every shadow is whole, and what is beside a spot's cone costs next to nothing.
 
 use shadows::glam::{Affine3A, Vec3};
 use shadows::{
@@ -64,6 +64,33 @@ fn all_shadows_within_a_cone_are_right() {
                 let broken = truth.errors(&stage.draw(&gpu));
                 assert!(broken.wrong > 50, "{what}: {broken:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn ends_on_the_sides_of_the_box_around_a_lamps_range_are_no_nearer_than_that() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    // Level with its casters, so that their shadows reach the box's sides before its floor.
+    let level = HomogeneousLight::point(Vec3::new(-4.5, 1.9, 1.0));
+    for depth in depths(&gpu) {
+        for method in [Method::Auto, Method::ZFail] {
+            let mut stage = Stage {
+                depth,
+                light: level,
+                range: Some(9.0),
+                ..Stage::new(level, casters())
+            };
+            stage.savings.method = method;
+            let what = format!("{depth:?}, {method:?}");
+            let truth = stage.truth();
+            let found = truth.errors(&stage.draw(&gpu));
+            assert!(found.lit > 300 && found.shadowed > 300, "{what}: {found:?}");
+            assert_eq!(found.wrong, 0, "{what}: {found:?}");
+            // The twin: an end that is too near.
+            stage.range = Some(5.0);
+            let broken = truth.errors(&stage.draw(&gpu));
+            assert!(broken.wrong > 50, "{what}: {broken:?}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use shadows::{
-    CubeShadowMapDescriptor, Kernel, LightKinds, PcfDescriptor, ShadowMapDescriptor,
+    CubeShadowMapDescriptor, Kernel, LightKinds, MapKind, PcfDescriptor, ShadowMapDescriptor,
     ShadowVolumeDescriptor,
 };
 
@@ -54,11 +54,11 @@ impl Technique {
     pub fn for_kinds(&self, kinds: &[LightKind]) -> Self {
         let mut own = self.clone();
         if let Config::Atlas { sampler, .. } = &mut own.config {
-            sampler.light_kinds = LightKinds {
+            sampler.map = MapKind::Atlas(LightKinds {
                 point: kinds.contains(&LightKind::Point),
                 spot: kinds.contains(&LightKind::Spot),
                 directional: kinds.contains(&LightKind::Directional),
-            };
+            });
         }
         own
     }

@@ -66,9 +66,10 @@ impl ShadowAtlas {
             .collect();
         let size = |entry: usize, of: &Entry<'_>| before[entry].unwrap_or(of.light.size().most());
         let mut projections = Vec::with_capacity(entries.len());
+        self.spots.resize(entries.len(), None);
         for (place, entry) in entries.iter().enumerate() {
             projections.push(SlotLight {
-                projection: self.project(frame, entry, size(place, entry))?,
+                projection: self.project(frame, (place, entry), size(place, entry))?,
                 filter: entry.light.filter(),
             });
         }
@@ -89,7 +90,7 @@ impl ShadowAtlas {
             };
             let granted = self.residents.size(slot);
             if let Some(granted) = granted.filter(|&granted| granted != size(place, entry)) {
-                let projection = self.project(frame, entry, granted)?;
+                let projection = self.project(frame, (place, entry), granted)?;
                 self.slots.refit(slot, projection, &self.casters);
             }
         }
@@ -105,16 +106,22 @@ impl ShadowAtlas {
     fn project(
         &mut self,
         frame: &AtlasFrame<'_>,
-        entry: &Entry<'_>,
+        (place, entry): (usize, &Entry<'_>),
         size: u32,
     ) -> Result<LightProjection, ShadowAtlasError> {
         match (entry.light.light(), entry.sun) {
             (Light::Point(light), _) => Ok(LightProjection::Point(light)),
             (Light::Spot(light), _) => {
+                if let Some((_, frame)) = self.spots[place].filter(|(last, _)| *last == light) {
+                    return Ok(LightProjection::Spot(frame));
+                }
                 let near = self.gpu.near_plane().of_spot(&light);
                 let frame = fit_spot(&light, near);
                 match frame.fits_f32() {
-                    true => Ok(LightProjection::Spot(frame)),
+                    true => {
+                        self.spots[place] = Some((light, frame));
+                        Ok(LightProjection::Spot(frame))
+                    }
                     false => Err(ShadowAtlasError::BeyondF32 { index: entry.index }),
                 }
             }

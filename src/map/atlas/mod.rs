@@ -14,17 +14,19 @@ use super::plan::{
     Place, Residents, Rules, Slot, SlotPlan, Slots, Tally, Tile, casters_drawn, choose_tiles,
     follow, longest_wait,
 };
+use super::projection::FlatFrame;
 use super::statistics::{TileState, TileStatistics};
 use super::{Cascades, DepthBounds, MapSettings, StaticLayers};
 use crate::clock::Clock;
 use crate::error::ShadowAtlasError;
 use crate::scene::Casters;
 use crate::submissions::Submissions;
-use crate::{Bias, Radius};
+use crate::{Bias, Radius, SpotLight};
 pub use debug::{AtlasDebug, AtlasDebugDescriptor};
 use descriptor::LEAST_TILE;
 pub use descriptor::{AtlasFrame, AtlasLight, AtlasView, LocalLight, ShadowAtlasDescriptor};
 use lights::{Entry, entries};
+use records::Told;
 pub use statistics::AtlasStatistics;
 use suns::Suns;
 
@@ -75,6 +77,10 @@ pub struct ShadowAtlas {
     of_light: Vec<(usize, usize)>,
     /// For each slot its light and view in the last frame.
     names: Vec<(usize, usize)>,
+    /// For each of those lights and views what receivers were told last.
+    told: Vec<Option<Told>>,
+    /// For each of them the last spot, and where its map lies.
+    spots: Vec<Option<(SpotLight, FlatFrame)>>,
     gpu: AtlasGpu,
     submissions: Submissions,
     /// Whether an encoder was dropped since a frame was last prepared.
@@ -149,6 +155,8 @@ impl ShadowAtlas {
             views: 1,
             of_light: Vec::new(),
             names: Vec::new(),
+            told: Vec::new(),
+            spots: Vec::new(),
             gpu,
             submissions: Submissions::default(),
             encoder_dropped: false,
@@ -449,15 +457,14 @@ impl ShadowAtlas {
     fn record_draws(&mut self, device: &wgpu::Device, frame: &AtlasFrame<'_>) {
         let least = |size: u32| self.static_layers.least_triangles(size, &self.adapter);
         self.gpu.clear_draws();
-        let casters = (&self.casters, frame.casters);
         for (index, slot) in self.slots.iter_mut().enumerate() {
             if slot.pending != 0 {
                 let places = self.residents.places(index);
                 self.gpu
-                    .add_tiles(device, (index, slot), places, &least, casters);
+                    .add_tiles(device, (index, slot), places, &least, &self.casters);
             }
         }
-        self.gpu.finish_draws(device);
+        self.gpu.finish_draws(device, frame.casters);
     }
 
     /// Whether an `encode` would record anything.

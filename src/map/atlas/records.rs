@@ -6,14 +6,42 @@ use crate::map::gpu::{LightRecord, TileTexture, Tiles};
 use crate::map::plan::{Place, Tile};
 use crate::map::projection::{LightProjection, TileProjection};
 
+/// Where in the buffer the record of a light with a position was written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Told {
+    slot: usize,
+    /// Its place in the frame, of so many lights, for so many views.
+    light: usize,
+    lights: usize,
+    views: usize,
+    /// What [`AtlasLights::forgotten`](crate::map::gpu::AtlasLights::forgotten) was.
+    forgotten: u64,
+}
+
 impl ShadowAtlas {
     /// Stages what receivers are told of the lights.
     pub(super) fn write_lights(&mut self, entries: &[Entry<'_>]) {
         let mut next = self.views * self.lights;
+        self.told.resize(entries.len(), None);
         for (place, entry) in entries.iter().enumerate() {
             let Some(index) = self.slots.of_light(place) else {
                 continue;
             };
+            let told = Told {
+                slot: index,
+                light: entry.index,
+                lights: self.lights,
+                views: self.views,
+                forgotten: self.gpu.lights().forgotten(),
+            };
+            // Cascades may blend in another way without lying elsewhere.
+            let last = self.told[place]
+                .replace(told)
+                .filter(|_| entry.sun.is_none());
+            if last == Some(told) && self.slots[index].is_told() {
+                continue;
+            }
+            self.slots[index].tell();
             let (first, further) = self.records(index, entry);
             let views = match entry.view {
                 Some((view, _)) => view..view + 1,
@@ -92,5 +120,66 @@ fn tiles<const N: usize>(places: &[Place], casts: bool) -> Tiles<N> {
             places: places.map(Into::into),
         },
         _ => Tiles::NoCaster,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Affine3A, Vec3};
+
+    use super::*;
+    use crate::mesh::{Adjacency, Caster, CasterMesh};
+    use crate::{AtlasFrame, AtlasLight, PointLight, ShadowAtlasDescriptor, SpotLight, TileSize};
+
+    const RECORD: u64 = size_of::<LightRecord>() as u64;
+
+    #[test]
+    fn receivers_are_told_of_lights_that_others_stand_before_and_of_no_other() {
+        let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+        let positions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let adjacency = Adjacency::new(&positions, &[0, 1, 2]).unwrap();
+        let mesh = CasterMesh::new(&device, &positions, &adjacency).unwrap();
+        let mut casters = vec![Caster::new(mesh, Affine3A::IDENTITY)];
+        let mut atlas = ShadowAtlas::new(&device, &ShadowAtlasDescriptor::default()).unwrap();
+        let mut frame = |lights: &[AtlasLight], casters: &[Caster]| {
+            let frame = AtlasFrame {
+                lights,
+                casters,
+                ..Default::default()
+            };
+            let prepared = atlas.prepare(&device, &queue, &frame);
+            let uploaded = atlas.statistics().uploaded;
+            let mut encoder = device.create_command_encoder(&Default::default());
+            atlas.encode(&mut encoder);
+            queue.submit([encoder.finish()]);
+            prepared.map(|()| uploaded)
+        };
+        // Bytes of a frame, of which another one like it has none.
+        let mut uploaded = |lights: &[AtlasLight], casters: &[Caster]| {
+            let [first, again] = [(); 2].map(|()| frame(lights, casters).unwrap());
+            assert_eq!(again, 0, "nothing changed");
+            first
+        };
+        let of = |light: AtlasLight| light.with_size(TileSize::Fixed(64));
+        let point = |x: f32| of(AtlasLight::new(PointLight::new(Vec3::X * x, 20.0)));
+        let spot = of(AtlasLight::new(SpotLight::new(
+            Vec3::Y * 5.0,
+            Vec3::NEG_Y,
+            0.7,
+            9.0,
+        )));
+        let [a, b, c] = [point(-4.0), point(5.0), spot];
+        assert!(uploaded(&[a, b, c], &casters) > 3 * RECORD);
+        // Two change places: their records do, and nothing is drawn.
+        assert_eq!(uploaded(&[b, a, c], &casters), 2 * RECORD);
+        assert_eq!(uploaded(&[b, c, a], &casters), 2 * RECORD);
+        // One goes: those behind it are told anew, and the place that is left is dark.
+        assert_eq!(uploaded(&[c, a], &casters), 3 * RECORD);
+        // A caster that moves is seen by all lights.
+        casters[0].world_from_object.translation.x = 0.1;
+        assert!(uploaded(&[c, a], &casters) > 0);
+        // After a frame that was refused it is not known what receivers were told.
+        assert!(frame(&[c, point(f32::NAN)], &casters).is_err());
+        assert!(frame(&[c, a], &casters).unwrap() >= 2 * RECORD);
     }
 }

@@ -155,12 +155,12 @@ impl AtlasGpu {
         (index, slot): (usize, &mut Slot),
         places: &[Place],
         layer_least: &impl Fn(u32) -> Option<u64>,
-        casters: (&Casters, &[Caster]),
+        casters: &Casters,
     ) {
         let drawn = slot.pending;
         let size = places.first().map_or(0, |place| place.size);
         if let Some(least) = layer_least(size) {
-            slot.choose_modes(drawn, least, casters.0);
+            slot.choose_modes(drawn, least, casters);
             for (tile, place) in slot.tiles.iter().zip(places) {
                 if matches!(tile.layer.mode(), DrawMode::Build(_)) {
                     let fill = &self.fill;
@@ -172,9 +172,9 @@ impl AtlasGpu {
         self.casting.add((index, slot), drawn, size, casters);
     }
 
-    /// Stages what the listed draws need.
-    pub fn finish_draws(&mut self, device: &wgpu::Device) {
-        self.casting.finish(device);
+    /// Stages what the listed draws of some of all casters need.
+    pub fn finish_draws(&mut self, device: &wgpu::Device, all: &[Caster]) {
+        self.casting.finish(device, all);
     }
 
     /// Forgets what was to be written, and what has been.

@@ -27,6 +27,8 @@ pub(crate) struct AtlasLights {
     texture_revision: u64,
     /// How often it was made anew.
     revision: u64,
+    /// How often it was made anew or nothing taken for written.
+    forgotten: u64,
 }
 
 impl AtlasLights {
@@ -59,6 +61,7 @@ impl AtlasLights {
             limit,
             texture_revision: 0,
             revision: 0,
+            forgotten: 0,
         }
     }
 
@@ -91,6 +94,7 @@ impl AtlasLights {
         self.held = 0;
         self.texture_revision = texture_revision;
         self.revision += 1;
+        self.forgotten += 1;
     }
 
     /// Changes with the buffer.
@@ -117,6 +121,12 @@ impl AtlasLights {
     /// Takes nothing for written.
     pub fn forget(&mut self) {
         self.written.fill(None);
+        self.forgotten += 1;
+    }
+
+    /// Changes when what was written must be written again.
+    pub fn forgotten(&self) -> u64 {
+        self.forgotten
     }
 
     pub fn buffer(&self) -> &wgpu::Buffer {

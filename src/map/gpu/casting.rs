@@ -107,13 +107,7 @@ impl Casting {
     }
 
     /// Lists what some tiles of a slot show, each of `size` texels along a side.
-    pub fn add(
-        &mut self,
-        (index, slot): (usize, &Slot),
-        drawn: u8,
-        size: u32,
-        casters: (&Casters, &[Caster]),
-    ) {
+    pub fn add(&mut self, (index, slot): (usize, &Slot), drawn: u8, size: u32, casters: &Casters) {
         let near_plane = self.near_plane;
         self.draws
             .add((index, slot), drawn, near_plane, self.sides, casters);
@@ -127,12 +121,13 @@ impl Casting {
         }
     }
 
-    /// Stages what the listed draws need, after [`reserve`](Self::reserve) for as many instances.
-    pub fn finish(&mut self, device: &wgpu::Device) {
+    /// Stages what the listed draws of some of all casters need, after [`reserve`](Self::reserve) for as
+    /// many instances.
+    pub fn finish(&mut self, device: &wgpu::Device, all: &[Caster]) {
         self.pipelines
             .make(device, self.draws.iter().map(Draw::key));
-        self.instances
-            .write(&mut self.uploads, self.draws.instances());
+        let (count, instances) = (self.draws.instance_count(), self.draws.instances(all));
+        self.instances.write(&mut self.uploads, count, instances);
     }
 
     /// Forgets what was to be written, and what has been.

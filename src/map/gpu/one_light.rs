@@ -160,13 +160,13 @@ impl OneLightGpu {
         device: &wgpu::Device,
         slot: &mut Slot,
         layer_least: Option<u64>,
-        casters: (&Casters, &[Caster]),
+        (casters, all): (&Casters, &[Caster]),
     ) {
         self.casting.clear();
         let drawn = slot.pending;
         if drawn != 0 {
             if let Some(least) = layer_least {
-                slot.choose_modes(drawn, least, casters.0);
+                slot.choose_modes(drawn, least, casters);
                 for (bit, tile) in slot.tiles.iter().enumerate() {
                     let built = matches!(tile.layer.mode(), DrawMode::Build(_));
                     if drawn & 1 << bit != 0 && built {
@@ -176,7 +176,7 @@ impl OneLightGpu {
             }
             self.casting.add((0, slot), drawn, self.size, casters);
         }
-        self.casting.finish(device);
+        self.casting.finish(device, all);
     }
 
     /// Stages what receivers are told of the light.

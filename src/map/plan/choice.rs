@@ -23,6 +23,11 @@ pub(crate) struct SlotPlan {
 impl SlotPlan {
     /// What becomes of a tile.
     pub fn state(&self, slot: &Slot, tile: usize) -> TileState {
+        self.state_where(slot.empty(), tile)
+    }
+
+    /// The same, given the empty tiles.
+    fn state_where(&self, empty: u8, tile: usize) -> TileState {
         let has = |mask: u8| mask & 1 << tile != 0;
         if has(self.drawn) {
             TileState::Rendered
@@ -30,7 +35,7 @@ impl SlotPlan {
             TileState::Postponed
         } else if has(self.hidden) {
             TileState::Hidden
-        } else if has(slot.empty()) {
+        } else if has(empty) {
             TileState::Empty
         } else {
             TileState::Kept
@@ -98,12 +103,16 @@ pub(crate) fn choose_tiles(
 pub(crate) fn follow(plans: &[SlotPlan], slots: &mut Slots) {
     for (slot, plan) in slots.iter_mut().zip(plans) {
         slot.schedule(plan.wanted, plan.drawn);
+        if plan.wanted | plan.hidden == 0 {
+            slot.settle();
+        }
     }
 }
 
 /// Casters on the tiles that are drawn, each counted once for every tile.
 pub(crate) fn casters_drawn(plans: &[SlotPlan], slots: &Slots) -> usize {
-    let tiles = slots.iter().zip(plans).flat_map(|(slot, plan)| {
+    let pending = slots.iter().zip(plans).filter(|(_, plan)| plan.drawn != 0);
+    let tiles = pending.flat_map(|(slot, plan)| {
         let drawn = |(bit, _): &(usize, _)| plan.drawn & 1 << bit != 0;
         slot.tiles.iter().enumerate().filter(drawn)
     });
@@ -135,11 +144,12 @@ impl Tally {
             let (slot, plan) = (&slots[index], &plans[index]);
             tally.casting += slot.casting as u32;
             tally.not_casting += (casters - slot.casting) as u32;
-            for (bit, tile) in slot.tiles.iter().enumerate() {
-                let state = plan.state(slot, bit);
+            let empty = slot.empty();
+            for bit in 0..slot.tiles.len() {
+                let state = plan.state_where(empty, bit);
                 tally.count(state);
                 if state == TileState::Rendered {
-                    let mode = tile.layer.mode();
+                    let mode = slot.tiles[bit].layer.mode();
                     tally.copied += u32::from(mode != DrawMode::Whole);
                     tally.layers_drawn += u32::from(matches!(mode, DrawMode::Build(_)));
                 }

@@ -1,6 +1,6 @@
 //! The casters on a tile, and what its texels show of them.
 
-use crate::scene::Record;
+use crate::scene::{Block, Record};
 
 /// Casters, as a sum that their order does not change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,6 +21,12 @@ impl Content {
         self.digest = self.digest.wrapping_add(record.digest);
         self.casters += 1;
         self.triangles += u64::from(record.triangles);
+    }
+
+    pub fn add_block(&mut self, block: &Block) {
+        self.digest = self.digest.wrapping_add(block.digest);
+        self.casters += Block::SIZE as u32;
+        self.triangles += block.triangles;
     }
 
     pub fn remove(&mut self, record: &Record) {

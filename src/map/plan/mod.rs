@@ -11,6 +11,7 @@ mod schedule;
 mod sizing;
 mod slot;
 mod slots;
+mod sorting;
 mod static_layer;
 mod tile_masks;
 mod visibility;
@@ -24,4 +25,7 @@ pub(crate) use schedule::longest_wait;
 pub use sizing::TileSize;
 pub(crate) use slot::{Slot, Tile};
 pub(crate) use slots::Slots;
+#[cfg(test)]
+pub(crate) use sorting::Reached;
 pub(crate) use static_layer::DrawMode;
+pub(crate) use tile_masks::tiles_of;

@@ -1,8 +1,9 @@
 //! One light's place in a map: which casters its tiles hold, and which they were drawn with.
 
 use super::content::{Content, Signature, Texels};
+use super::sorting::{Reached, Sorting, Sum};
 use super::static_layer::{DrawMode, StaticLayer};
-use super::tile_masks::TileMasks;
+use super::tile_masks::{TileMasks, tiles_of};
 use crate::map::projection::{LightProjection, SlotLight, TileProjection, TileSides};
 use crate::scene::{Casters, Change, Record};
 
@@ -55,6 +56,17 @@ pub(crate) struct Slot {
     pub cull: bool,
     /// Tiles that the next encode must draw.
     pub pending: u8,
+    /// Set if the texels of all tiles were found to be right and nothing has come since: then there is
+    /// nothing to look for again.
+    settled: Option<Settled>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Settled {
+    /// The tiles without a caster.
+    empty: u8,
+    /// Whether receivers were told since.
+    told: bool,
 }
 
 impl Slot {
@@ -102,6 +114,7 @@ impl Slot {
 
     /// Learns that a tile was drawn without some of its casters, and the layer under it, too.
     pub fn spoil(&mut self, tile: usize) {
+        self.settled = None;
         let tile = &mut self.tiles[tile];
         tile.texels.forget();
         tile.layer = StaticLayer::default();
@@ -109,6 +122,7 @@ impl Slot {
 
     /// Nothing is known of the texels any more: they are new.
     pub fn forget_texels(&mut self) {
+        self.settled = None;
         for tile in &mut self.tiles {
             tile.texels.forget();
             tile.shown = None;
@@ -126,6 +140,7 @@ impl Slot {
     /// Nothing is known of the texels any more, nor of the layers under them, and nothing is to be
     /// drawn on those. Receivers are given the light that they were.
     pub fn doubt_texels(&mut self) {
+        self.settled = None;
         self.pending = 0;
         for tile in &mut self.tiles {
             tile.texels.forget();
@@ -133,9 +148,10 @@ impl Slot {
         }
     }
 
-    /// Lets go of all casters, before [`set_light`](Self::set_light) sorts them anew for a light, if
-    /// there is a next one. If it is like the last one, receivers still know the tiles.
+    /// Lets go of its light and all casters, before [`set_light`](Self::set_light) for the next light, if
+    /// there is one. If it is like the last one, receivers still know the tiles.
     pub fn leave_light(&mut self, next: Option<&LightProjection>) {
+        self.settled = None;
         let before = self.current.take();
         let like = before
             .zip(next)
@@ -154,18 +170,36 @@ impl Slot {
         }
     }
 
-    /// Sorts all casters for a light, of which `reached` are those that it may reach.
-    pub fn set_light(&mut self, of: SlotLight, casters: &[Record], reached: &[u32]) {
+    /// Whether it is worth asking for those in range before sorting: not for a light that most were on.
+    pub fn finds_few(&self, casters: &Casters) -> bool {
+        self.cull && 2 * self.casting <= casters.records().len()
+    }
+
+    /// Sorts all casters for a light.
+    pub fn set_light(&mut self, of: SlotLight, casters: &Casters, reached: Reached<'_>) {
         let sides = TileSides::new(&of.projection);
-        let all = of.projection.all();
         self.current = Some(Current { of, sides });
-        self.masks.reset(casters.len());
-        for &index in reached {
-            let record = &casters[index as usize];
-            let mask = self.touched_by(record, all);
-            self.masks.set(index as usize, mask);
-            self.casting += usize::from(mask != 0);
-            self.each(mask, record, Content::add);
+        self.sort(casters, reached);
+    }
+
+    /// Sorts all casters for the light it has.
+    pub fn sort(&mut self, casters: &Casters, reached: Reached<'_>) {
+        let Some(current) = &self.current else { return };
+        let mut sorting = Sorting {
+            filter: current.of.filter,
+            all: current.of.projection.all(),
+            sides: self.cull.then_some(&current.sides),
+            masks: &mut self.masks,
+            sums: Default::default(),
+            casting: 0,
+        };
+        sorting.sort(casters, reached);
+        let Sorting { sums, casting, .. } = sorting;
+        self.settled = None;
+        self.casting = casting;
+        for (tile, Sum { content, change }) in self.tiles.iter_mut().zip(sums) {
+            tile.content = content;
+            tile.change += change;
         }
     }
 
@@ -188,13 +222,16 @@ impl Slot {
         if before | after == 0 {
             return; // most casters are far from most lights
         }
+        self.settled = None;
+        self.casting += usize::from(after != 0);
+        self.casting -= usize::from(before != 0);
         if let Some(old) = change.old {
-            self.casting -= usize::from(before != 0);
             self.each(before, old, Content::remove);
         }
         if let Some(new) = change.new {
-            self.masks.set(change.index, after);
-            self.casting += usize::from(after != 0);
+            if after != before {
+                self.masks.set(change.index, after);
+            }
             self.each(after, new, Content::add);
         }
     }
@@ -212,13 +249,12 @@ impl Slot {
         }
     }
 
-    fn each(&mut self, mask: u8, record: &Record, change: fn(&mut Content, &Record)) {
+    fn each(&mut self, mask: u8, record: &Record, change: impl Fn(&mut Content, &Record)) {
         let Some(current) = &self.current else { return };
-        for (bit, tile) in self.tiles.iter_mut().enumerate() {
-            if mask & 1 << bit != 0 {
-                change(&mut tile.content, record);
-                tile.change += current.sides.share(bit, &record.bounds);
-            }
+        for bit in tiles_of(mask) {
+            let tile = &mut self.tiles[bit];
+            change(&mut tile.content, record);
+            tile.change += current.sides.share(bit, &record.bounds);
         }
     }
 
@@ -228,6 +264,9 @@ impl Slot {
 
     /// The tiles whose texels are not what they should be.
     pub fn stale(&self) -> u8 {
+        if self.settled.is_some() {
+            return 0;
+        }
         self.mask_of(|bit, tile| !tile.texels.show(&self.wanted(bit)))
     }
 
@@ -255,7 +294,28 @@ impl Slot {
     }
 
     pub fn empty(&self) -> u8 {
-        self.mask_of(|_, tile| tile.content.is_empty())
+        let found = || self.mask_of(|_, tile| tile.content.is_empty());
+        self.settled.map_or_else(found, |settled| settled.empty)
+    }
+
+    /// Learns, after [`schedule`](Self::schedule), that no tile is drawn, nor waits to be.
+    pub fn settle(&mut self) {
+        if self.settled.is_none() {
+            let (empty, told) = (self.empty(), false);
+            self.settled = Some(Settled { empty, told });
+        }
+    }
+
+    /// Learns that receivers were told of it.
+    pub fn tell(&mut self) {
+        if let Some(settled) = &mut self.settled {
+            settled.told = true;
+        }
+    }
+
+    /// Whether all is as receivers were told.
+    pub fn is_told(&self) -> bool {
+        self.settled.is_some_and(|settled| settled.told)
     }
 
     fn mask_of(&self, is: impl Fn(usize, &Tile) -> bool) -> u8 {
@@ -265,6 +325,9 @@ impl Slot {
 
     /// Decides which of the tiles that should be drawn the next `encode` draws.
     pub fn schedule(&mut self, wanted: u8, drawn: u8) {
+        if self.settled.is_some() && wanted | drawn == 0 {
+            return; // all is as the last call left it
+        }
         let joint = self.light().is_none_or(LightProjection::is_joint);
         for bit in 0..self.tiles.len() {
             let (signature, projection) = (self.wanted(bit), self.projection(bit));
@@ -323,5 +386,63 @@ impl Slot {
             DrawMode::Copy(until) if record.since <= until => (false, false),
             DrawMode::Whole | DrawMode::Copy(_) | DrawMode::Build(_) => (true, false),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::PointLight;
+
+    fn light(range: f32) -> SlotLight {
+        LightProjection::Point(PointLight::new(Vec3::ZERO, range)).into()
+    }
+
+    /// A slot whose empty tiles were drawn and found to be right, and of which receivers know.
+    fn told() -> Slot {
+        let mut slot = Slot::new(true);
+        slot.leave_light(Some(&light(5.0).projection));
+        slot.set_light(light(5.0), &Casters::default(), Reached::All);
+        let all = slot.all();
+        slot.schedule(all, all);
+        slot.encoded(all);
+        slot.schedule(0, 0);
+        slot.settle();
+        slot.tell();
+        assert!(slot.is_told() && slot.stale() == 0 && slot.empty() == all);
+        slot
+    }
+
+    #[test]
+    fn a_slot_that_settled_notices_all_that_may_come() {
+        type Come = fn(&mut Slot);
+        let changes: [(&str, Come); 6] = [
+            ("texels forgotten", Slot::forget_texels),
+            ("texels freed", Slot::texels_freed),
+            ("texels doubted", Slot::doubt_texels),
+            ("a tile spoiled", |slot| slot.spoil(2)),
+            ("another light", |slot| {
+                slot.leave_light(Some(&light(6.0).projection));
+                slot.set_light(light(6.0), &Casters::default(), Reached::All);
+            }),
+            ("sorted again", |slot| {
+                slot.sort(&Casters::default(), Reached::All)
+            }),
+        ];
+        for (name, change) in changes {
+            let mut slot = told();
+            change(&mut slot);
+            assert!(!slot.is_told(), "{name}");
+            // It is settled anew, and receivers are to be told anew.
+            slot.settle();
+            assert!(!slot.is_told(), "{name}");
+        }
+        // What is as it was is no change: nothing is looked for again.
+        let mut slot = told();
+        slot.schedule(0, 0);
+        slot.settle();
+        assert!(slot.is_told());
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::slot::Slot;
+use super::sorting::Reached;
 use crate::map::projection::{LightProjection, SlotLight};
 use crate::scene::CasterFilter;
 use crate::scene::Casters;
@@ -62,29 +63,41 @@ impl Slots {
             wanted[slot] = Some(light);
         }
         self.order = order;
-        let changes = casters.changes();
-        let anew = std::mem::take(&mut self.behind) || changes.len() * lights.len() > MANY;
-        // Those that change are sorted out by what they reach, the others by what changed.
-        let mut changed = vec![false; self.slots.len()];
-        for ((slot, light), changed) in self.slots.iter_mut().zip(&wanted).zip(&mut changed) {
-            *changed = slot.slot_light() != *light || anew && light.is_some();
-            if *changed {
-                slot.leave_light(light.map(|light| &light.projection));
-            }
-        }
-        for change in changes {
-            self.slots.iter_mut().for_each(|slot| slot.apply(&change));
-        }
-        for ((slot, light), changed) in self.slots.iter_mut().zip(wanted).zip(changed) {
-            let Some(light) = light.filter(|_| changed) else {
+        let changes = casters.changes().len();
+        // Who moved is not asked where most have.
+        let most = 2 * changes > casters.records().len();
+        let anew = std::mem::take(&mut self.behind) || most || changes * lights.len() > MANY;
+        for (slot, light) in self.slots.iter_mut().zip(wanted) {
+            let same = slot.slot_light() == light;
+            let Some(light) = light else {
+                if !same {
+                    slot.leave_light(None);
+                }
                 continue;
             };
-            self.reached.clear();
-            match light.projection.sphere().filter(|_| slot.cull) {
-                Some((centre, range)) => casters.within(centre, range, &mut self.reached),
-                None => self.reached.extend(0..casters.records().len() as u32),
+            if same && !anew {
+                casters.changes().for_each(|change| slot.apply(&change));
+                continue;
             }
-            slot.set_light(light.clone(), casters.records(), &self.reached);
+            let sphere = light
+                .projection
+                .sphere()
+                .filter(|_| slot.finds_few(casters));
+            if !same {
+                slot.leave_light(Some(&light.projection));
+            }
+            let reached = match sphere {
+                Some((centre, range)) => {
+                    self.reached.clear();
+                    casters.within(centre, range, &mut self.reached);
+                    Reached::Some(&self.reached)
+                }
+                None => Reached::All,
+            };
+            match same {
+                true => slot.sort(casters, reached),
+                false => slot.set_light(light.clone(), casters, reached),
+            }
         }
     }
 
@@ -94,10 +107,8 @@ impl Slots {
         let filter = slot.slot_light().map_or(CasterFilter::ALL, |of| of.filter);
         let light = SlotLight { projection, filter };
         if slot.slot_light() != Some(&light) {
-            self.reached.clear();
-            self.reached.extend(0..casters.records().len() as u32);
             slot.leave_light(Some(&light.projection));
-            slot.set_light(light, casters.records(), &self.reached);
+            slot.set_light(light, casters, Reached::All);
         }
     }
 
@@ -205,7 +216,7 @@ mod tests {
             let mut slot = Slot::new(true);
             if let Some(light) = x.map(light) {
                 slot.leave_light(Some(&light.projection));
-                slot.set_light(light, &[], &[]);
+                slot.set_light(light, &Casters::default(), Reached::All);
             }
             slot
         };

@@ -1,6 +1,11 @@
 //! For each caster the tiles of a light that it touches, with a short way to those that touch any.
 
+use crate::scene::Block;
+
 const BITS: usize = u64::BITS as usize;
+
+/// Those of one block in a word.
+const BLOCK_BITS: u64 = (1 << Block::SIZE) - 1;
 
 /// Masks of tiles by caster. Most are 0, so a bit says which are not, and another for each 64 of
 /// those bits: what is found or forgotten takes a time that depends on how many touch a tile, and
@@ -25,6 +30,47 @@ impl TileMasks {
         put(&mut self.any[index / BITS / BITS], index / BITS % BITS, any);
     }
 
+    /// Sets a mask that is 0.
+    pub fn add(&mut self, index: usize, mask: u8) {
+        self.masks[index] = mask;
+        let some = u64::from(mask != 0);
+        self.some[index / BITS] |= some << (index % BITS);
+        self.any[index / BITS / BITS] |= some << (index / BITS % BITS);
+    }
+
+    /// Sets the masks of a block, which are 0, to the same.
+    pub fn add_block(&mut self, block: usize, mask: u8) {
+        let first = block * Block::SIZE;
+        self.masks[first..first + Block::SIZE].fill(mask);
+        let some = u64::from(mask != 0);
+        self.some[first / BITS] |= (some * BLOCK_BITS) << (first % BITS);
+        self.any[first / BITS / BITS] |= some << (first / BITS % BITS);
+    }
+
+    /// What all masks of a block are, if they are the same.
+    pub fn of_block(&self, block: usize) -> Option<u8> {
+        let masks = self.masks.as_chunks::<{ Block::SIZE }>().0.get(block)?;
+        (*masks == [masks[0]; Block::SIZE]).then_some(masks[0])
+    }
+
+    /// The blocks of which any caster touches a tile, in order, and the casters of each that do. The last
+    /// need not be a whole one.
+    pub fn touching_blocks(&self) -> impl Iterator<Item = (usize, impl Iterator<Item = usize>)> {
+        let words = self.any.iter().copied().enumerate().flat_map(bits);
+        let blocks = words.flat_map(|at| {
+            let word = self.some[at];
+            let parts = (0..BITS / Block::SIZE).map(move |part| {
+                let shift = part * Block::SIZE;
+                (at * BITS + shift, word >> shift & BLOCK_BITS)
+            });
+            parts.filter(|(_, bits)| *bits != 0)
+        });
+        blocks.map(|(first, word)| {
+            let casters = bits((0, word)).map(move |bit| first + bit);
+            (first / Block::SIZE, casters)
+        })
+    }
+
     pub fn push(&mut self, mask: u8) {
         let index = self.masks.len();
         self.resize(index + 1);
@@ -42,10 +88,14 @@ impl TileMasks {
     /// Sets all masks to 0, and how many there are.
     pub fn reset(&mut self, count: usize) {
         let Self { masks, some, any } = self;
+        let count_before = masks.len();
         for high in any.iter_mut().enumerate().flat_map(take_bits) {
-            for index in take_bits((high, &mut some[high])) {
-                masks[index] = 0;
+            let first = high * BITS;
+            match some[high].count_ones() {
+                0..8 => bits((high, some[high])).for_each(|index| masks[index] = 0),
+                _ => masks[first..(first + BITS).min(count_before)].fill(0),
             }
+            some[high] = 0;
         }
         self.resize(count);
     }
@@ -68,6 +118,11 @@ impl TileMasks {
 
 fn put(word: &mut u64, bit: usize, on: bool) {
     *word = *word & !(1 << bit) | u64::from(on) << bit;
+}
+
+/// The tiles of a mask.
+pub(crate) fn tiles_of(mask: u8) -> impl Iterator<Item = usize> {
+    bits((0, u64::from(mask)))
 }
 
 /// The places of the bits of word number `at`, counted through all words.
@@ -93,6 +148,7 @@ mod tests {
     #[derive(Clone, Debug)]
     enum Step {
         Set(usize, u8),
+        Add(usize, u8),
         Push(u8),
         Pop,
         Reset(usize),
@@ -101,6 +157,7 @@ mod tests {
     fn step() -> impl Strategy<Value = Step> {
         prop_oneof![
             8 => (0..20_000_usize, 0..64_u8).prop_map(|(at, mask)| Step::Set(at, mask)),
+            4 => (0..20_000_usize, 0..64_u8).prop_map(|(at, mask)| Step::Add(at, mask)),
             2 => (0..64_u8).prop_map(Step::Push),
             2 => Just(Step::Pop),
             1 => (0..10_000_usize).prop_map(Step::Reset),
@@ -121,7 +178,14 @@ mod tests {
             let mut list = vec![0; start];
             for step in steps {
                 match step {
-                    Step::Set(..) if list.is_empty() => {}
+                    Step::Set(..) | Step::Add(..) if list.is_empty() => {}
+                    Step::Add(at, mask) => {
+                        let at = at % list.len();
+                        if list[at] == 0 {
+                            list[at] = mask;
+                            masks.add(at, mask);
+                        }
+                    }
                     Step::Set(at, mask) => {
                         let at = at % list.len();
                         list[at] = mask;

@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
-use crate::scene::{CasterBounds, HalfSpace};
+use crate::PointLight;
+use crate::scene::CasterBounds;
 
 /// A face of a cube map, in the order of its array layers. Exhaustive: there are six.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -75,43 +76,95 @@ impl CubeFace {
 /// A mask of all six faces.
 pub(crate) const ALL_FACES: u8 = 0b11_1111;
 
-/// A mask of the faces whose frusta a caster may touch, given relative to the light: 0 if it lies
-/// beyond the range.
-pub(crate) fn touched_faces(caster: &CasterBounds, range: f64) -> u8 {
-    let gap = (caster.centre.abs() - caster.half).max(DVec3::ZERO);
-    if gap.length_squared() > range * range || caster.centre.length() - caster.radius > range {
+/// A mask of the faces whose frusta a caster may touch: 0 if it lies beyond the range.
+pub(crate) fn touched_faces(light: &PointLight, caster: &CasterBounds) -> u8 {
+    // Made here, not handed over: what was just stored in pieces is slow to load as a whole.
+    let centre = caster.centre - light.position.as_dvec3();
+    let range = f64::from(light.range);
+    let gap = (centre.abs() - caster.half).max(DVec3::ZERO);
+    let reach = range + caster.radius;
+    if gap.length_squared() > range * range || centre.length_squared() > reach * reach {
         return 0;
     }
-    CubeFace::ALL
-        .into_iter()
-        .filter(|face| touches(caster, *face))
-        .fold(0, |mask, face| mask | face.bit())
+    // The planes between faces lie diagonally between two axes, and each is a side of four faces.
+    let (DVec3 { x, y, z }, half) = (centre, caster.half);
+    let beside = |a: f64, b: f64, half: f64| {
+        // How far bounds extend along a diagonal, times its length.
+        let room = half.min(caster.radius * std::f64::consts::SQRT_2);
+        let (sum, difference) = (a + b, a - b);
+        let sides = [
+            sum >= -room,
+            sum <= room,
+            difference >= -room,
+            difference <= room,
+        ];
+        usize::from(sides[0])
+            | usize::from(sides[1]) << 1
+            | usize::from(sides[2]) << 2
+            | usize::from(sides[3]) << 3
+    };
+    const BESIDE: [[u8; 16]; 3] = [
+        faces_beside(CubeFace::PositiveX, CubeFace::PositiveY),
+        faces_beside(CubeFace::PositiveX, CubeFace::PositiveZ),
+        faces_beside(CubeFace::PositiveY, CubeFace::PositiveZ),
+    ];
+    BESIDE[0][beside(x, y, half.x + half.y)]
+        & BESIDE[1][beside(x, z, half.x + half.z)]
+        & BESIDE[2][beside(y, z, half.y + half.z)]
 }
 
-/// Whether any point may satisfy `|right| <= forward` and `|up| <= forward`.
-fn touches(caster: &CasterBounds, face: CubeFace) -> bool {
-    let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
-    let sides = [forward - right, forward + right, forward - up, forward + up];
-    sides.into_iter().all(|normal| {
-        let side = HalfSpace {
-            normal,
-            length: std::f64::consts::SQRT_2,
-            offset: 0.0,
-        };
-        side.touches(caster)
-    })
+/// The faces that may be touched where some of these hold of two coordinates along the axes of two faces:
+/// their sum may be 0 or more, or 0 or less (bits 0 and 1), as may their difference (bits 2 and 3).
+const fn faces_beside(first: CubeFace, second: CubeFace) -> [u8; 16] {
+    let (first, second) = (first as u8, second as u8);
+    let mut faces = [0; 16];
+    let mut holds = 0;
+    while holds < 16 {
+        // Forward of each face and backward (the next one), the sides that it has of the four.
+        let needs = [
+            (first, 0b0101),
+            (first + 1, 0b1010),
+            (second, 0b1001),
+            (second + 1, 0b0110),
+        ];
+        let mut mask = ALL_FACES;
+        let mut of = 0;
+        while of < needs.len() {
+            let (face, sides) = needs[of];
+            if holds as u8 & sides != sides {
+                mask &= !(1 << face);
+            }
+            of += 1;
+        }
+        faces[holds] = mask;
+        holds += 1;
+    }
+    faces
 }
 
-/// Whether the light, and what lies before the near planes of its faces, is surely outside a caster
-/// given relative to the light.
-pub(crate) fn clear_of_near(caster: &CasterBounds, near: f64) -> bool {
-    let gap = caster.centre.abs() - caster.half;
+/// The same for every caster within some bounds, if one face has them all to itself.
+pub(crate) fn face_of_all(light: &PointLight, around: &CasterBounds) -> Option<u8> {
+    let mask = touched_faces(light, around);
+    let range = f64::from(light.range);
+    let farthest = (around.centre - light.position.as_dvec3()).abs() + around.half;
+    let all_in_range = || farthest.length_squared() <= range * range;
+    (mask == 0 || mask.is_power_of_two() && all_in_range()).then_some(mask)
+}
+
+/// Whether a light, and what lies before the near planes of its faces, is surely outside a caster.
+pub(crate) fn clear_of_near(light: &PointLight, caster: &CasterBounds, near: f64) -> bool {
+    let gap = (caster.centre - light.position.as_dvec3()).abs() - caster.half;
     gap.max_element() > near * (1.0 + 1e-6)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::HalfSpace;
+
+    fn light(range: f32) -> PointLight {
+        PointLight::new(Vec3::ZERO, range)
+    }
 
     #[test]
     fn the_frames_are_those_of_cube_sampling() {
@@ -151,7 +204,7 @@ mod tests {
                 half,
                 radius: half.length(),
             };
-            let mask = touched_faces(&bounds, 100.0);
+            let mask = touched_faces(&light(100.0), &bounds);
             culled += 6 - mask.count_ones();
             for _ in 0..20 {
                 let point = centre + half * DVec3::new(random(), random(), random());
@@ -169,15 +222,56 @@ mod tests {
     }
 
     #[test]
+    fn faces_are_those_that_their_four_planes_leave() {
+        let touches = |caster: &CasterBounds, face: CubeFace| {
+            let [right, up, forward] = face.axes().map(|axis| axis.as_dvec3());
+            let sides = [forward - right, forward + right, forward - up, forward + up];
+            sides
+                .into_iter()
+                .all(|normal| HalfSpace::new(normal, 0.0).touches(caster))
+        };
+        let by_planes = |caster: &CasterBounds| {
+            let touched = CubeFace::ALL
+                .into_iter()
+                .filter(|face| touches(caster, *face));
+            touched.fold(0, |mask, face| mask | face.bit())
+        };
+        let mut state = 5u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 23) - 1.0
+        };
+        let mut turned_round = 0;
+        for _ in 0..10_000 {
+            let centre = DVec3::new(random(), random(), random());
+            let half = DVec3::new(random(), random(), random()).abs() * 0.5;
+            // A sphere as large as the box needs, or one that is tighter than the box at its corners.
+            let radius = half.length() * if random() > 0.0 { 1.0 } else { 0.7 };
+            let caster = CasterBounds {
+                centre,
+                half,
+                radius,
+            };
+            let touched = |caster: &CasterBounds| touched_faces(&light(9.0), caster);
+            assert_eq!(touched(&caster), by_planes(&caster), "{caster:?}");
+            // The broken twin: seen from the other side.
+            let centre = -centre;
+            let twin = CasterBounds { centre, ..caster };
+            turned_round += usize::from(touched(&twin) != by_planes(&caster));
+        }
+        assert!(turned_round > 5000, "{turned_round}");
+    }
+
+    #[test]
     fn bounds_that_reach_the_near_cube_are_not_clear_of_it() {
         let at = |x: f64| CasterBounds {
             centre: DVec3::new(x, 0.0, 0.0),
             half: DVec3::ONE,
             radius: 1.8,
         };
-        assert!(clear_of_near(&at(1.2), 0.1));
-        assert!(!clear_of_near(&at(1.05), 0.1));
-        assert!(!clear_of_near(&at(0.0), 0.1));
+        assert!(clear_of_near(&light(9.0), &at(1.2), 0.1));
+        assert!(!clear_of_near(&light(9.0), &at(1.05), 0.1));
+        assert!(!clear_of_near(&light(9.0), &at(0.0), 0.1));
     }
 
     #[test]
@@ -187,7 +281,7 @@ mod tests {
             half: DVec3::ONE,
             radius: 1.8,
         };
-        assert_eq!(touched_faces(&bounds, 6.8), 0);
-        assert_ne!(touched_faces(&bounds, 7.0), 0);
+        assert_eq!(touched_faces(&light(6.8), &bounds), 0);
+        assert_ne!(touched_faces(&light(7.0), &bounds), 0);
     }
 }

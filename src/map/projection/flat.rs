@@ -102,6 +102,13 @@ impl FlatFrustum {
         self.sides.iter().all(|side| side.touches(&caster)) && self.range.is_none_or(in_range)
     }
 
+    /// Whether all points of some bounds do.
+    pub fn holds_all(&self, bounds: &CasterBounds) -> bool {
+        let caster = bounds.relative_to(self.origin);
+        let in_range = |range| caster.centre.length() + caster.radius <= range;
+        self.sides.iter().all(|side| side.holds(&caster)) && self.range.is_none_or(in_range)
+    }
+
     /// About the share of the map's area that a caster covers, up to 1.
     pub fn share(&self, caster: &CasterBounds) -> f64 {
         let distance = match self.range {

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Mat4, Vec3};
 
-use super::cube::{ALL_FACES, CubeFace, clear_of_near, touched_faces};
+use super::cube::{ALL_FACES, CubeFace, clear_of_near, face_of_all, touched_faces};
 use super::flat::{FlatFrame, FlatFrustum};
 use super::near::NearPlane;
 use crate::PointLight;
@@ -49,8 +49,7 @@ impl TileProjection {
     pub fn is_clear_of(&self, caster: &CasterBounds, near_plane: NearPlane) -> bool {
         match self {
             Self::Face(light) => {
-                let near = f64::from(near_plane.of_point(light));
-                clear_of_near(&caster.relative_to(light.position), near)
+                clear_of_near(light, caster, f64::from(near_plane.of_point(light)))
             }
             Self::Flat(frame) => frame.is_clear_of(caster),
         }
@@ -167,16 +166,31 @@ impl TileSides {
     /// A mask of the tiles that a caster may touch.
     pub fn touched_by(&self, record: &Record) -> u8 {
         match self {
-            Self::Faces(light) => {
-                let bounds = record.bounds.relative_to(light.position);
-                touched_faces(&bounds, f64::from(light.range))
-            }
+            Self::Faces(light) => touched_faces(light, &record.bounds),
             Self::Frusta(frusta) => frusta.iter().enumerate().fold(0, |mask, (tile, frustum)| {
                 let holds = frustum
                     .as_ref()
                     .is_some_and(|frustum| frustum.holds(record));
                 mask | u8::from(holds) << tile
             }),
+        }
+    }
+
+    /// The same for every caster within some bounds, if it is the same for all.
+    pub fn touched_by_all_in(&self, around: &CasterBounds) -> Option<u8> {
+        match self {
+            Self::Faces(light) => face_of_all(light, around),
+            Self::Frusta(frusta) => {
+                let mut mask = 0;
+                for (tile, frustum) in frusta.iter().enumerate() {
+                    match frustum {
+                        Some(frustum) if frustum.holds_all(around) => mask |= 1 << tile,
+                        Some(frustum) if frustum.touches(around) => return None,
+                        _ => {}
+                    }
+                }
+                Some(mask)
+            }
         }
     }
 

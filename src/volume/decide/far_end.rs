@@ -66,16 +66,9 @@ impl Ends {
         let eye = corners.map(DVec3::length).fold(0.0, f64::max);
         let told = of.receivers;
         let told = told.map(|bounds| [bounds.min, bounds.max].map(|corner| corner.as_dvec3()));
-        let reached = reach.bounds();
-        let both = match (told, reached) {
-            (Some([min, max]), Some([low, high])) => Some([min.max(low), max.min(high)]),
-            (one, other) => one.or(other),
-        };
-        let reaches_nothing = both.is_some_and(|[min, max]| min.cmpgt(max).any());
-        let receivers = match reaches_nothing {
-            true => told,
-            false => both,
-        };
+        let reached = reach.part_of(told);
+        let reaches_nothing = reached.is_none();
+        let receivers = reached.unwrap_or(told);
         let receivers = receivers.map(|[min, max]| {
             let slack = displacement(min.abs().max(max.abs()).length() + eye);
             [min - slack, max + slack]

@@ -92,6 +92,17 @@ impl Reach {
         Some([self.light - of(0), self.light + of(1)])
     }
 
+    /// What of a box lies in the box around it, either being endless without bounds; `None` if nothing does.
+    pub fn part_of(&self, told: Option<[DVec3; 2]>) -> Option<Option<[DVec3; 2]>> {
+        match (told, self.bounds()) {
+            (Some([min, max]), Some([low, high])) => {
+                let (min, max) = (min.max(low), max.min(high));
+                min.cmple(max).all().then_some(Some([min, max]))
+            }
+            (one, other) => Some(one.or(other)),
+        }
+    }
+
     /// How far it goes in a direction of length 1, as a part of its range.
     fn along(&self, direction: DVec3) -> f64 {
         let Some(Cone { axis, half_angle }) = self.cone else {

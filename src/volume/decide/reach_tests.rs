@@ -17,7 +17,7 @@ fn situation(cone: Option<VolumeCone>) -> Situation {
         range: Some(RANGE),
         cone,
         filter: CasterFilter::ALL,
-        view: View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap(),
+        views: vec![View::new(projection * camera, DepthConvention::InfiniteReverse).unwrap()],
         target_size: None,
         receivers: None,
     }

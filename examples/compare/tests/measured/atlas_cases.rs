@@ -111,10 +111,9 @@ fn wrong(gpu: &Gpu, truth: &Frames, drawn: &Frames, technique: &str, change: Mod
 #[test]
 fn shaders_that_read_what_is_not_a_lights_own_fail() {
     let Some(gpu) = Gpu::for_test() else { return };
-    let broken: [(&str, &str, Module); 12] = [
+    let broken: [(&str, &str, Module); 11] = [
         ("Tiles beside", "atlas-hard", beyond_flat_tiles),
         ("Tiles beside", "atlas-5x5", beyond_flat_tiles),
-        ("Tiles beside", "atlas-2x2", beyond_faces),
         ("Tiles beside", "atlas-5x5", beyond_faces),
         ("Memory", "atlas-2x2", beside_the_tile),
         ("A light becomes", "atlas-2x2", beside_the_tile),
@@ -131,6 +130,7 @@ fn shaders_that_read_what_is_not_a_lights_own_fail() {
             .iter()
             .map(|frames| wrong(&gpu, frames, frames, technique, change));
         let counts: Vec<usize> = counts.collect();
+        println!("{start}, {technique}: {counts:?}");
         assert!(
             counts.iter().sum::<usize>() > 20,
             "{start}, {technique}: {counts:?}"

@@ -22,8 +22,11 @@ pub struct Frames {
     pub atlas: ShadowAtlasDescriptor<'static>,
     pub frames: Vec<Frame>,
     /// What must be so in one of the frames, and its name: else nothing was tried.
-    pub came_about: Option<(&'static str, fn(&AtlasStatistics) -> bool)>,
+    pub came_about: Option<Sought>,
 }
+
+/// A name, and whether an atlas's statistics show it.
+pub type Sought = (&'static str, fn(&AtlasStatistics) -> bool);
 
 /// One of them.
 #[derive(Clone)]
