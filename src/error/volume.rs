@@ -162,7 +162,7 @@ pub enum VolumeRenderError {
     Dropped,
     /// The last prepared frame has no such light, or no such view.
     #[error(
-        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views; pass indices into its lists"
+        "light {light} in view {view} was not prepared: the frame had {lights} lights and {views} views (with a multiview mask: sets of views); pass indices into its lists"
     )]
     NoSuch {
         /// The light asked for.
@@ -171,7 +171,7 @@ pub enum VolumeRenderError {
         view: usize,
         /// Lights of the frame.
         lights: usize,
-        /// Views of the frame.
+        /// Views of the frame; with a multiview mask, sets of them.
         views: usize,
     },
     /// What draws into one view a pass is asked to show the volumes of several.

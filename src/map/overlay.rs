@@ -28,7 +28,12 @@ impl Overlay<'_> {
             return Err(DebugPassError::SampleCount(self.samples));
         }
         let nothing_else = wgpu::TextureFormatFeatureFlags::empty();
-        if !is_drawable(device, self.format, self.samples, nothing_else) {
+        // The shader writes colours as floats.
+        let is_float = matches!(
+            self.format.sample_type(None, None),
+            Some(wgpu::TextureSampleType::Float { .. })
+        );
+        if !(is_float && is_drawable(device, self.format, self.samples, nothing_else)) {
             return Err(DebugPassError::ColorFormat(self.format));
         }
         let is_there = |format: &wgpu::TextureFormat| {

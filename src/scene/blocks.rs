@@ -1,4 +1,4 @@
-//! Casters by sixteens, so that what holds for all of them is asked once.
+//! Casters by eights, so that what holds for all of them is asked once.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::bounds::CasterBounds;
 use super::casters::Record;
 use super::filter::CasterFilter;
 
-/// Sixteen casters that follow each other in the host's list, which often are neighbours in the world.
+/// Eight casters that follow each other in the host's list, which often are neighbours in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     /// Around all of them.

@@ -128,7 +128,7 @@ impl Casters {
         Some(&self.meshes.get(place as usize)?.as_ref()?.mesh)
     }
 
-    /// The records by sixteens; the last few are in none.
+    /// The records by eights; the last few are in none.
     pub fn blocks(&self) -> &[Block] {
         self.blocks.all()
     }

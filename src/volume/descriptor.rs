@@ -48,7 +48,7 @@ pub struct ShadowVolumeDescriptor<'a> {
     /// [`max_multiview_view_count`](wgpu::Limits::max_multiview_view_count) of as many layers, both of which
     /// [`Support`](crate::Support) asks for; a mask with gaps also
     /// [`SELECTIVE_MULTIVIEW`](wgpu::Features::SELECTIVE_MULTIVIEW). The attachments are views of the dimension
-    /// `D2Array`. Mesa's software driver needs to be newer than 22.3, which draws clipped triangles of one
+    /// `D2Array`; of 4 samples, they need [`MULTISAMPLE_ARRAY`](wgpu::Features::MULTISAMPLE_ARRAY). Mesa's software driver needs to be newer than 22.3, which draws clipped triangles of one
     /// view into another (25.0 does not).
     pub multiview_mask: Option<NonZeroU32>,
     /// How the host's projection maps depth. Default [`DepthConvention::InfiniteReverse`].

@@ -47,8 +47,9 @@ pub struct VolumeLight {
     /// Distance in world units beyond which a point light has no effect: casters that lie entirely beyond it
     /// are skipped. Finite and above 0. `None` for an unlimited range; directional lights ignore it.
     pub range: Option<f32>,
-    /// The cone into which a point light shines, if it is a spot: casters wholly beside it are skipped,
-    /// volumes end and draws are clipped where the cone does. Outside of it may be shadow or none: the
+    /// The cone into which a point light shines, if it is a spot: casters wholly beside it are skipped.
+    /// With a [`range`](Self::range), volumes also end where the cone does, and draws are clipped to it where a
+    /// view has a [`target_size`](VolumeView::target_size). Outside of the cone may be shadow or none: the
     /// host's light pass leaves it dark. `None`, the default: all around. Directional lights ignore it.
     pub cone: Option<VolumeCone>,
     /// It casts the shadows of casters on any of these layers, one bit each ([`Caster::layers`]). Default
@@ -58,6 +59,9 @@ pub struct VolumeLight {
     /// shade. Default `None`.
     pub owner: Option<NonZeroU32>,
 }
+
+/// A range from here on is none: ends that far away would leave f32 on their way through a view's matrix.
+const ENDLESS: f32 = 1e30;
 
 impl VolumeLight {
     /// A light with this range, for all casters.
@@ -235,7 +239,11 @@ impl ShadowVolumeFrame<'_> {
         let views = self.views.chunks(multiview.views()).nth(pass)?;
         Some(Situation {
             light: self.lights.get(light)?.light,
-            range: self.lights.get(light)?.range,
+            range: self
+                .lights
+                .get(light)?
+                .range
+                .filter(|&range| range < ENDLESS),
             cone: self.lights.get(light)?.cone,
             filter: self.lights.get(light)?.filter(),
             views: views.iter().map(|told| told.view).collect(),

@@ -47,6 +47,11 @@ fn a_pass_that_does_not_fit_is_refused() {
             Err(Error::ColorFormat(F::Depth32Float)),
         ),
         (
+            (F::Rgba8Uint, None, 1),
+            Err(Error::ColorFormat(F::Rgba8Uint)),
+        ),
+        ((F::R32Sint, None, 1), Err(Error::ColorFormat(F::R32Sint))),
+        (
             (F::Bc1RgbaUnorm, None, 1),
             Err(Error::ColorFormat(F::Bc1RgbaUnorm)),
         ),

@@ -2,6 +2,7 @@
 
 mod atlas_culling;
 mod atlas_matrices;
+mod atlas_moves;
 #[path = "../common/mod.rs"]
 mod common;
 mod cube_errors;

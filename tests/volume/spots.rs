@@ -218,3 +218,33 @@ fn a_light_that_reaches_no_receiver_draws_nothing() {
     stage.receivers = Some(Stage::bounds(&stage.bodies));
     assert_eq!(drawn(&stage), 3);
 }
+
+/// Hosts write so that a light is unlimited.
+#[test]
+fn a_range_beyond_all_that_f32_reckons_with_is_none() {
+    let Some(gpu) = Gpu::for_test() else { return };
+    let mut shadowed = 0;
+    for seed in 0..24 {
+        let mut stage = random::scene(seed, &gpu);
+        if stage.light.is_directional() {
+            continue;
+        }
+        stage.samples = 1;
+        stage.receivers = None;
+        stage.range = None;
+        let truth = stage.truth();
+        stage.range = Some(f32::MAX);
+        for method in [Method::Auto, Method::ZFail] {
+            let silhouettes = WAYS[seed as usize % WAYS.len()];
+            stage.savings = Savings {
+                method,
+                silhouettes,
+                ..Default::default()
+            };
+            let errors = truth.errors(&stage.draw(&gpu));
+            assert_eq!(errors.wrong, 0, "seed {seed}, {method:?}: {errors:?}");
+            shadowed += errors.shadowed;
+        }
+    }
+    assert!(shadowed > 10_000, "{shadowed}");
+}

@@ -83,6 +83,10 @@ impl ShadowAtlas {
             .collect();
         let moved = self.residents.settle(self.slots.len(), &claims);
         let mut moved = moved.map_err(ShadowAtlasError::Space)?;
+        // Before anything is refused: the next frame does not hear of these moves.
+        for &slot in &moved {
+            self.slots[slot].texels_freed();
+        }
         // A directional light's tiles lie on a grid of texels, so where depends on their size.
         for (place, entry) in entries.iter().enumerate() {
             let Some(slot) = self.slots.of_light(place).filter(|_| entry.sun.is_some()) else {
@@ -93,9 +97,6 @@ impl ShadowAtlas {
                 let projection = self.project(frame, (place, entry), granted)?;
                 self.slots.refit(slot, projection, &self.casters);
             }
-        }
-        for &slot in &moved {
-            self.slots[slot].texels_freed();
         }
         // Those that are new can wait, as they are dark already.
         moved.retain(|&slot| had[slot] && self.residents.size(slot).is_some());

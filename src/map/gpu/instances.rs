@@ -21,7 +21,8 @@ pub(crate) fn instance(light_from_object: &DAffine3) -> Instance {
     ]
 }
 
-/// The rows of a caster as it lies around `origin`: those of the product in f64, bit for bit. A translation
+/// The rows of a caster as it lies around `origin`: those of the product in f64, bit for bit but for the
+/// sign of a zero. A translation
 /// leaves the other columns as they are, and one difference of numbers in f32 is rounded once either way
 /// (f64 has more than twice their digits: Figueroa, "When is Double Rounding Innocuous?", 1995).
 pub(crate) fn instance_around(origin: Vec3, world_from_object: &Affine3A) -> Instance {

@@ -198,8 +198,11 @@ impl Slot {
         self.settled = None;
         self.casting = casting;
         for (tile, Sum { content, change }) in self.tiles.iter_mut().zip(sums) {
-            tile.content = content;
-            tile.change += change;
+            // Which casters it was is not known: all that are there count, and what left counts as a tile.
+            if tile.content != content {
+                tile.content = content;
+                tile.change += change.max(1.0);
+            }
         }
     }
 
@@ -390,59 +393,5 @@ impl Slot {
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::*;
-    use crate::PointLight;
-
-    fn light(range: f32) -> SlotLight {
-        LightProjection::Point(PointLight::new(Vec3::ZERO, range)).into()
-    }
-
-    /// A slot whose empty tiles were drawn and found to be right, and of which receivers know.
-    fn told() -> Slot {
-        let mut slot = Slot::new(true);
-        slot.leave_light(Some(&light(5.0).projection));
-        slot.set_light(light(5.0), &Casters::default(), Reached::All);
-        let all = slot.all();
-        slot.schedule(all, all);
-        slot.encoded(all);
-        slot.schedule(0, 0);
-        slot.settle();
-        slot.tell();
-        assert!(slot.is_told() && slot.stale() == 0 && slot.empty() == all);
-        slot
-    }
-
-    #[test]
-    fn a_slot_that_settled_notices_all_that_may_come() {
-        type Come = fn(&mut Slot);
-        let changes: [(&str, Come); 6] = [
-            ("texels forgotten", Slot::forget_texels),
-            ("texels freed", Slot::texels_freed),
-            ("texels doubted", Slot::doubt_texels),
-            ("a tile spoiled", |slot| slot.spoil(2)),
-            ("another light", |slot| {
-                slot.leave_light(Some(&light(6.0).projection));
-                slot.set_light(light(6.0), &Casters::default(), Reached::All);
-            }),
-            ("sorted again", |slot| {
-                slot.sort(&Casters::default(), Reached::All)
-            }),
-        ];
-        for (name, change) in changes {
-            let mut slot = told();
-            change(&mut slot);
-            assert!(!slot.is_told(), "{name}");
-            // It is settled anew, and receivers are to be told anew.
-            slot.settle();
-            assert!(!slot.is_told(), "{name}");
-        }
-        // What is as it was is no change: nothing is looked for again.
-        let mut slot = told();
-        slot.schedule(0, 0);
-        slot.settle();
-        assert!(slot.is_told());
-    }
-}
+#[path = "slot_tests.rs"]
+mod tests;

@@ -98,7 +98,11 @@ impl FlatFrustum {
     /// Whether any point of some bounds may show.
     pub fn touches(&self, bounds: &CasterBounds) -> bool {
         let caster = bounds.relative_to(self.origin);
-        let in_range = |range| caster.centre.length() - caster.radius <= range;
+        // The box, too: of a caster that is scaled unevenly it may be much smaller than the sphere.
+        let gap = (caster.centre.abs() - caster.half).max(DVec3::ZERO);
+        let in_range = |range: f64| {
+            caster.centre.length() - caster.radius <= range && gap.length_squared() <= range * range
+        };
         self.sides.iter().all(|side| side.touches(&caster)) && self.range.is_none_or(in_range)
     }
 

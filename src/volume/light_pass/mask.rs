@@ -29,7 +29,7 @@ pub struct ShadowMaskDescriptor<'a> {
     /// Width and height in pixels, those of the host's depth-stencil buffer: at least 1, at most
     /// the device's `max_texture_dimension_2d`. Default 1 x 1.
     pub size: [u32; 2],
-    /// Number of lights, each of which has one layer: 1 (default) to the device's `max_texture_array_layers`.
+    /// Number of lights, each of which has one layer, or with a multiview mask one per view: 1 (default) to the device's `max_texture_array_layers`.
     pub lights: u32,
     /// Format of the depth-stencil buffer that the volumes were counted in. Default
     /// `Depth32FloatStencil8`.
@@ -62,7 +62,7 @@ impl Default for ShadowMaskDescriptor<'_> {
     }
 }
 
-/// The shadows of as many lights as a texture can have layers, with one byte per pixel and light.
+/// The shadows of as many lights as a texture can have layers, with one byte per pixel, light and view.
 ///
 /// Volumes are counted in the stencil buffer one light after another; each result is copied into the light's
 /// layer, and one lighting pass reads them all:
@@ -73,7 +73,7 @@ impl Default for ShadowMaskDescriptor<'_> {
 /// 2. the host's lighting pass, with [`view`](Self::view) bound as `texture_2d_array<f32>` and
 ///    [`wgsl::MASK`](crate::wgsl::MASK) in its shader. It needs no stencil, and may use any blending.
 ///
-/// GPU memory: one byte per pixel and light, and with four samples five more per pixel. On wgpu's GL back
+/// GPU memory: one byte per pixel, light and view of a multiview mask, and with four samples five more per pixel. On wgpu's GL back
 /// end, which does not treat some textures as arrays, one more byte per pixel if the number of lights is one
 /// or a multiple of six.
 #[derive(Debug)]
