@@ -2,7 +2,7 @@
 
 use shadows::reference::{Class, Interior, ReferenceImage};
 
-use compare::hard::atlas::play;
+use compare::hard::atlas::{Frames, play};
 use compare::hard::cases::{self, Case, Course, mesh};
 use compare::hard::causes;
 use compare::hard::expect::{Expect, expected, is_software};
@@ -117,6 +117,10 @@ fn twins<'a>(gpu: &Gpu, case: &Case, techniques: &'a [Technique]) -> Vec<(&'a st
     }
     let frames = case.frames.map(|frames| frames(&mut Random(0)));
     for frames in frames.unwrap_or_default() {
+        let frames = Frames {
+            size: SIZE,
+            ..frames
+        };
         let truth = frames.truth().unwrap();
         for (technique, outcomes) in &mut tried {
             for shown in play(gpu, &frames, technique, |module| module).unwrap() {

@@ -20,6 +20,8 @@ pub struct Frames {
     /// What is seen and casts. Lights and camera are those of each frame.
     pub scene: Scene,
     pub atlas: ShadowAtlasDescriptor<'static>,
+    /// Pixels of each picture. Tiles get the sizes that [`SIZE`] asks for, whatever this is.
+    pub size: [u32; 2],
     pub frames: Vec<Frame>,
     /// What must be so in one of the frames, and its name: else nothing was tried.
     pub came_about: Option<Sought>,
@@ -66,7 +68,7 @@ impl Frames {
     pub fn truth(&self) -> Result<Vec<Vec<Vec<ReferenceImage>>>> {
         let exact = exact::reference_scene(&self.scene)?;
         let judged = self.frames.iter().filter(|frame| frame.judged);
-        judged.map(|frame| frame.truth(&exact)).collect()
+        judged.map(|frame| frame.truth(&exact, self.size)).collect()
     }
 }
 
@@ -87,12 +89,12 @@ impl Frame {
         self
     }
 
-    fn truth(&self, exact: &ReferenceScene) -> Result<Vec<Vec<ReferenceImage>>> {
+    fn truth(&self, exact: &ReferenceScene, size: [u32; 2]) -> Result<Vec<Vec<ReferenceImage>>> {
         let of_view = |seen: &Seen| {
-            let view = seen.view()?;
+            let view = (seen.view()?, size);
             let mut images: Vec<ReferenceImage> = Vec::new();
             for lamp in &self.lights {
-                images.push(lamp.truth(exact, &view, images.first())?);
+                images.push(lamp.truth(exact, view, images.first())?);
             }
             Ok(images)
         };
@@ -149,16 +151,15 @@ impl Lamp {
     fn truth(
         &self,
         exact: &ReferenceScene,
-        view: &View,
+        (view, [width, height]): (View, [u32; 2]),
         other: Option<&ReferenceImage>,
     ) -> Result<ReferenceImage> {
-        let [width, height] = SIZE;
         let (light, range) = (homogeneous(self.light.place), self.reach().map(|end| end.1));
         Ok(match (self.spot(), other) {
             (Some(spot), Some(other)) => other.relit_by_spot(&spot)?,
-            (Some(spot), None) => exact.render_spot(view, width, height, &spot)?,
+            (Some(spot), None) => exact.render_spot(&view, width, height, &spot)?,
             (None, Some(other)) => other.relit(light, range)?,
-            (None, None) => exact.render(view, width, height, light, range)?,
+            (None, None) => exact.render(&view, width, height, light, range)?,
         })
     }
 }

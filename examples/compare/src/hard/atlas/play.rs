@@ -187,7 +187,8 @@ impl<'a> Player<'a> {
 
     fn screen(&self, frame: &Frame, seen: &Seen) -> Result<Screen> {
         let scene = seen.scene(&self.frames.scene, frame);
-        let mut renderer = Renderer::with_look(self.gpu, SIZE, &scene, &self.scene, seen.look)?;
+        let mut renderer =
+            Renderer::with_look(self.gpu, self.frames.size, &scene, &self.scene, seen.look)?;
         renderer.show(self.gpu, &scene, seen.matrix());
         let access = ShadowAccess {
             module: Some(&self.module),

@@ -5,6 +5,7 @@ use shadows::{Cascades, ShadowAtlasDescriptor, TileSize};
 
 use super::views::NEAR_EDGE;
 use super::{Case, Expect};
+use crate::hard::SIZE;
 use crate::hard::atlas::{Frame, Frames, Lamp};
 use crate::hard::situation::{Situation, at};
 use host::random::Random;
@@ -71,6 +72,7 @@ pub(super) fn frames(what: impl Into<String>, scene: Scene, frames: Vec<Frame>) 
         what: what.into(),
         scene,
         atlas: ShadowAtlasDescriptor::default(),
+        size: SIZE,
         frames,
         came_about: None,
     }
