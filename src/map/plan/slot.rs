@@ -198,10 +198,13 @@ impl Slot {
         self.settled = None;
         self.casting = casting;
         for (tile, Sum { content, change }) in self.tiles.iter_mut().zip(sums) {
-            // Which casters it was is not known: all that are there count, and what left counts as a tile.
+            // Which casters it was is not known: all that are there count, or the whole tile if none is left.
             if tile.content != content {
+                tile.change += match content == Content::default() {
+                    true => 1.0,
+                    false => change,
+                };
                 tile.content = content;
-                tile.change += change.max(1.0);
             }
         }
     }
