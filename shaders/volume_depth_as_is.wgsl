@@ -2,3 +2,8 @@
 fn set_back(clip: vec4f) -> vec4f {
     return clip;
 }
+
+// No orthographic view has such depth.
+fn somewhere_far(clip: vec4f) -> vec4f {
+    return parallel_far(clip);
+}

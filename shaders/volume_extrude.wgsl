@@ -74,13 +74,19 @@ fn far_point(position: vec3f) -> vec4f {
     return far_clip_position(vec4f(select(at_infinity, along_rays, parallel), w));
 }
 
-// An orthographic view takes all that is infinitely far away to w = 0, and of faces with such corners
-// NVIDIA's GPUs draw too little: up to 90 % of a picture was wrong. So far away a corner may as well be
-// somewhere: 2^30 widths of the picture, where f32 tells no line to it from a parallel one.
 fn far_clip_position(point: vec4f) -> vec4f {
-    let clip = set_back(camera.clip_from_world * point);
-    let size = max(abs(clip.x), max(abs(clip.y), abs(clip.z)));
-    return vec4f(clip.xyz, select(clip.w, size * 0x1p-30f, clip.w == 0.0));
+    let clip = camera.clip_from_world * point;
+    return set_back(select(clip, somewhere_far(clip), clip.w == 0.0));
+}
+
+// Infinitely far away to the side, 2^30 widths of the picture are far enough: f32 tells no line to there
+// from a parallel one.
+fn parallel_far(clip: vec4f) -> vec4f {
+    return vec4f(clip.xyz, largest(clip.xyz) * 0x1p-30f);
+}
+
+fn largest(v: vec3f) -> f32 {
+    return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
 // A side runs b a a', b a' b' for an edge from a to b, where a' and b' are far; for a

@@ -25,6 +25,7 @@ mod multiview_light;
 mod near_light;
 mod near_plane;
 mod one_pass;
+mod orthographic;
 mod passes;
 mod pictures;
 mod pipelines;
