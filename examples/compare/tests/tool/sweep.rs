@@ -213,8 +213,8 @@ fn advice_names_the_configuration_and_its_figures() {
         };
         compare::sweep::markdown(&swept, "title", [2, 1], 1, &wishes)
     };
-    assert!(page(Some(1.5)).contains("what stands still is kept"));
-    assert!(!page(Some(0.5)).contains("what stands still is kept"));
+    assert!(page(Some(1.5)).contains("anything static is kept"));
+    assert!(!page(Some(0.5)).contains("anything static is kept"));
 }
 
 #[test]
