@@ -126,14 +126,7 @@ impl SpotLight {
     /// [`LightError`] names the field that is wrong.
     pub fn validate(&self) -> Result<(), LightError> {
         self.all_around().validate()?;
-        if !self.direction.is_finite() || self.direction == Vec3::ZERO {
-            return Err(LightError::SpotDirection(self.direction.to_array()));
-        }
-        if self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
-            Ok(())
-        } else {
-            Err(LightError::HalfAngle(self.half_angle))
-        }
+        check_cone(self.direction, self.half_angle)
     }
 
     /// The light as `(position, 1)`.
@@ -317,6 +310,17 @@ impl From<DirectionalLight> for HomogeneousLight {
 impl From<PointLight> for HomogeneousLight {
     fn from(light: PointLight) -> Self {
         light.homogeneous()
+    }
+}
+
+/// Whether a spot's axis and its half angle make a cone.
+pub(crate) fn check_cone(direction: Vec3, half_angle: f32) -> Result<(), LightError> {
+    if !direction.is_finite() || direction == Vec3::ZERO {
+        return Err(LightError::SpotDirection(direction.to_array()));
+    }
+    match half_angle > 0.0 && half_angle < std::f32::consts::FRAC_PI_2 {
+        true => Ok(()),
+        false => Err(LightError::HalfAngle(half_angle)),
     }
 }
 

@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 use glam::Vec3;
 
 use crate::error::{LightError, ShadowVolumeError};
+use crate::light::check_cone;
 use crate::mesh::Bounds;
 use crate::scene::CasterFilter;
 use crate::volume::multiview::Multiview;
@@ -23,13 +24,7 @@ pub struct VolumeCone {
 
 impl VolumeCone {
     fn validate(&self) -> Result<(), LightError> {
-        if !self.direction.is_finite() || self.direction == Vec3::ZERO {
-            return Err(LightError::SpotDirection(self.direction.to_array()));
-        }
-        match self.half_angle > 0.0 && self.half_angle < std::f32::consts::FRAC_PI_2 {
-            true => Ok(()),
-            false => Err(LightError::HalfAngle(self.half_angle)),
-        }
+        check_cone(self.direction, self.half_angle)
     }
 }
 
@@ -236,16 +231,13 @@ impl ShadowVolumeFrame<'_> {
         light: usize,
         pass: usize,
     ) -> Option<Situation> {
+        let light = self.lights.get(light)?;
         let views = self.views.chunks(multiview.views()).nth(pass)?;
         Some(Situation {
-            light: self.lights.get(light)?.light,
-            range: self
-                .lights
-                .get(light)?
-                .range
-                .filter(|&range| range < ENDLESS),
-            cone: self.lights.get(light)?.cone,
-            filter: self.lights.get(light)?.filter(),
+            light: light.light,
+            range: light.range.filter(|&range| range < ENDLESS),
+            cone: light.cone,
+            filter: light.filter(),
             views: views.iter().map(|told| told.view).collect(),
             target_size: views.first()?.target_size,
             receivers: self.receivers,
